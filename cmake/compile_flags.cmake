@@ -1,0 +1,36 @@
+# How our own code is compiled. Equal bits rest on this file: no contraction of a * b + c unless fma is written, no
+# fast-math, no flush-to-zero (docs/numerics.md). tests/lint checks what came out.
+
+# The language and the arithmetic; every target of ours links this.
+add_library(tandem_exact_flags INTERFACE)
+target_compile_features(tandem_exact_flags INTERFACE cxx_std_20)
+target_compile_options(
+  tandem_exact_flags
+  INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno;-fno-trapping-math>
+)
+
+# The instruction set that every x86-64 machine of the last decade has. Kernels for newer ones: cpu/CMakeLists.txt.
+add_library(tandem_baseline_isa INTERFACE)
+target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v2>)
+
+# Warnings and sanitizers; not exported.
+add_library(tandem_diagnostics INTERFACE)
+target_compile_options(
+  tandem_diagnostics
+  INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wconversion;-Wundef>
+            $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${TANDEM_WERROR}>>:-Werror>
+)
+if(TANDEM_SANITIZE)
+  target_compile_options(
+    tandem_diagnostics INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TANDEM_SANITIZE};-fno-sanitize-recover=all;-g>
+  )
+  target_link_options(tandem_diagnostics INTERFACE -fsanitize=${TANDEM_SANITIZE})
+endif()
+
+add_library(tandem_private INTERFACE)
+target_link_libraries(tandem_private INTERFACE tandem_exact_flags tandem_baseline_isa tandem_diagnostics)
+
+# #include "tandem/..." in the build tree: lib/ under its installed name.
+set(TANDEM_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${TANDEM_INCLUDE_DIR})
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/lib ${TANDEM_INCLUDE_DIR}/tandem SYMBOLIC)

@@ -1,0 +1,30 @@
+# What can be switched when configuring. TANDEM_CUDA defaults to whether nvcc is there.
+include(CheckLanguage)
+
+option(TANDEM_APPS "Build tandem-render, tandem-bench and tandem-gltf" ${PROJECT_IS_TOP_LEVEL})
+option(TANDEM_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(TANDEM_WERROR "Treat warnings in Tandem's own code as errors" OFF)
+set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
+
+if(NOT DEFINED TANDEM_CUDA)
+  check_language(CUDA)
+  if(CMAKE_CUDA_COMPILER)
+    set(TANDEM_CUDA_DEFAULT ON)
+  else()
+    set(TANDEM_CUDA_DEFAULT OFF)
+    message(STATUS "Tandem: no nvcc found; building without the CUDA backend (put nvcc on PATH to have it)")
+  endif()
+  option(TANDEM_CUDA "Build the CUDA backend (needs nvcc 12.8 or newer)" ${TANDEM_CUDA_DEFAULT})
+endif()
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
+endif()
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+find_program(TANDEM_CCACHE ccache)
+if(TANDEM_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${TANDEM_CCACHE})
+  set(CMAKE_CUDA_COMPILER_LAUNCHER ${TANDEM_CCACHE})
+endif()

@@ -1,0 +1,43 @@
+/// Cameras that send straight rays: pinhole (perspective) and orthographic.
+#pragma once
+
+#include "tandem/math/ray.h"
+
+namespace tandem {
+
+/// A camera set up for a film of a given size. A ray is affine in the film position (x, y), in pixels from the top
+/// left corner, x to the right and y down:
+///   origin(x, y) = origin + x origin_dx + y origin_dy, and the same for the direction.
+/// Perspective: the origin steps are zero. Orthographic: the direction steps are zero. World space, metres, double;
+/// made once on the host (scene/prepare.h).
+struct CameraView {
+    Vec3d origin;
+    Vec3d origin_dx;
+    Vec3d origin_dy;
+    Vec3d direction;
+    Vec3d direction_dx;
+    Vec3d direction_dy;
+    bool orthographic;
+};
+
+/// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
+/// normalised. Pixel and offset are multiplied apart, so that a large film does not eat the digits of the offset.
+template <class Real>
+TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x, const Double<Real>& pixel_y,
+                               const Real& offset_x, const Real& offset_y) {
+    using D = Double<Real>;
+    const D x = pixel_x + widen(offset_x);
+    const D y = pixel_y + widen(offset_y);
+    const auto at = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
+        return narrow(Vec3<D>{(D(start.x) + x * D(dx.x)) + y * D(dy.x), (D(start.y) + x * D(dx.y)) + y * D(dy.y),
+                              (D(start.z) + x * D(dx.z)) + y * D(dy.z)});
+    };
+    Ray<Real> ray;
+    ray.origin = camera.orthographic ? at(camera.origin, camera.origin_dx, camera.origin_dy)
+                                     : broadcast<Real>(narrow(camera.origin));
+    ray.direction = camera.orthographic ? broadcast<Real>(narrow(camera.direction))
+                                        : at(camera.direction, camera.direction_dx, camera.direction_dy);
+    return ray;
+}
+
+}  // namespace tandem

@@ -1,0 +1,61 @@
+/// Conservative rejection in float: cheap tests that may only say "certainly a miss".
+///
+/// Both tests look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
+/// centre of the primitive. Its length over |direction| is the distance of the line from the centre, so that no
+/// division and no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since
+/// only true misses are dropped, it could differ and the picture would not.
+///
+/// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of
+/// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
+/// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
+/// decides. Overflow and NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
+/// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
+#pragma once
+
+#include "tandem/math/ray.h"
+
+namespace tandem {
+
+/// Allowed error in units of u times a length; 4 would do by the bound above, twice that is taken.
+inline constexpr float filter_margin = 8.0F * float_roundoff;
+
+/// What the filters need of a ray, once for all primitives.
+template <class Real>
+struct FilterRay {
+    Ray<Real> ray;
+    Real origin_norm1;
+    Real direction_length2;
+};
+
+template <class Real>
+TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
+    return {ray, norm1(ray.origin), dot(ray.direction, ray.direction)};
+}
+
+/// May the line of the ray touch the sphere? False only if it certainly does not.
+template <class Real>
+TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
+    const Vec3<Real> offset = f.ray.origin - broadcast<Real>(sphere_centre);
+    const Vec3<Real> moment = cross(offset, f.ray.direction);
+    const Real reach = Real(radius) + Real(filter_margin) * (norm1(offset) + f.origin_norm1);
+    const Real limit = f.direction_length2 * (reach * reach) * Real(1.0F + 16.0F * float_roundoff) + Real(1e-36F);
+    return !(dot(moment, moment) > limit);
+}
+
+/// May the line of the ray touch the box? Separating axes of a line and a box: direction x each axis.
+template <class Real>
+TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
+    const Vec3f half = (upper - lower) * 0.5F;
+    const Vec3<Real> offset = f.ray.origin - broadcast<Real>((lower + upper) * 0.5F);
+    const Vec3<Real> moment = cross(offset, f.ray.direction);
+    const Vec3<Real> d = {absolute(f.ray.direction.x), absolute(f.ray.direction.y), absolute(f.ray.direction.z)};
+    const Real corner = Real(norm1(lower) + norm1(upper));
+    const Real slack =
+        Real(filter_margin) * (norm1(offset) + f.origin_norm1 + corner) * ((d.x + d.y) + d.z) + Real(1e-36F);
+    const Real limit_x = (Real(half.y) * d.z + Real(half.z) * d.y) + slack;
+    const Real limit_y = (Real(half.z) * d.x + Real(half.x) * d.z) + slack;
+    const Real limit_z = (Real(half.x) * d.y + Real(half.y) * d.x) + slack;
+    return !(absolute(moment.x) > limit_x || absolute(moment.y) > limit_y || absolute(moment.z) > limit_z);
+}
+
+}  // namespace tandem

@@ -1,0 +1,43 @@
+/// Hits, and the one order among them that decides which is nearest.
+#pragma once
+
+#include <cstdint>
+
+#include "tandem/math/real.h"
+
+namespace tandem {
+
+/// Id of no primitive.
+inline constexpr std::uint32_t no_primitive = 0xFFFFFFFFU;
+
+/// The nearest hit found so far. t is double and positive: candidates are compared before the one rounding to
+/// float that a caller sees, so that two surfaces less than a float apart still come in their true order.
+template <class Real>
+struct Closest {
+    Double<Real> t;
+    UInt<Real> primitive;
+};
+
+template <class Real>
+TANDEM_HD Closest<Real> no_hit() {
+    return {Double<Real>(__builtin_huge_val()), UInt<Real>(no_primitive)};
+}
+
+/// Is (t, primitive) nearer than `best`? Equal t: the lower id wins, whatever the order of discovery.
+template <class Real>
+TANDEM_HD Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& primitive, const Closest<Real>& best) {
+    return t < best.t || (t == best.t && primitive < best.primitive);
+}
+
+/// A hit as callers see it.
+struct Hit {
+    float t = 0;                             ///< in lengths of the ray's direction; 0 for a miss
+    std::uint32_t primitive = no_primitive;  ///< id in the prepared scene, or no_primitive
+};
+
+TANDEM_HD Hit to_hit(const Closest<float>& closest) {
+    if (closest.primitive == no_primitive) return {};
+    return {narrow(closest.t), closest.primitive};
+}
+
+}  // namespace tandem

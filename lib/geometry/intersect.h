@@ -1,0 +1,89 @@
+/// A ray against one primitive of a scene, and against all of them.
+#pragma once
+
+#include "tandem/geometry/filter.h"
+#include "tandem/geometry/hit.h"
+#include "tandem/scene/scene_view.h"
+
+namespace tandem {
+
+/// Keeps the nearer of `best` and the crossing, in the lanes of `active`.
+template <class Real>
+TANDEM_HD void offer(const Crossing<Real>& crossing, std::uint32_t primitive, const Mask<Real>& active,
+                     Closest<Real>& best) {
+    Double<Real> t;
+    const UInt<Real> id(primitive);
+    const Mask<Real> hit = first_in_front(crossing, t) && active;
+    const Mask<Real> closer = hit && is_closer(t, id, best);
+    best.t = select(closer, t, best.t);
+    best.primitive = select(closer, id, best.primitive);
+}
+
+// One primitive each: the float filter first, then the decision in double.
+
+template <class Real>
+TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
+                         Closest<Real>& best) {
+    const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
+    if (any(candidate)) offer(cross_sphere(sphere, f.ray), id, candidate, best);
+}
+
+template <class Real>
+TANDEM_HD void intersect(const Box& box, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
+                         Closest<Real>& best) {
+    const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
+    if (any(candidate)) offer<Real>(cross_box(box, f.ray), id, candidate, best);
+}
+
+template <class Real>
+TANDEM_HD void intersect_ellipsoid(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
+                                   const Mask<Real>& active, Closest<Real>& best) {
+    const Sphere& around = placement.bounding_sphere;
+    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
+    if (any(candidate)) offer(cross_ellipsoid(placement, f.ray), id, candidate, best);
+}
+
+template <class Real>
+TANDEM_HD void intersect_parallelepiped(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
+                                        const Mask<Real>& active, Closest<Real>& best) {
+    const Sphere& around = placement.bounding_sphere;
+    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
+    if (any(candidate)) {
+        offer<Real>(cross_parallelepiped(to_object(placement, f.ray)), id, candidate, best);
+    }
+}
+
+/// Any primitive by its id.
+template <class Real>
+TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
+                                   const Mask<Real>& active, Closest<Real>& best) {
+    visit_primitive(
+        scene, id, [&](const Sphere& sphere) { intersect(sphere, id, f, active, best); },
+        [&](const Box& box) { intersect(box, id, f, active, best); },
+        [&](const Placement& ellipsoid) { intersect_ellipsoid(ellipsoid, id, f, active, best); },
+        [&](const Placement& body) { intersect_parallelepiped(body, id, f, active, best); });
+}
+
+/// Traces by asking every primitive: no structure, best for a few.
+struct LoopTracer {
+    SceneView scene;
+
+    template <class Real>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const Mask<Real>& lanes) const {
+        Closest<Real> best = no_hit<Real>();
+        const Mask<Real> active = lanes && is_traceable(ray);
+        const FilterRay<Real> f = make_filter_ray(ray);
+        std::uint32_t id = 0;
+        for (std::uint32_t i = 0; i < scene.sphere_count; ++i, ++id) intersect(scene.spheres[i], id, f, active, best);
+        for (std::uint32_t i = 0; i < scene.box_count; ++i, ++id) intersect(scene.boxes[i], id, f, active, best);
+        for (std::uint32_t i = 0; i < scene.ellipsoid_count; ++i, ++id) {
+            intersect_ellipsoid(scene.ellipsoids[i], id, f, active, best);
+        }
+        for (std::uint32_t i = 0; i < scene.parallelepiped_count; ++i, ++id) {
+            intersect_parallelepiped(scene.parallelepipeds[i], id, f, active, best);
+        }
+        return best;
+    }
+};
+
+}  // namespace tandem

@@ -1,0 +1,52 @@
+/// Axis-aligned bounding boxes.
+#pragma once
+
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+/// Closed box [lower, upper]; empty when any lower > upper, as after construction.
+struct Aabb {
+    Vec3f lower{3.4e38F, 3.4e38F, 3.4e38F};
+    Vec3f upper{-3.4e38F, -3.4e38F, -3.4e38F};
+};
+
+TANDEM_HD Aabb merge(const Aabb& a, const Aabb& b) {
+    return {{lesser(a.lower.x, b.lower.x), lesser(a.lower.y, b.lower.y), lesser(a.lower.z, b.lower.z)},
+            {greater(a.upper.x, b.upper.x), greater(a.upper.y, b.upper.y), greater(a.upper.z, b.upper.z)}};
+}
+
+TANDEM_HD bool is_empty(const Aabb& a) {
+    return a.lower.x > a.upper.x || a.lower.y > a.upper.y || a.lower.z > a.upper.z;
+}
+
+/// Half of the surface area, the measure of the surface area heuristic.
+TANDEM_HD float half_area(const Aabb& a) {
+    const Vec3f extent = a.upper - a.lower;
+    return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+}
+
+TANDEM_HD Vec3f centre(const Aabb& a) { return (a.lower + a.upper) * 0.5F; }
+
+/// Largest magnitude of a coordinate of the box.
+TANDEM_HD float reach(const Aabb& a) {
+    const auto larger = [](float x, float y) { return greater(absolute(x), absolute(y)); };
+    return greater(greater(larger(a.lower.x, a.upper.x), larger(a.lower.y, a.upper.y)), larger(a.lower.z, a.upper.z));
+}
+
+/// The smallest float box around centre +- half_extent, which are double.
+TANDEM_HD Aabb enclose(const Vec3d& middle, const Vec3d& half_extent) {
+    return {
+        {round_down(middle.x - half_extent.x), round_down(middle.y - half_extent.y),
+         round_down(middle.z - half_extent.z)},
+        {round_up(middle.x + half_extent.x), round_up(middle.y + half_extent.y), round_up(middle.z + half_extent.z)}};
+}
+
+/// The box moved outward by `margin` on every side, rounded outward.
+TANDEM_HD Aabb pad(const Aabb& a, float margin) {
+    const double m = widen(margin);
+    return {{round_down(widen(a.lower.x) - m), round_down(widen(a.lower.y) - m), round_down(widen(a.lower.z) - m)},
+            {round_up(widen(a.upper.x) + m), round_up(widen(a.upper.y) + m), round_up(widen(a.upper.z) + m)}};
+}
+
+}  // namespace tandem

@@ -1,0 +1,26 @@
+/// How one source serves g++, clang and nvcc. Every function of the kernel side is marked TANDEM_HD.
+///
+/// TANDEM_COMPILING_CUDA   1 when nvcc compiles this file, else 0; always defined, to be tested with #if
+/// TANDEM_ON_DEVICE        1 inside nvcc's pass for the GPU, else 0
+/// TANDEM_HD               host and device, always inline. Inlining is forced on the host because the CPU backend
+///                         compiles kernels once per instruction set: an out-of-line copy built with AVX-512 could
+///                         be the one that the linker keeps for a machine without it.
+#pragma once
+
+#if defined(__CUDACC__)
+#define TANDEM_COMPILING_CUDA 1
+#else
+#define TANDEM_COMPILING_CUDA 0
+#endif
+
+#if defined(__CUDA_ARCH__)
+#define TANDEM_ON_DEVICE 1
+#else
+#define TANDEM_ON_DEVICE 0
+#endif
+
+#if TANDEM_COMPILING_CUDA
+#define TANDEM_HD __host__ __device__ __forceinline__
+#else
+#define TANDEM_HD [[gnu::always_inline]] inline
+#endif

@@ -1,0 +1,122 @@
+/// The scalar vocabulary of the kernel side. A formula is written once as a template over its `Real`, which is
+/// float or double (one ray: GPU, single rays on the CPU) or Lanes<...> (a packet of rays, math/lanes.h), and uses
+/// only the operators and the functions named here. All of them are correctly rounded or exact, so that a formula
+/// gives the same bits on every processor. There is no min/max of the library: fminf and fmaxf differ between CPU
+/// and GPU for NaN and signed zeros.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "tandem/math/host_device.h"
+
+namespace tandem {
+
+/// What belongs to a Real: the type of its comparisons, its double and float counterparts, its integers.
+template <class Real>
+struct RealTraits;
+
+template <>
+struct RealTraits<float> {
+    using Mask = bool;
+    using Float = float;
+    using Double = double;
+    using UInt = std::uint32_t;
+    using Int64 = std::int64_t;
+    static constexpr int lanes = 1;
+};
+
+template <>
+struct RealTraits<double> : RealTraits<float> {};
+
+template <class Real>
+using Mask = typename RealTraits<Real>::Mask;
+template <class Real>
+using Double = typename RealTraits<Real>::Double;
+template <class Real>
+using Float = typename RealTraits<Real>::Float;
+template <class Real>
+using UInt = typename RealTraits<Real>::UInt;
+template <class Real>
+using Int64 = typename RealTraits<Real>::Int64;
+
+TANDEM_HD bool any(bool mask) { return mask; }
+TANDEM_HD bool all(bool mask) { return mask; }
+
+/// `mask ? a : b`, lane by lane.
+template <class T>
+TANDEM_HD T select(bool mask, T a, T b) {
+    return mask ? a : b;
+}
+
+template <class T>
+TANDEM_HD T lesser(T a, T b) {
+    return select(b < a, b, a);
+}
+
+template <class T>
+TANDEM_HD T greater(T a, T b) {
+    return select(a < b, b, a);
+}
+
+TANDEM_HD double widen(float a) { return static_cast<double>(a); }
+TANDEM_HD double widen(double a) { return a; }
+/// One rounding to nearest even.
+TANDEM_HD float narrow(double a) { return static_cast<float>(a); }
+
+TANDEM_HD float square_root(float a) { return sqrtf(a); }
+TANDEM_HD double square_root(double a) { return sqrt(a); }
+TANDEM_HD double multiply_add(double a, double b, double c) { return ::fma(a, b, c); }
+/// Nearest integer, ties to even.
+TANDEM_HD double round_to_int(double a) { return ::rint(a); }
+TANDEM_HD float absolute(float a) { return fabsf(a); }
+TANDEM_HD double absolute(double a) { return ::fabs(a); }
+
+/// The integer value of a double that holds an integer of magnitude below 2^31.
+TANDEM_HD std::int64_t to_int64(double a) { return static_cast<std::int32_t>(a); }
+TANDEM_HD double to_double(std::int64_t a) { return static_cast<double>(static_cast<std::int32_t>(a)); }
+/// Exact for values below 2^31.
+TANDEM_HD float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
+
+/// The same bits under another type.
+template <class To, class From>
+TANDEM_HD To bit_cast(const From& from) {
+    static_assert(sizeof(To) == sizeof(From));
+    To to;
+    memcpy(&to, &from, sizeof(To));
+    return to;
+}
+
+TANDEM_HD std::int64_t bits_of(double a) { return bit_cast<std::int64_t>(a); }
+TANDEM_HD double double_of(std::int64_t a) { return bit_cast<double>(a); }
+TANDEM_HD std::uint32_t bits_of(float a) { return bit_cast<std::uint32_t>(a); }
+TANDEM_HD float float_of(std::uint32_t a) { return bit_cast<float>(a); }
+
+/// High and low word of a 32 x 32 bit product.
+TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
+    const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
+    high = static_cast<std::uint32_t>(product >> 32);
+    low = static_cast<std::uint32_t>(product);
+}
+
+/// Calls f(value, mask) once for each different value among the lanes of `active`.
+template <class F>
+TANDEM_HD void for_each_value(std::uint32_t value, bool active, F f) {
+    if (active) f(value, true);
+}
+
+/// Unit roundoff of float, 2^-24: one correctly rounded operation errs by at most this, relative.
+inline constexpr float float_roundoff = 0x1p-24F;
+
+/// Largest float that is not above a finite `a`, and smallest that is not below it.
+TANDEM_HD float round_down(double a) {
+    const float nearest = static_cast<float>(a);
+    if (static_cast<double>(nearest) <= a) return nearest;
+    const std::uint32_t bits = bits_of(nearest);
+    if (nearest == 0.0F) return float_of(0x80000001U);
+    return float_of(nearest > 0.0F ? bits - 1 : bits + 1);
+}
+TANDEM_HD float round_up(double a) { return -round_down(-a); }
+
+}  // namespace tandem

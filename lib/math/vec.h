@@ -1,0 +1,70 @@
+/// Vectors: the only include of GLM. GLM brings the type and the component-wise operators; what rounds more than
+/// once (dot, cross, length) is written here, because its order of operations is part of the result.
+#pragma once
+
+#include "tandem/math/real.h"
+
+#define GLM_FORCE_XYZW_ONLY
+#define GLM_FORCE_INLINE
+#if TANDEM_COMPILING_CUDA
+#define GLM_FORCE_CUDA
+#endif
+#include <glm/vec3.hpp>
+
+namespace tandem {
+
+template <class Real>
+using Vec3 = glm::vec<3, Real, glm::defaultp>;
+using Vec3f = Vec3<float>;
+using Vec3d = Vec3<double>;
+static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24, "vectors are packed; device buffers rely on it");
+
+/// Sum in the order ((x + y) + z).
+template <class Real>
+TANDEM_HD Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+
+template <class Real>
+TANDEM_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Sum of magnitudes.
+template <class Real>
+TANDEM_HD Real norm1(const Vec3<Real>& a) {
+    return (absolute(a.x) + absolute(a.y)) + absolute(a.z);
+}
+
+/// Unit vector; in double it is safe for every float vector except zero, which gives NaN.
+template <class Real>
+TANDEM_HD Vec3<Real> normalize(const Vec3<Real>& a) {
+    const Real scale = Real(1) / square_root(dot(a, a));
+    return {a.x * scale, a.y * scale, a.z * scale};
+}
+
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> widen(const Vec3<Real>& a) {
+    return {widen(a.x), widen(a.y), widen(a.z)};
+}
+
+/// One rounding per component.
+template <class Real>
+TANDEM_HD Vec3<Float<Real>> narrow(const Vec3<Real>& a) {
+    return {narrow(a.x), narrow(a.y), narrow(a.z)};
+}
+
+/// By lane; one ray needs no more than the select() of real.h.
+template <class Mask, class Real>
+requires(RealTraits<Real>::lanes > 1) TANDEM_HD Vec3<Real> select(const Mask& mask, const Vec3<Real>& a,
+                                                                  const Vec3<Real>& b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// The same vector in every lane.
+template <class Real, class Scalar>
+TANDEM_HD Vec3<Real> broadcast(const Vec3<Scalar>& a) {
+    return {Real(a.x), Real(a.y), Real(a.z)};
+}
+
+}  // namespace tandem

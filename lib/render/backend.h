@@ -1,0 +1,84 @@
+/// The interface that every renderer has: CPU, CUDA, oracle. Five verbs.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tandem/film/film.h"
+#include "tandem/geometry/hit.h"
+#include "tandem/math/ray.h"
+#include "tandem/render/render_job.h"
+#include "tandem/render/stats.h"
+#include "tandem/scene/prepared_scene.h"
+
+namespace tandem {
+
+struct Capabilities {
+    std::string device;       ///< the processor, in words
+    std::string description;  ///< versions of what it stands on, for reports
+    bool exact = true;        ///< promises the bits of the strict tier
+};
+
+/// A scene in the memory of a backend. Belongs to the backend that loaded it and must not outlive it.
+class ResidentScene {
+  public:
+    virtual ~ResidentScene() = default;
+    /// What load() cost.
+    [[nodiscard]] virtual PhaseTimes load_times() const = 0;
+};
+
+struct RenderResult {
+    Film film;
+    RenderStats stats;
+};
+
+/// A frame that is being rendered.
+class PendingFrame {
+  public:
+    virtual ~PendingFrame() = default;
+    /// Waits. Call once.
+    [[nodiscard]] virtual RenderResult get() = 0;
+};
+
+class Backend {
+  public:
+    virtual ~Backend() = default;
+
+    [[nodiscard]] virtual std::string name() const = 0;
+    [[nodiscard]] virtual Capabilities capabilities() const = 0;
+
+    /// Takes the scene into the backend's memory. Buffers of scenes that were let go are used again.
+    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene) = 0;
+
+    /// Nearest hits of rays in front of their origins (t > 0); sizes must be equal. Rays that are not traceable
+    /// (math/ray.h) miss. Returns the seconds that the tracing itself took, without copies.
+    virtual double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) = 0;
+
+    /// Starts a frame. A backend may run several at a time; get() returns them in any order.
+    [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
+                                                               const RenderJob& job) = 0;
+
+    [[nodiscard]] RenderResult render(std::shared_ptr<ResidentScene> scene, const RenderJob& job) {
+        return submit(std::move(scene), job)->get();
+    }
+};
+
+struct BackendOptions {
+    int threads = 0;              ///< CPU and oracle: 0 means one per core
+    int tile_size = 16;           ///< CPU: edge of a square tile, pixels
+    std::string instruction_set;  ///< CPU: "x86-64-v2", "-v3" or "-v4"; empty means the best of this machine
+};
+
+/// "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a
+/// backend that this build or this machine cannot run.
+[[nodiscard]] std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options = {});
+
+/// The names that make_backend() takes.
+[[nodiscard]] std::vector<std::string> backend_names();
+
+/// Why a backend cannot run here, or empty if it can.
+[[nodiscard]] std::string why_unavailable(const std::string& name);
+
+}  // namespace tandem

@@ -1,0 +1,21 @@
+/// Which backends this build has.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tandem/render/backend.h"
+
+namespace tandem {
+
+struct BackendEntry {
+    const char* name;
+    std::string (*why_unavailable)();  ///< empty if it can run on this machine
+    std::unique_ptr<Backend> (*make)(const BackendOptions& options);
+};
+
+/// cpu, cuda, oracle; a backend that was not built is listed too and says so.
+[[nodiscard]] std::span<const BackendEntry> backend_registry();
+
+}  // namespace tandem

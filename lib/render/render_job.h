@@ -1,0 +1,22 @@
+/// What to render.
+#pragma once
+
+#include <cstdint>
+
+#include "tandem/accuracy/tier.h"
+
+namespace tandem {
+
+struct RenderJob {
+    int width = 1000;   ///< pixels, 1 to 65536
+    int height = 900;   ///< pixels, 1 to 65536
+    int samples = 100;  ///< per pixel, 1 to 2^24
+    std::uint64_t seed = 0;
+    std::uint32_t frame = 0;  ///< random numbers differ from frame to frame
+    Tier tier = Tier::strict;
+};
+
+/// Throws InputError that names the field.
+void check(const RenderJob& job);
+
+}  // namespace tandem

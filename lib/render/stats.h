@@ -1,0 +1,33 @@
+/// Where the time of a render went.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace tandem {
+
+/// Seconds per phase. A phase that a backend does not have is zero; phases may overlap in time.
+struct PhaseTimes {
+    double build = 0;     ///< acceleration structure
+    double upload = 0;    ///< host to device
+    double render = 0;    ///< kernel, or the parallel loop over tiles
+    double download = 0;  ///< device to host
+};
+
+/// Things that must not happen but are survived: counted, never hidden.
+struct RenderCounters {
+    std::uint64_t invalid_samples = 0;  ///< NaN or infinite, dropped from the sum
+};
+
+struct RenderStats {
+    PhaseTimes seconds;
+    RenderCounters counters;
+    std::uint64_t rays = 0;
+    std::size_t device_bytes = 0;
+    int registers = 0;     ///< of the kernel, per thread; 0 on the CPU
+    double occupancy = 0;  ///< resident warps over the most there can be; 0 on the CPU
+    std::string variant;   ///< which compiled code ran, e.g. "x86-64-v3, loop" or "sm_90, bvh"
+};
+
+}  // namespace tandem

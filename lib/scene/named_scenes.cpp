@@ -1,0 +1,208 @@
+#include "tandem/scene/named_scenes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "tandem/error/error.h"
+#include "tandem/sampler/philox.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr int paper_frames = 120;
+
+Node camera_node(const Vec3d& position) {
+    Node node;
+    node.name = "camera";
+    node.trs.translation = position;
+    node.camera = PerspectiveCamera{2 * std::atan(1 / 1.5)};
+    return node;
+}
+
+Node shape_node(std::string name, const Vec3d& position, std::variant<SphereShape, BoxShape> shape,
+                std::uint32_t material) {
+    Node node;
+    node.name = std::move(name);
+    node.trs.translation = position;
+    node.geometry.push_back({shape, material, {}});
+    return node;
+}
+
+Node light_node(const Vec3d& position) {
+    Node node;
+    node.name = "light";
+    node.trs.translation = position;
+    node.light = PointLightSource{};
+    return node;
+}
+
+Material phong(std::string name, const Vec3f& diffuse) {
+    return {std::move(name), {diffuse * 0.1F, diffuse, {1, 1, 1}, 32}};
+}
+
+/// One linear key per frame and one more that closes the circle. `position` maps an angle to a place.
+template <class Position>
+AnimationChannel circling(std::uint32_t node, double frames_per_second, Position position) {
+    AnimationChannel channel;
+    channel.node = node;
+    for (int frame = 0; frame <= paper_frames; ++frame) {
+        const double angle = 2 * std::numbers::pi * (frame % paper_frames) / paper_frames;
+        channel.times.push_back(static_cast<float>(frame / frames_per_second));
+        for (const double value : position(std::sin(angle), std::cos(angle))) {
+            channel.values.push_back(static_cast<float>(value));
+        }
+    }
+    return channel;
+}
+
+Scene paper() {
+    Scene scene;
+    scene.name = "paper";
+    scene.materials = {phong("red", {0.8F, 0.2F, 0.2F}), phong("green", {0.2F, 0.8F, 0.2F}),
+                       phong("blue", {0.2F, 0.2F, 0.8F}), phong("yellow", {0.8F, 0.8F, 0.2F})};
+    scene.nodes = {camera_node({0, 0, 0}),
+                   shape_node("red sphere", {-1.2F, 0, -3}, SphereShape{0.5}, 0),
+                   shape_node("green sphere", {0, 0, -3}, SphereShape{0.5}, 1),
+                   shape_node("blue sphere", {1.2F, 0, -3}, SphereShape{0.5}, 2),
+                   shape_node("cube", {0.6F, 0, -2.2F}, BoxShape{{0.6F, 0.6F, 0.6F}}, 3),
+                   light_node({2, 2, -3})};
+    const double fps = scene.frames_per_second;
+    scene.animation.push_back(circling(4, fps, [](double sine, double) { return std::array{0.6, 0.8 * sine, -2.2}; }));
+    scene.animation.push_back(circling(5, fps, [](double sine, double cosine) {
+        return std::array{2 * cosine, 2.0, -3 + 2 * sine};
+    }));
+    return scene;
+}
+
+/// Uniform numbers of object `index`; counter-based, so that an object does not depend on the others.
+class ObjectNumbers {
+  public:
+    ObjectNumbers(std::uint32_t seed, std::uint32_t index) : seed_(seed), index_(index) {}
+
+    double uniform(double low, double high) {
+        const auto block = philox4x32<std::uint32_t>({{index_, draw_++, 0, 0}}, seed_, 0x7A4DE3);
+        return low + (high - low) * double{to_unit_interval<float>(block.word[0])};
+    }
+    Vec3d in_cube() {
+        const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);
+        return {x, y, z};
+    }
+    Vec3d size(double scale) {
+        const double x = uniform(0.3, 1), y = uniform(0.3, 1), z = uniform(0.3, 1);
+        return Vec3d{x, y, z} * scale;
+    }
+    Quaternion rotation() {
+        const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1), w = uniform(0.1, 1);
+        return {x, y, z, w};
+    }
+
+  private:
+    std::uint32_t seed_;
+    std::uint32_t index_;
+    std::uint32_t draw_ = 0;
+};
+
+/// The frame of spheres/N and its kin: camera, light and eight materials; objects go into one node per material.
+Scene crowd(std::string name) {
+    Scene scene;
+    scene.name = std::move(name);
+    for (int i = 0; i < 8; ++i) {
+        const auto level = [i](int bit) { return (i >> bit & 1) != 0 ? 0.8F : 0.3F; };
+        scene.materials.push_back(phong(fmt::format("colour {}", i), {level(0), level(1), level(2)}));
+    }
+    scene.nodes = {camera_node({0, 0, 3.2F}), light_node({2, 3, 4})};
+    return scene;
+}
+
+/// Adds a node that holds `instances` of one shape.
+void add_instances(Scene& scene, std::string name, std::variant<SphereShape, BoxShape> shape, std::uint32_t material,
+                   std::vector<Trs> instances) {
+    if (instances.empty()) return;
+    Node node;
+    node.name = std::move(name);
+    node.geometry.push_back({shape, material, std::move(instances)});
+    scene.nodes.push_back(std::move(node));
+}
+
+/// Which placements a crowd has.
+struct Placements {
+    bool spheres, boxes, ellipsoids, parallelepipeds;
+};
+
+Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t seed, const Placements& wanted) {
+    Scene scene = crowd(name);
+    const double radius = 0.6 / std::cbrt(static_cast<double>(count));
+    std::vector<int> kinds;
+    if (wanted.spheres) kinds.push_back(0);
+    if (wanted.boxes) kinds.push_back(1);
+    if (wanted.ellipsoids) kinds.push_back(2);
+    if (wanted.parallelepipeds) kinds.push_back(3);
+    std::vector<std::vector<Trs>> groups(4 * scene.materials.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ObjectNumbers numbers(seed, i);
+        const int kind = kinds[i % kinds.size()];
+        Trs trs;
+        trs.translation = numbers.in_cube();
+        if (kind != 0) trs.scale = numbers.size(radius);
+        if (kind == 2 || kind == 3) trs.rotation = numbers.rotation();
+        groups[static_cast<std::size_t>(kind) * 8 + (i / kinds.size()) % 8].push_back(trs);
+    }
+    static constexpr const char* kind_names[] = {"spheres", "boxes", "ellipsoids", "parallelepipeds"};
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const std::size_t kind = g / 8;
+        std::variant<SphereShape, BoxShape> shape = BoxShape{{2, 2, 2}};
+        if (kind == 0) shape = SphereShape{radius};
+        if (kind == 2) shape = SphereShape{1};
+        add_instances(scene, fmt::format("{}, colour {}", kind_names[kind], g % 8), shape,
+                      static_cast<std::uint32_t>(g % 8), std::move(groups[g]));
+    }
+    return scene;
+}
+
+/// "123" -> 123, within [1, most]; nothing if it is not a number or out of range.
+std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t most) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > most) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t at = text.find(separator);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> scene_names() { return {"paper", "spheres/N[/SEED]", "boxes/N[/SEED]", "mixed/N[/SEED]"}; }
+
+Scene named_scene(std::string_view name) {
+    if (name == "paper") return paper();
+    const std::vector<std::string_view> parts = split(name, '/');
+    if (parts.size() == 2 || parts.size() == 3) {
+        const auto count = parse_count(parts[1], 100'000'000);
+        const auto seed = parts.size() == 3 ? parse_count(parts[2], 0xFFFFFFFFU) : std::optional<std::uint32_t>(1);
+        const std::string full(name);
+        if (count && seed) {
+            if (parts[0] == "spheres") return random_crowd(full, *count, *seed, {true, false, false, false});
+            if (parts[0] == "boxes") return random_crowd(full, *count, *seed, {false, false, false, true});
+            if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
+        }
+    }
+    throw InputError(fmt::format("no scene is named '{}'; there are {} (N from 1 to 100000000)", name,
+                                 fmt::join(scene_names(), ", ")));
+}
+
+}  // namespace tandem

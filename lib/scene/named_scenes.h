@@ -1,0 +1,23 @@
+/// Scenes made by code, known by name on every command line.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+/// A scene by its name, without the prefix "named:".
+///   paper                    the paper's scene (docs/paper.md)
+///   spheres/N  spheres/N/S   N spheres, uniform in [-1, 1]^3, radius 0.6 / cbrt(N); seed S (1)
+///   boxes/N    boxes/N/S     N boxes of random size and orientation
+///   mixed/N    mixed/N/S     spheres, boxes, ellipsoids and parallelepipeds by turns
+/// Throws InputError with the list of names.
+[[nodiscard]] Scene named_scene(std::string_view name);
+
+/// The patterns that named_scene() knows, for usage texts.
+[[nodiscard]] std::vector<std::string> scene_names();
+
+}  // namespace tandem

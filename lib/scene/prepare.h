@@ -1,0 +1,22 @@
+/// From the author's scene to flat arrays at one frame.
+#pragma once
+
+#include <string>
+
+#include "tandem/scene/prepared_scene.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+struct PrepareOptions {
+    std::int32_t frame = 0;
+    std::string camera;  ///< name of the camera's node; empty means the first camera of the scene
+};
+
+/// Deterministic: the same scene gives the same bytes. Transforms are composed in double and rounded once.
+/// Spheres under rotation and uniform scale stay spheres, boxes under diagonal transforms stay boxes; the others
+/// become ellipsoids and parallelepipeds. Throws InputError with the list of validate() if that is not empty, and if
+/// the camera is missing.
+[[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
+
+}  // namespace tandem

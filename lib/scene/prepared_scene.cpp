@@ -1,0 +1,68 @@
+#include "tandem/scene/prepared_scene.h"
+
+#include "tandem/film/sha256.h"
+#include "tandem/scene/scene_view.h"
+
+namespace tandem {
+
+std::size_t primitive_count(const PreparedScene& scene) { return scene.material_of.size(); }
+
+SceneView view(const PreparedScene& scene) {
+    const auto count = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
+    return {.spheres = scene.spheres.data(),
+            .boxes = scene.boxes.data(),
+            .ellipsoids = scene.ellipsoids.data(),
+            .parallelepipeds = scene.parallelepipeds.data(),
+            .material_of = scene.material_of.data(),
+            .materials = scene.materials.data(),
+            .lights = scene.lights.data(),
+            .sphere_count = count(scene.spheres),
+            .box_count = count(scene.boxes),
+            .ellipsoid_count = count(scene.ellipsoids),
+            .parallelepiped_count = count(scene.parallelepipeds),
+            .light_count = count(scene.lights),
+            .environment = scene.environment};
+}
+
+Aabb primitive_bounds(const PreparedScene& scene, std::uint32_t id) {
+    Aabb result;
+    const auto take = [&](const auto& primitive) { result = bounds(primitive); };
+    visit_primitive(view(scene), id, take, take, take, take);
+    return result;
+}
+
+CameraView camera_view(const PreparedScene& scene, int width, int height) {
+    // one pixel on the plane at distance 1, or in metres for an orthographic camera
+    const double pixel = 2 * scene.half_height / height;
+    const Matrix3 axes = transpose(scene.world_from_camera.linear);
+    const Vec3d right = axes.row[0] * pixel;
+    const Vec3d down = axes.row[1] * -pixel;
+    const Vec3d to_corner = right * (-0.5 * width) + down * (-0.5 * height);
+    const Vec3d forward = -axes.row[2];
+    const Vec3d eye = scene.world_from_camera.translation;
+    const Vec3d zero{0, 0, 0};
+    if (scene.orthographic) return {eye + to_corner, right, down, forward, zero, zero, true};
+    return {eye, zero, zero, forward + to_corner, right, down, false};
+}
+
+std::string scene_hash(const PreparedScene& scene) {
+    Sha256 hash;
+    const auto add = [&](const auto& array) {
+        hash.update_value(std::uint64_t{array.size()});
+        hash.update(array.data(), array.size() * sizeof(array[0]));
+    };
+    add(scene.spheres);
+    add(scene.boxes);
+    add(scene.ellipsoids);
+    add(scene.parallelepipeds);
+    add(scene.material_of);
+    add(scene.materials);
+    add(scene.lights);
+    hash.update_value(scene.environment);
+    hash.update_value(scene.world_from_camera);
+    hash.update_value(std::uint8_t{scene.orthographic});
+    hash.update_value(scene.half_height);
+    return hash.hex();
+}
+
+}  // namespace tandem

@@ -1,0 +1,50 @@
+/// The scene at one moment, as the kernels read it: flat arrays of plain structs and indices, no pointers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tandem/camera/camera.h"
+#include "tandem/geometry/affine.h"
+#include "tandem/light/environment.h"
+#include "tandem/light/point_light.h"
+#include "tandem/material/phong.h"
+#include "tandem/scene/scene_view.h"
+
+namespace tandem {
+
+/// Primitive ids run over the arrays in this order: spheres, boxes, ellipsoids, parallelepipeds. Within a kind they
+/// follow the order of nodes, geometries and instances in the Scene.
+struct PreparedScene {
+    std::vector<Sphere> spheres;
+    std::vector<Box> boxes;
+    std::vector<Placement> ellipsoids;
+    std::vector<Placement> parallelepipeds;
+    std::vector<std::uint32_t> material_of;  ///< by primitive id
+    std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
+    std::vector<PhongMaterial> materials;
+    std::vector<PointLight> lights;
+    Environment environment;
+
+    /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
+    Transform world_from_camera;
+    bool orthographic = false;
+    double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
+};
+
+[[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
+
+/// The window of the kernels onto the arrays of `scene`, which must outlive it.
+[[nodiscard]] SceneView view(const PreparedScene& scene);
+
+/// World-space bounds of primitive `id`, not padded.
+[[nodiscard]] Aabb primitive_bounds(const PreparedScene& scene, std::uint32_t id);
+
+/// The camera for a film of width x height pixels; pixels are square.
+[[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
+
+/// SHA-256 over everything above except names, in hexadecimal: equal hashes mean equal pictures.
+[[nodiscard]] std::string scene_hash(const PreparedScene& scene);
+
+}  // namespace tandem

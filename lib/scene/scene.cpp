@@ -1,0 +1,179 @@
+#include "tandem/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tandem/math/ray.h"
+
+namespace tandem {
+
+namespace {
+
+std::string node_label(const Scene& scene, std::size_t index) {
+    const std::string& name = scene.nodes[index].name;
+    return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", name);
+}
+
+bool is_number(double a) { return std::isfinite(a) && std::abs(a) <= coordinate_limit; }
+bool is_number(const Vec3d& a) { return is_number(a.x) && is_number(a.y) && is_number(a.z); }
+bool is_number(const Quaternion& q) { return is_number(q.x) && is_number(q.y) && is_number(q.z) && is_number(q.w); }
+bool is_zero(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
+
+/// Collects sentences.
+class Problems {
+  public:
+    explicit Problems(const Scene& scene) : scene_(scene) {}
+
+    void require(bool condition, const std::string& where, const char* what) {
+        if (!condition) found_.push_back(where + " " + what);
+    }
+
+    void check_trs(const Trs& trs, const std::string& where) {
+        require(is_number(trs.translation), where, "has a translation that is not finite or beyond 1e18");
+        require(is_number(trs.scale), where, "has a scale that is not finite or beyond 1e18");
+        require(is_number(trs.rotation), where, "has a rotation that is not finite");
+        require(!is_zero(trs.rotation), where, "has the rotation (0, 0, 0, 0), which is none; use (0, 0, 0, 1)");
+    }
+
+    void check_node(std::size_t index) {
+        const Node& node = scene_.nodes[index];
+        const std::string where = node_label(scene_, index);
+        check_trs(node.trs, where);
+        if (node.matrix) {
+            bool finite = is_number(node.matrix->translation);
+            for (const Vec3d& row : node.matrix->linear.row) finite = finite && is_number(row);
+            require(finite, where, "has a matrix that is not finite");
+        }
+        check_parents(index, where);
+        for (const Geometry& geometry : node.geometry) check_geometry(geometry, where);
+        if (node.camera) check_camera(*node.camera, where);
+        if (node.light) {
+            const Vec3f c = node.light->colour;
+            const float i = node.light->intensity;
+            require(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0 && c.y >= 0 && c.z >= 0,
+                    where, "has a light whose colour is not three numbers of 0 or more");
+            require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a number of 0 or more");
+        }
+    }
+
+    void check_material(std::size_t index) {
+        const Material& material = scene_.materials[index];
+        const std::string where =
+            material.name.empty() ? fmt::format("material {}", index) : fmt::format("material '{}'", material.name);
+        const auto reflectance = [](const Vec3f& a) {
+            const auto good = [](float x) { return x >= 0 && x <= 1; };
+            return good(a.x) && good(a.y) && good(a.z);
+        };
+        require(reflectance(material.phong.ambient), where, "has an ambient reflectance outside [0, 1]");
+        require(reflectance(material.phong.diffuse), where, "has a diffuse reflectance outside [0, 1]");
+        require(reflectance(material.phong.specular), where, "has a specular reflectance outside [0, 1]");
+        require(material.phong.shininess >= 0 && material.phong.shininess <= 1e8F, where,
+                "has a shininess outside [0, 1e8]");
+    }
+
+    void check_channel(std::size_t index) {
+        const AnimationChannel& channel = scene_.animation[index];
+        std::string where = fmt::format("animation channel {}", index);
+        if (channel.node >= scene_.nodes.size()) {
+            require(false, where, "drives a node that does not exist");
+            return;
+        }
+        where += " of " + node_label(scene_, channel.node);
+        require(!scene_.nodes[channel.node].matrix, where,
+                "drives a node that is placed by a matrix; give it translation, rotation and scale");
+        require(!channel.times.empty(), where, "has no keys");
+        bool increasing = true;
+        for (std::size_t k = 0; k < channel.times.size(); ++k) {
+            increasing = increasing && std::isfinite(channel.times[k]) && channel.times[k] >= 0 &&
+                         (k == 0 || channel.times[k - 1] < channel.times[k]);
+        }
+        require(increasing, where, "has key times that are not finite, not negative and strictly increasing");
+        const std::size_t width = channel.path == AnimatedPath::rotation ? 4 : 3;
+        const std::size_t groups = channel.interpolation == Interpolation::cubic ? 3 : 1;
+        require(channel.values.size() == width * groups * channel.times.size(), where,
+                "has a number of values that does not fit its keys");
+        require(std::all_of(channel.values.begin(), channel.values.end(), [](float v) { return is_number(double{v}); }),
+                where, "has values that are not finite");
+    }
+
+    void check_environment() {
+        const auto good = [](const Vec3f& a) {
+            const auto value = [](float x) { return std::isfinite(x) && x >= 0; };
+            return value(a.x) && value(a.y) && value(a.z);
+        };
+        require(good(scene_.environment.bottom) && good(scene_.environment.top) && good(scene_.environment.ambient),
+                "the environment", "has a colour that is not three numbers of 0 or more");
+        require(std::isfinite(scene_.frames_per_second) && scene_.frames_per_second > 0, "the scene",
+                "has a frame rate that is not positive");
+    }
+
+    std::vector<std::string> take() { return std::move(found_); }
+
+  private:
+    void check_parents(std::size_t index, const std::string& where) {
+        std::size_t steps = 0;
+        std::int32_t at = scene_.nodes[index].parent;
+        while (at != Node::no_parent) {
+            if (at < 0 || static_cast<std::size_t>(at) >= scene_.nodes.size()) {
+                return require(false, where, "has a parent that does not exist");
+            }
+            if (++steps > scene_.nodes.size()) return require(false, where, "is its own ancestor");
+            at = scene_.nodes[static_cast<std::size_t>(at)].parent;
+        }
+    }
+
+    void check_geometry(const Geometry& geometry, const std::string& where) {
+        require(geometry.material < scene_.materials.size(), where, "uses a material that does not exist");
+        if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
+            require(is_number(sphere->radius) && sphere->radius > 0, where,
+                    "has a sphere whose radius is not a positive number");
+        } else {
+            const Vec3d size = std::get<BoxShape>(geometry.shape).size;
+            require(is_number(size) && size.x >= 0 && size.y >= 0 && size.z >= 0, where,
+                    "has a box whose size is not three numbers of 0 or more");
+        }
+        for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
+            check_trs(geometry.instances[i], fmt::format("{}, instance {},", where, i));
+        }
+    }
+
+    void check_camera(const Camera& camera, const std::string& where) {
+        if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
+            require(perspective->yfov > 0 && perspective->yfov < 3.14159, where,
+                    "has a camera whose vertical field of view is not between 0 and pi");
+        } else {
+            const double ymag = std::get<OrthographicCamera>(camera).ymag;
+            require(is_number(ymag) && ymag > 0, where, "has an orthographic camera whose ymag is not positive");
+        }
+    }
+
+    const Scene& scene_;
+    std::vector<std::string> found_;
+};
+
+}  // namespace
+
+double time_of_frame(const Scene& scene, std::int32_t frame) {
+    return double{static_cast<float>(frame / scene.frames_per_second)};
+}
+
+std::int32_t frame_count(const Scene& scene) {
+    float end = 0;
+    for (const AnimationChannel& channel : scene.animation) {
+        if (!channel.times.empty()) end = std::max(end, channel.times.back());
+    }
+    return std::max(1, static_cast<std::int32_t>(std::lround(double{end} * scene.frames_per_second)));
+}
+
+std::vector<std::string> validate(const Scene& scene) {
+    Problems problems(scene);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) problems.check_node(i);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) problems.check_material(i);
+    for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
+    problems.check_environment();
+    return problems.take();
+}
+
+}  // namespace tandem

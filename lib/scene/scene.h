@@ -1,0 +1,114 @@
+/// The scene as its author says it: a tree of named nodes with transforms relative to their parents, what hangs on
+/// them, and animation. Metres, seconds, radians; right-handed, y up, cameras look along -z, as in glTF 2.0.
+/// Build one in code (docs/scene-format.md has an example), by name (named_scenes.h) or from a file (gltf/import.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tandem/light/environment.h"
+#include "tandem/material/phong.h"
+#include "tandem/math/transform.h"
+
+namespace tandem {
+
+/// Translation, rotation and scale, applied in the order scale, rotation, translation.
+struct Trs {
+    Vec3d translation{0, 0, 0};
+    Quaternion rotation{};
+    Vec3d scale{1, 1, 1};
+};
+
+[[nodiscard]] inline Transform to_transform(const Trs& trs) {
+    return compose(trs.translation, trs.rotation, trs.scale);
+}
+
+/// Centred at the origin of its node.
+struct SphereShape {
+    double radius = 0.5;
+};
+
+/// Centred at the origin of its node; edge lengths along x, y, z.
+struct BoxShape {
+    Vec3d size{1, 1, 1};
+};
+
+/// A shape with a material (index into Scene::materials), once at its node or once per instance.
+struct Geometry {
+    std::variant<SphereShape, BoxShape> shape;
+    std::uint32_t material = 0;
+    std::vector<Trs> instances;  ///< node_from_instance; empty means one, at the node itself
+};
+
+/// Perspective: `yfov` is the whole vertical angle, in radians.
+struct PerspectiveCamera {
+    double yfov = 0.8;
+};
+
+/// Orthographic: half of the height that the film shows, in metres. The width follows the film.
+struct OrthographicCamera {
+    double ymag = 1.0;
+};
+
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
+
+struct PointLightSource {
+    Vec3f colour{1, 1, 1};  ///< RGB, linear
+    float intensity = 1;
+};
+
+struct Material {
+    std::string name;
+    PhongMaterial phong;
+};
+
+/// parent: index of the parent node, or no_parent. A node may carry several things.
+struct Node {
+    static constexpr std::int32_t no_parent = -1;
+
+    std::string name;
+    std::int32_t parent = no_parent;
+    Trs trs;
+    std::optional<Transform> matrix;  ///< replaces trs; such a node cannot be animated
+    std::vector<Geometry> geometry;
+    std::optional<Camera> camera;
+    std::optional<PointLightSource> light;
+};
+
+enum class Interpolation { step, linear, cubic };
+enum class AnimatedPath { translation, rotation, scale };
+
+/// Drives one path of one node. `times` in seconds, strictly increasing. `values`: 3 numbers per key (4 for a
+/// rotation: x, y, z, w); for cubic interpolation three such groups per key: in-tangent, value, out-tangent.
+/// Before the first and after the last key the value stays.
+struct AnimationChannel {
+    std::uint32_t node = 0;
+    AnimatedPath path = AnimatedPath::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<float> times;
+    std::vector<float> values;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Node> nodes;
+    std::vector<Material> materials;
+    std::vector<AnimationChannel> animation;
+    Environment environment;
+    double frames_per_second = 24;
+};
+
+/// Time of a frame, in seconds. Rounded to float, as glTF stores the times of keys: a key that was written for a
+/// frame is hit exactly.
+[[nodiscard]] double time_of_frame(const Scene& scene, std::int32_t frame);
+
+/// Number of frames from 0 to the last key of the animation, without repeating it; 1 for a still scene.
+[[nodiscard]] std::int32_t frame_count(const Scene& scene);
+
+/// What is wrong with the scene, one sentence each, naming the node, material or channel; empty if nothing is.
+[[nodiscard]] std::vector<std::string> validate(const Scene& scene);
+
+}  // namespace tandem
