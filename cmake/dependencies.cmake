@@ -18,8 +18,14 @@ find_path(TANDEM_GLM_INCLUDE_DIR glm/vec3.hpp REQUIRED)
 add_library(tandem_glm INTERFACE)
 target_include_directories(tandem_glm SYSTEM INTERFACE $<BUILD_INTERFACE:${TANDEM_GLM_INCLUDE_DIR}>)
 
-# OpenImageIO brings EXR; without it there are PPM, PFM and PNG.
-find_package(OpenImageIO QUIET)
-if(NOT OpenImageIO_FOUND)
+# OpenImageIO brings EXR; without it there are PPM, PFM and PNG. Its CMake package on Debian demands the tools package,
+# and with it Qt, so the library is found by name.
+find_path(TANDEM_OIIO_INCLUDE_DIR OpenImageIO/imageio.h)
+find_library(TANDEM_OIIO_LIBRARY OpenImageIO)
+find_library(TANDEM_OIIO_UTIL_LIBRARY OpenImageIO_Util)
+if(TANDEM_OIIO_INCLUDE_DIR AND TANDEM_OIIO_LIBRARY AND TANDEM_OIIO_UTIL_LIBRARY)
+  set(TANDEM_HAS_OIIO ON)
+else()
+  set(TANDEM_HAS_OIIO OFF)
   message(STATUS "Tandem: no OpenImageIO; building without EXR images")
 endif()
