@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tandem/math/ray.h"
 
@@ -164,7 +165,9 @@ std::int32_t frame_count(const Scene& scene) {
     for (const AnimationChannel& channel : scene.animation) {
         if (!channel.times.empty()) end = std::max(end, channel.times.back());
     }
-    return std::max(1, static_cast<std::int32_t>(std::lround(double{end} * scene.frames_per_second)));
+    // a key at the end of time must not overflow the number of a frame
+    const double frames = std::round(double{end} * scene.frames_per_second);
+    return static_cast<std::int32_t>(std::clamp(frames, 1.0, double{std::numeric_limits<std::int32_t>::max()}));
 }
 
 std::vector<std::string> validate(const Scene& scene) {
