@@ -44,7 +44,8 @@ struct PreparedScene {
 /// The camera for a film of width x height pixels; pixels are square.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
-/// SHA-256 over everything above except names, in hexadecimal: equal hashes mean equal pictures.
+/// SHA-256 over everything above except node_of, which serves messages only, in hexadecimal: equal hashes mean equal
+/// pictures.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem
