@@ -5,11 +5,18 @@
 #include "tandem/math/real.h"
 
 #define GLM_FORCE_XYZW_ONLY
-#define GLM_FORCE_INLINE
 #if TANDEM_COMPILING_CUDA
+#include <cuda.h>  // GLM asks for its CUDA_VERSION
 #define GLM_FORCE_CUDA
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20012  // GLM marks defaulted functions for the device, which changes nothing
+#else
+#define GLM_FORCE_INLINE
 #endif
 #include <glm/vec3.hpp>
+#if TANDEM_COMPILING_CUDA
+#pragma nv_diagnostic pop
+#endif
 
 namespace tandem {
 
