@@ -89,6 +89,117 @@ TANDEM_HD D exp_odd_tail(const D& z) {
                   0x1.af70d0a72f6fbp-26);
 }
 
+/// x = q pi/2 + r + r_low with |r| <= pi/4; `quadrant` has q mod 4 in its low bits. x >= 0.
+///
+/// Up to 2^20 in three steps of which the first is exact, after W. Cody and W. Waite; error below 2^-87. Beyond it
+/// x 2/pi is formed modulo 4 from slices of 2/pi: 24 by 29 bits make an exact product, and slices that give multiples
+/// of 4 vanish, so that no table is indexed by x (M. Payne, R. Hanek, 1983, without the indexing); error below 2^-90.
+template <class Real>
+TANDEM_HD void reduce_trig(const Double<Real>& x, Int64<Real>& quadrant, Double<Real>& r, Double<Real>& r_low) {
+    using D = Double<Real>;
+    const D shift(to_low_bits);
+    const D near = multiply_add(x, D(two_over_pi), shift);
+    const D k = near - shift;
+    const D first = multiply_add(-k, D(half_pi_high), x);
+    r = multiply_add(-k, D(half_pi_low), first);
+    r_low = multiply_add(-k, D(half_pi_low), first - r);
+    quadrant = bits_of(near);
+
+    const Mask<Real> large = x > D(0x1p20);
+    if (!any(large)) return;
+    D turns(0.0);  // of a quarter; the low part collects what the sum rounds off
+    D turns_low(0.0);
+    constexpr double slices[] = {0x1.45f306dp-1,   0x1.9391054p-30, 0x1.4fe13abp-59,  0x1.d1f534dp-88,
+                                 0x1.b81b6c5p-117, 0x1.5993c4p-148, 0x1.c820ff2p-175, 0x1.163abdep-204};
+    for (const double slice : slices) {
+        const D product = x * D(slice);
+        const D rest = multiply_add(D(-4.0), round_to_int(product * D(0.25)), product);
+        const Pair<D> sum = two_sum(turns, rest);
+        turns = sum.high;
+        turns_low = turns_low + sum.low;
+    }
+    const D far = turns + shift;
+    const Pair<D> fraction = fast_two_sum(turns - (far - shift), turns_low);
+    const Pair<D> angle = two_product(fraction.high, D(half_pi_high));
+    const D angle_low = multiply_add(fraction.high, D(half_pi_low), fraction.low * D(half_pi_high));
+    r = select(large, angle.high, r);
+    r_low = select(large, angle.low + angle_low, r_low);
+    quadrant = select(large, bits_of(far), quadrant);
+}
+
+/// sin(r + r_low).
+template <class D>
+TANDEM_HD Pair<D> sine(const D& r, const D& r_low) {
+    const D z = r * r;
+    const D tail = horner(z, -0x1.5555555555555p-3, 0x1.1111111111067p-7, -0x1.a01a019ffdba6p-13, 0x1.71de3a32aa3f0p-19,
+                          -0x1.ae642acdfddaap-26, 0x1.6108a372a8db1p-33, -0x1.9f61e6f4de8a1p-41);
+    return {r, multiply_add(r * z, tail, multiply_add(D(-0.5) * z, r_low, r_low))};
+}
+
+/// cos(r + r_low).
+template <class D>
+TANDEM_HD Pair<D> cosine(const D& r, const D& r_low) {
+    const Pair<D> square = two_product(r, r);
+    const D z = square.high;
+    const D tail = horner(z, 0x1.5555555555555p-5, -0x1.6c16c16c16b2ap-10, 0x1.a01a019ffb54bp-16,
+                          -0x1.27e4fb58371c6p-22, 0x1.1eed6d038f433p-29, -0x1.93713af026d2cp-37, 0x1.9c3307f1eed9ep-45);
+    const Pair<D> sum = fast_two_sum(D(1.0), D(-0.5) * z);
+    const D correction = multiply_add(D(-0.5), square.low, -(r * r_low));
+    return {sum.high, sum.low + multiply_add(z * z, tail, correction)};
+}
+
+/// sin(x + turns pi/2); infinity gives NaN.
+template <class Real>
+TANDEM_HD Real sine_of_turned(const Real& x, const Int64<Real>& sign_of_x, std::int64_t turns) {
+    using D = Double<Real>;
+    using I = Int64<Real>;
+    D r, r_low;
+    I quadrant;
+    reduce_trig<Real>(absolute(widen(x)), quadrant, r, r_low);
+    quadrant = quadrant + I(turns);
+    const Mask<Real> odd = (quadrant & I(1)) == I(1);
+    const Pair<D> s = sine(r, r_low);
+    const Pair<D> c = cosine(r, r_low);
+    const I sign = ((quadrant & I(2)) << 62) ^ sign_of_x;
+    const D high = double_of(bits_of(select(odd, c.high, s.high)) ^ sign);
+    const D low = double_of(bits_of(select(odd, c.low, s.low)) ^ sign);
+    const Mask<Real> finite = absolute(x) < narrow(D(infinity));
+    return select(finite, round_once<Real>(high, low), quiet_nan<Real>());
+}
+
+/// log(x) for a positive float, widened, to 2^-102 relative: 2 atanh(s) by its series.
+template <class Real>
+TANDEM_HD Pair<Double<Real>> log_pair(const Double<Real>& x) {
+    using D = Double<Real>;
+    D f, exponent;
+    reduce_log<Real>(x, f, exponent);
+    const D divisor = D(2.0) + f;  // exact for a float
+    const D quotient = f / divisor;
+    const Pair<D> s = fast_two_sum(quotient, multiply_add(-quotient, divisor, f) / divisor);
+    const Pair<D> z = s * s;
+    const Pair<D> two = {D(2.0), D(0.0)};
+    Pair<D> sum = divide(two, 45.0);
+    for (double n = 43.0; n > 0.0; n -= 2.0) sum = divide(two, n) + z * sum;
+    const Pair<D> ln2 = {D(ln2_high), D(ln2_low)};
+    return Pair<D>{exponent, D(0.0)} * ln2 + s * sum;
+}
+
+/// exp(x) for |x| <= 700 to 2^-102 + 2^-103 |x| relative, divided by `scale`, a power of two.
+template <class Real>
+TANDEM_HD Pair<Double<Real>> exp_pair(const Pair<Double<Real>>& x, Double<Real>& scale) {
+    using D = Double<Real>;
+    D first, first_low;
+    reduce_exp<Real>(x.high, first, first_low, scale);
+    const D shift(to_low_bits + 1023);
+    const D k = multiply_add(x.high, D(log2_e), shift) - shift;
+    const Pair<D> ln2 = {D(ln2_high), D(ln2_low)};
+    const Pair<D> r = x + Pair<D>{-k, D(0.0)} * ln2;
+    const Pair<D> one = {D(1.0), D(0.0)};
+    Pair<D> sum = one;
+    for (double n = 25.0; n > 0.0; n -= 1.0) sum = one + divide(r * sum, n);
+    return sum;
+}
+
 }  // namespace exact_detail
 
 /// log(x) for x in (0, inf), normal. Relative error below 2^-52, also next to 1.
@@ -158,6 +269,62 @@ TANDEM_HD Real exact_log(const Real& x) {
     const Real result = round_once<Real>(quadratic.high, (linear.low + quadratic.low) + (tail + correction));
     const Real edge = select(x == Real(0.0F), narrow(-infinity), exact_detail::quiet_nan<Real>());
     return select(x > Real(0.0F), select(x == narrow(infinity), x, result), edge);
+}
+
+/// sin(x) for every float; NaN for infinities.
+template <class Real>
+TANDEM_HD Real exact_sin(const Real& x) {
+    using I = Int64<Real>;
+    return exact_detail::sine_of_turned(x, bits_of(widen(x)) & (I(1) << 63), 0);
+}
+
+/// cos(x) for every float; NaN for infinities.
+template <class Real>
+TANDEM_HD Real exact_cos(const Real& x) {
+    return exact_detail::sine_of_turned(x, Int64<Real>(0), 1);
+}
+
+/// x^y for all pairs of floats, with the special values of IEEE 754's pow: 1 for y = 0 and for x = 1, even with NaN;
+/// for x < 0 NaN unless y is an integer, whose parity gives the sign, also of zeros and infinities.
+///
+/// A value that power() cannot round with certainty, about one in 2^17, is formed again to about 2^-95. Results that
+/// are floats or midpoints of floats are recognised: what lies within 2^-93 of one is taken for it. No pair that is
+/// not exactly such a result is known to come so near; among the 2^62 pairs with a finite result one would be expected
+/// with a chance of a few per cent, and it would round the wrong way with a chance of one half.
+template <class Real>
+TANDEM_HD Real exact_pow(const Real& x, const Real& y) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const D infinity(exact_detail::infinity);
+    const D zero(0.0);
+    const D base = absolute(widen(x));
+    const D exponent = widen(y);
+    const D finite_log = log_wide<Real>(base);
+    const D log_base = select(base == zero, -infinity, select(base == infinity, infinity, finite_log));
+    const D value = exp_wide<Real>(exponent * log_base);
+    const D error = value * D(0x1p-42);
+    Real magnitude = narrow(value);
+    const Mask<Real> doubtful = narrow(value - error) < narrow(value + error);
+    if (any(doubtful)) {
+        const Pair<D> log_x = exact_detail::log_pair<Real>(base);
+        D scale;
+        const Pair<D> result = exact_detail::exp_pair<Real>(Pair<D>{exponent, zero} * log_x, scale);
+        const Mask<Real> exact = absolute(result.low) < D(0x1p-93) * result.high;
+        const D low = select(exact, zero, result.low);
+        magnitude = select(doubtful, round_once<Real>(result.high * scale, low * scale), magnitude);
+    }
+    const Mask<Real> is_one = y == Real(0.0F) || base == D(1.0);
+    magnitude = select(is_one, Real(1.0F), magnitude);
+
+    const D half = exponent * D(0.5);
+    const Mask<Real> integer = round_to_int(exponent) == exponent;
+    const Mask<Real> odd = integer && round_to_int(half) != half;
+    const Word sign = select(odd, bits_of(x) & Word(0x80000000U), Word(0U));
+    const Real result = float_of(bits_of(magnitude) | sign);
+    const Mask<Real> negative = x < Real(0.0F) && x > narrow(-infinity);
+    const Mask<Real> defined = x == x && y == y && (!negative || integer);
+    const Mask<Real> always_one = y == Real(0.0F) || x == Real(1.0F);
+    return select(always_one, Real(1.0F), select(defined, result, exact_detail::quiet_nan<Real>()));
 }
 
 }  // namespace tandem
