@@ -34,7 +34,7 @@ __global__ void __launch_bounds__(block_threads)
     trace_kernel(const __grid_constant__ Tracer tracer, const Ray<float>* __restrict__ rays, Hit* __restrict__ hits,
                  std::size_t count) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
-    if (i < count) hits[i] = to_hit(tracer.closest(rays[i], true));
+    if (i < count) hits[i] = to_hit(tracer.closest(rays[i], is_traceable(rays[i])));
 }
 
 /// Calls f with the tracer that fits the scene.

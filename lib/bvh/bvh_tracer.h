@@ -43,7 +43,7 @@ struct BvhTracer {
 
     TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
         Closest<float> best = no_hit<float>();
-        if (!active || !is_traceable(ray)) return best;
+        if (!active) return best;
         const Proposal<float> proposal = propose(ray, bvh.frame, true);
         if (!proposal.active) return best;
         const FilterRay<float> filter = make_filter_ray(ray);
@@ -95,7 +95,7 @@ struct BvhTracer {
             const std::uint32_t id = bvh.entry_ids[i];
             const double before = best.t;
             if (id < scene.sphere_count) {
-                offer(cross_sphere(around, filter.ray), id, true, best);
+                offer<float>(sphere_roots(around, filter.ray), id, true, best);
             } else {
                 intersect_primitive<float>(scene, id, filter, true, best);
             }
