@@ -12,9 +12,12 @@ constexpr unsigned int warp_height = 4;
 constexpr unsigned int block_width = 16;
 constexpr unsigned int block_height = 8;
 constexpr unsigned int block_threads = block_width * block_height;
+/// Blocks that must fit on a multiprocessor: 72 registers a thread. Measured on an H200 against 1, 5, 6 and 8
+/// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
+constexpr unsigned int resident_blocks = 7;
 
 template <class Tracer>
-__global__ void __launch_bounds__(block_threads)
+__global__ void __launch_bounds__(block_threads, resident_blocks)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, unsigned long long* __restrict__ invalid) {
     const unsigned int warp = threadIdx.x / 32;
@@ -30,7 +33,7 @@ __global__ void __launch_bounds__(block_threads)
 }
 
 template <class Tracer>
-__global__ void __launch_bounds__(block_threads)
+__global__ void __launch_bounds__(block_threads, resident_blocks)
     trace_kernel(const __grid_constant__ Tracer tracer, const Ray<float>* __restrict__ rays, Hit* __restrict__ hits,
                  std::size_t count) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
