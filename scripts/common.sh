@@ -19,6 +19,7 @@ packages() { grep -v '^#' scripts/packages.txt; }
 
 # take_options ARGUMENT...: sorts the arguments that scripts/build, test and bench have in common into setup_options,
 # preset and definitions; leaves the others in `rest`.
+# shellcheck disable=SC2034
 take_options() {
     setup_options=() preset=release definitions=() rest=()
     while (($#)); do
