@@ -5,27 +5,28 @@ option(TANDEM_INSTALL "Install the library, its headers and its CMake package" $
 option(TANDEM_WERROR "Treat warnings in Tandem's own code as errors" OFF)
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 
-# TANDEM_CUDA: unless it is given, whether there is an nvcc that works with this C++ compiler.
+# TANDEM_CUDA: unless it is given, whether there is an nvcc that works with this C++ compiler. Only an ON is remembered, so
+# that an nvcc that is installed later is found.
 include(${CMAKE_CURRENT_LIST_DIR}/find_nvcc.cmake)
-if(NOT DEFINED CMAKE_CUDA_COMPILER AND (NOT DEFINED TANDEM_CUDA OR TANDEM_CUDA))
+if(NOT CMAKE_CUDA_COMPILER AND (NOT DEFINED TANDEM_CUDA OR TANDEM_CUDA))
   tandem_find_nvcc(nvcc)
   if(nvcc)
     set(ENV{CUDACXX} ${nvcc})
   endif()
 endif()
 if(NOT DEFINED TANDEM_CUDA)
-  include(CheckLanguage)
-  if(nvcc OR CMAKE_CUDA_COMPILER)
+  if(nvcc)
+    include(CheckLanguage)
+    unset(CMAKE_CUDA_COMPILER CACHE)
     check_language(CUDA)
   endif()
   if(CMAKE_CUDA_COMPILER)
-    set(cuda_works ON)
+    set(TANDEM_CUDA ON CACHE BOOL "Build the CUDA backend (needs nvcc ${TANDEM_NVCC_MINIMUM} or newer)")
   else()
-    set(cuda_works OFF)
+    set(TANDEM_CUDA OFF)
     message(STATUS "Tandem: no nvcc ${TANDEM_NVCC_MINIMUM} or newer that works with ${CMAKE_CXX_COMPILER}; building "
                    "without the CUDA backend (put one on PATH, or run scripts/setup --with-cuda)")
   endif()
-  option(TANDEM_CUDA "Build the CUDA backend (needs nvcc ${TANDEM_NVCC_MINIMUM} or newer)" ${cuda_works})
 endif()
 # Machine code for compute capability 7.5 to 9.0, and PTX that a driver compiles for later ones.
 set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 86-real 89-real 90-real 90-virtual CACHE STRING "GPUs to compile for")
