@@ -42,7 +42,8 @@ struct PreparedScene {
 /// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
-/// SHA-256 over everything above except names, in hexadecimal: equal hashes mean equal pictures.
+/// SHA-256 over everything above except node_of, which serves messages only, in hexadecimal: equal hashes mean equal
+/// pictures.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem
