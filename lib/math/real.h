@@ -84,7 +84,7 @@ template <class To, class From>
 TANDEM_HD To bit_cast(const From& from) {
     static_assert(sizeof(To) == sizeof(From));
     To to;
-    memcpy(&to, &from, sizeof(To));
+    std::memcpy(&to, &from, sizeof(To));
     return to;
 }
 

@@ -24,13 +24,6 @@ SceneView view(const PreparedScene& scene) {
             .environment = scene.environment};
 }
 
-Aabb primitive_bounds(const PreparedScene& scene, std::uint32_t id) {
-    Aabb result;
-    const auto take = [&](const auto& primitive) { result = bounds(primitive); };
-    visit_primitive(view(scene), id, take, take, take, take);
-    return result;
-}
-
 CameraView camera_view(const PreparedScene& scene, int width, int height) {
     // one pixel on the plane at distance 1, or in metres for an orthographic camera
     const double pixel = 2 * scene.half_height / height;

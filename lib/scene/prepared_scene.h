@@ -38,9 +38,6 @@ struct PreparedScene {
 /// The window of the kernels onto the arrays of `scene`, which must outlive it.
 [[nodiscard]] SceneView view(const PreparedScene& scene);
 
-/// World-space bounds of primitive `id`, not padded.
-[[nodiscard]] Aabb primitive_bounds(const PreparedScene& scene, std::uint32_t id);
-
 /// The camera for a film of width x height pixels; pixels are square.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
