@@ -36,7 +36,8 @@ TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>&
 template <class Real>
 TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
     const ObjectRay<Real> local = to_object(placement, ray);
-    return cross_sphere<Real>(local.origin, local.direction, Double<Real>(1.0));
+    const Double<Real> zero(0.0);
+    return cross_sphere<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0));
 }
 
 template <class Real>

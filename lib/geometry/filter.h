@@ -8,7 +8,8 @@
 /// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of
 /// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
 /// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
-/// decides. Overflow and NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
+/// decides, and directions shorter than 1e-15 pass the sphere's filter: their square would lose digits. Overflow and
+/// NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -24,12 +25,14 @@ template <class Real>
 struct FilterRay {
     Ray<Real> ray;
     Real origin_norm1;
-    Real direction_length2;
+    Real direction_length2;  ///< infinite for directions too short to be squared in float
 };
 
 template <class Real>
 TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
-    return {ray, norm1(ray.origin), dot(ray.direction, ray.direction)};
+    const Real length2 = dot(ray.direction, ray.direction);
+    const Real infinity(__builtin_huge_valf());
+    return {ray, norm1(ray.origin), select(length2 < Real(1e-30F), infinity, length2)};
 }
 
 /// May the line of the ray touch the sphere? False only if it certainly does not.
@@ -38,7 +41,8 @@ TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sph
     const Vec3<Real> offset = f.ray.origin - broadcast<Real>(sphere_centre);
     const Vec3<Real> moment = cross(offset, f.ray.direction);
     const Real reach = Real(radius) + Real(filter_margin) * (norm1(offset) + f.origin_norm1);
-    const Real limit = f.direction_length2 * (reach * reach) * Real(1.0F + 16.0F * float_roundoff) + Real(1e-36F);
+    // reach^2 could underflow before the length makes up for it
+    const Real limit = (f.direction_length2 * reach) * reach * Real(1.0F + 16.0F * float_roundoff) + Real(1e-36F);
     return !(dot(moment, moment) > limit);
 }
 
