@@ -238,6 +238,7 @@ struct LaneMask {
 
     TANDEM_HD friend LaneMask operator&&(LaneMask a, LaneMask b) { return LaneMask(a.v & b.v); }
     TANDEM_HD friend LaneMask operator||(LaneMask a, LaneMask b) { return LaneMask(a.v | b.v); }
+    TANDEM_HD friend LaneMask operator!=(LaneMask a, LaneMask b) { return LaneMask(a.v ^ b.v); }
     TANDEM_HD LaneMask operator!() const { return LaneMask(~v); }
     TANDEM_HD bool operator[](int lane) const { return v[lane] != 0; }
 };
