@@ -8,6 +8,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/file/whole_file.h"
+#include "tandem/gltf/printable.h"
 
 namespace tandem::gltf {
 
@@ -91,7 +92,7 @@ std::string plain_message(const std::exception& error) {
 
 Json parse(const Document& document, ByteView text) {
     const auto fail = [&](const std::string& what) {
-        throw InputError(fmt::format("{}: {}", document.file.string(), what));
+        throw InputError(fmt::format("{}: {}", document.file.string(), printable(what)));
     };
     if (text.empty()) fail("is empty; a glTF file holds a JSON object");
     if (text.size() > longest_json) {
@@ -115,7 +116,7 @@ Json parse(const Document& document, ByteView text) {
 }  // namespace
 
 void Document::fail(std::string_view json_path, std::string_view what) const {
-    throw InputError(fmt::format("{}: {}: {}", file.string(), json_path, what));
+    throw InputError(fmt::format("{}: {}", file.string(), printable(fmt::format("{}: {}", json_path, what))));
 }
 
 std::size_t Document::length(const std::string& array) const {

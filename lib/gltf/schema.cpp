@@ -333,7 +333,7 @@ class Checker {
         const std::string where = member_path(path, "extensions");
         require(extensions->is_object(), where, "an object", *extensions);
         for (const auto& [name, extension] : extensions->items()) {
-            require(extension.is_object(), where + "." + name, "an object", extension);
+            require(extension.is_object(), member_path(where, name), "an object", extension);
         }
         check_properties(*extensions, kind + " extensions", where);
     }
@@ -430,7 +430,7 @@ class Checker {
 
     void check_index_map(Json& value, const char* array, const std::string& path) {
         require(value.is_object(), path, "an object of indices", value);
-        for (auto& [name, element] : value.items()) check_index(element, array, path + "." + name);
+        for (auto& [name, element] : value.items()) check_index(element, array, member_path(path, name));
     }
 
     void check_choice(const std::string& found, const Property& property, const std::string& path,

@@ -326,6 +326,24 @@ TEST_F(Malformed, ContainersOfGlb) {
     EXPECT_TRUE(contains(error_of_bytes(test::make_glb(file.json.dump(), file.data)), "buffers[1].uri: is absent"));
 }
 
+/// Work that grows with the square of these would not end.
+TEST_F(Malformed, ManyThingsTakeNotLong) {
+    TestFile file = small_file();
+    constexpr std::size_t many = 50'000;
+    for (std::size_t i = 0; i < many; ++i) {
+        file.json["nodes"][1]["extensions"]["ACME_" + std::to_string(i)] = Json::object();
+        const std::size_t last = file.json["nodes"].size() - 1;
+        file.json["nodes"].push_back({{"rotation", {0, 0, 0, 1}}});
+        file.json["nodes"][last]["children"] = {last + 1};  // a very deep tree
+    }
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.nodes.size(), many + 2);
+    EXPECT_GT(result.report.notes().size(), many);
+    file.json["nodes"][many + 1]["rotation"] = {0, 0, 0, 0};
+    file.json["nodes"][many]["rotation"] = {0, 0, 0, 0};
+    EXPECT_TRUE(contains(error_of(file), "which is none; use (0, 0, 0, 1); and 1 more"));
+}
+
 /// A few words of JSON must not become gigabytes.
 TEST_F(Malformed, RepetitionIsBounded) {
     TestFile file = rich_file();
