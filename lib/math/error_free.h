@@ -36,6 +36,16 @@ TANDEM_HD Pair<D> two_product(const D& a, const D& b) {
     return {product, multiply_add(a, b, -product)};
 }
 
+/// a b - c d within 1.5 units of the last place.
+/// Source: W. Kahan; error bound by C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm
+/// for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013.
+template <class D>
+TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& d) {
+    const D cd = c * d;
+    const D error = multiply_add(c, d, -cd);
+    return multiply_add(a, b, -cd) - error;
+}
+
 // Relative error of these below 2^-103, also of a sum that cancels.
 // Source: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of
 // double-word arithmetic", ACM TOMS 44(2), 2017: AccurateDWPlusDW, DWTimesDW2.

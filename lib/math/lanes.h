@@ -95,6 +95,14 @@ TANDEM_HD D16 multiply_add(D16 a, D16 b, D16 c) {
     return D16{::fma(a[0], b[0], c[0]), ::fma(a[1], b[1], c[1])};
 #endif
 }
+TANDEM_HD F16 loose_multiply_add(F16 a, F16 b, F16 c) {
+#if defined(__FMA__)
+    return reinterpret_cast<F16>(
+        _mm_fmadd_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b), reinterpret_cast<__m128>(c)));
+#else
+    return a * b + c;
+#endif
+}
 TANDEM_HD D16 round_to_int(D16 a) {
 #if defined(__SSE4_1__)
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
@@ -142,6 +150,10 @@ TANDEM_HD D32 multiply_add(D32 a, D32 b, D32 c) {
     return reinterpret_cast<D32>(
         _mm256_fmadd_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b), reinterpret_cast<__m256d>(c)));
 }
+TANDEM_HD F32 loose_multiply_add(F32 a, F32 b, F32 c) {
+    return reinterpret_cast<F32>(
+        _mm256_fmadd_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(c)));
+}
 TANDEM_HD D32 round_to_int(D32 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
     return reinterpret_cast<D32>(_mm256_round_pd(reinterpret_cast<__m256d>(a), nearest));
@@ -185,6 +197,10 @@ TANDEM_HD D64 square_root(D64 a) {
 TANDEM_HD D64 multiply_add(D64 a, D64 b, D64 c) {
     return reinterpret_cast<D64>(
         _mm512_fmadd_pd(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), reinterpret_cast<__m512d>(c)));
+}
+TANDEM_HD F64 loose_multiply_add(F64 a, F64 b, F64 c) {
+    return reinterpret_cast<F64>(
+        _mm512_fmadd_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), reinterpret_cast<__m512>(c)));
 }
 TANDEM_HD D64 round_to_int(D64 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
@@ -420,6 +436,14 @@ TANDEM_HD Lanes<double, I> multiply_add(const Lanes<double, I>& a, const Lanes<d
                                         const Lanes<double, I>& c) {
     Lanes<double, I> result;
     for (int k = 0; k < 2; ++k) result.part[k] = lanes_detail::multiply_add(a.part[k], b.part[k], c.part[k]);
+    return result;
+}
+
+template <class I>
+TANDEM_HD Lanes<float, I> loose_multiply_add(const Lanes<float, I>& a, const Lanes<float, I>& b,
+                                             const Lanes<float, I>& c) {
+    Lanes<float, I> result;
+    result.part[0] = lanes_detail::loose_multiply_add(a.part[0], b.part[0], c.part[0]);
     return result;
 }
 

@@ -1,0 +1,23 @@
+/// What all decoders check; not part of the interface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace tandem {
+
+/// Throws InputError: "'name' is not a readable FORMAT image: reason".
+[[noreturn]] void fail_decoding(const std::string& name, const char* format, const std::string& reason);
+
+/// Throws unless both edges are from 1 to 65536, and the film from 1 to 2^30 pixels, the limits of a render job.
+void check_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height);
+
+/// Throws if `available` bytes of file cannot hold `needed` bytes of pixels: a forged or truncated file, to be found
+/// out before memory is allocated.
+void check_data(const std::string& name, const char* format, std::size_t available, std::size_t needed);
+
+/// No deflate stream unpacks to more than this many times its size.
+inline constexpr std::size_t most_deflate_ratio = 1032;
+
+}  // namespace tandem

@@ -1,0 +1,37 @@
+/// Pictures in memory: linear float RGB, and 8-bit RGB.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "tandem/film/film.h"
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+/// Linear RGB radiance, row by row from the top left.
+struct FloatImage {
+    int width = 0;
+    int height = 0;
+    std::vector<Vec3f> pixels;  ///< width * height
+};
+
+/// 8-bit RGB as files and screens have it, row by row from the top left.
+struct ByteImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> values;  ///< red, green, blue of each pixel: 3 * width * height
+};
+
+/// width * height.
+[[nodiscard]] std::size_t pixel_count(const FloatImage& image);
+[[nodiscard]] std::size_t pixel_count(const ByteImage& image);
+
+/// The means of all pixels (Film::mean()).
+[[nodiscard]] FloatImage film_to_image(const Film& film);
+
+/// The linear values that 8 bits stand for: level / 255. tone_map() gives the same levels back.
+[[nodiscard]] FloatImage to_float(const ByteImage& image);
+
+}  // namespace tandem

@@ -1,0 +1,198 @@
+#include <png.h>
+#include <zlib.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstring>
+#include <new>
+
+#include "tandem/film/decode_checks.h"
+#include "tandem/film/image_codecs.h"
+
+namespace tandem {
+
+namespace {
+
+/// libpng leaves through longjmp, which runs no destructors. So every function that holds a setjmp() is small, has only
+/// plain values of its own, and keeps what has a destructor in a PngFile.
+struct PngFile {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::array<char, 256> error{};
+    Bytes written;
+    std::span<const std::byte> unread;
+};
+
+PngFile& file_of(png_structp png, png_voidp pointer) {
+    if (pointer == nullptr) png_error(png, "no file");
+    return *static_cast<PngFile*>(pointer);
+}
+
+[[noreturn]] void on_error(png_structp png, png_const_charp message) {
+    if (auto* file = static_cast<PngFile*>(png_get_error_ptr(png))) {
+        std::strncpy(file->error.data(), message, file->error.size() - 1);
+    }
+    png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+void on_write(png_structp png, png_bytep data, std::size_t size) {
+    PngFile& file = file_of(png, png_get_io_ptr(png));
+    const auto* start = reinterpret_cast<const std::byte*>(data);
+    bool full = false;
+    try {
+        file.written.insert(file.written.end(), start, start + size);
+    } catch (const std::bad_alloc&) {
+        full = true;
+    }
+    if (full) png_error(png, "out of memory");
+}
+
+void on_read(png_structp png, png_bytep data, std::size_t size) {
+    PngFile& file = file_of(png, png_get_io_ptr(png));
+    if (file.unread.size() < size) png_error(png, "the file is cut off");
+    std::memcpy(data, file.unread.data(), size);
+    file.unread = file.unread.subspan(size);
+}
+
+struct PngWriter : PngFile {
+    PngWriter() {
+        png = png_create_write_struct(PNG_LIBPNG_VER_STRING, static_cast<PngFile*>(this), on_error, on_warning);
+        info = png != nullptr ? png_create_info_struct(png) : nullptr;
+        if (info == nullptr) throw std::bad_alloc();
+        png_set_write_fn(png, static_cast<PngFile*>(this), on_write, nullptr);
+    }
+    ~PngWriter() { png_destroy_write_struct(&png, &info); }
+    PngWriter(const PngWriter&) = delete;
+    PngWriter& operator=(const PngWriter&) = delete;
+
+    bool write(const ByteImage& image, const std::vector<png_text>& texts, const std::vector<png_bytep>& rows,
+               int level) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+                     PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_compression_level(png, level);
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+        if (level == 1) png_set_compression_strategy(png, Z_RLE);
+        if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
+        png_write_info(png, info);
+        png_write_image(png, const_cast<png_bytepp>(rows.data()));
+        png_write_end(png, nullptr);
+        return true;
+    }
+};
+
+struct PngReader : PngFile {
+    explicit PngReader(std::span<const std::byte> bytes) {
+        unread = bytes;
+        png = png_create_read_struct(PNG_LIBPNG_VER_STRING, static_cast<PngFile*>(this), on_error, on_warning);
+        info = png != nullptr ? png_create_info_struct(png) : nullptr;
+        if (info == nullptr) throw std::bad_alloc();
+        png_set_read_fn(png, static_cast<PngFile*>(this), on_read);
+    }
+    ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    /// Up to the pixels, which come as RGB of 8 or 16 bits.
+    bool read_header() {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_read_info(png, info);
+        png_set_expand(png);
+        png_set_gray_to_rgb(png);
+        png_set_strip_alpha(png);
+        png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        return true;
+    }
+
+    bool read_pixels(const std::vector<png_bytep>& rows) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_read_image(png, const_cast<png_bytepp>(rows.data()));
+        png_read_end(png, info);
+        return true;
+    }
+
+    [[nodiscard]] MetadataText texts() const {
+        png_textp texts = nullptr;
+        int count = 0;
+        png_get_text(png, info, &texts, &count);
+        MetadataText result;
+        for (int i = 0; i < count; ++i) result.emplace_back(texts[i].key, texts[i].text);
+        return result;
+    }
+};
+
+/// libpng allocates a chunk by the length that it claims, so all of them are checked against the bytes that are there.
+void check_chunk_lengths(std::span<const std::byte> bytes, const std::string& name) {
+    constexpr std::size_t signature = 8, around_data = 12;  // length, type and checksum
+    for (std::size_t at = signature; at < bytes.size();) {
+        if (bytes.size() - at < around_data) return;  // libpng says what is wrong, if it gets there
+        const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(&bytes[at]));
+        if (length > bytes.size() - at - around_data) {
+            fail_decoding(name, "PNG", "the file is cut off, or the length of a chunk is wrong");
+        }
+        at += around_data + length;
+    }
+}
+
+template <class Byte>
+std::vector<png_bytep> rows_of(Byte* values, std::size_t row_bytes, std::size_t height) {
+    std::vector<png_bytep> rows(height);
+    for (std::size_t y = 0; y < height; ++y) rows[y] = const_cast<png_bytep>(values + y * row_bytes);
+    return rows;
+}
+
+}  // namespace
+
+Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level) {
+    MetadataText text = to_text(metadata);
+    std::vector<png_text> texts;
+    for (auto& [key, value] : text) {
+        png_text entry = {};
+        entry.compression = PNG_TEXT_COMPRESSION_NONE;
+        entry.key = key.data();
+        entry.text = value.data();
+        entry.text_length = value.size();
+        texts.push_back(entry);
+    }
+    const auto rows =
+        rows_of(image.values.data(), 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
+    PngWriter writer;
+    if (!writer.write(image, texts, rows, level)) {
+        throw std::runtime_error(std::string("libpng cannot encode the image: ") + writer.error.data());
+    }
+    return std::move(writer.written);
+}
+
+DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& name) {
+    check_chunk_lengths(bytes, name);
+    PngReader reader(bytes);
+    if (!reader.read_header()) fail_decoding(name, "PNG", reader.error.data());
+    const std::size_t width = png_get_image_width(reader.png, reader.info);
+    const std::size_t height = png_get_image_height(reader.png, reader.info);
+    const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+    check_size(name, "PNG", width, height);
+    check_data(name, "PNG", bytes.size(), row_bytes * height / most_deflate_ratio);
+    std::vector<std::uint8_t> raw(row_bytes * height);
+    if (!reader.read_pixels(rows_of(raw.data(), row_bytes, height))) fail_decoding(name, "PNG", reader.error.data());
+
+    DecodedImage result;
+    result.format = ImageFormat::png;
+    result.metadata = metadata_from_text(reader.texts());
+    const bool deep = png_get_bit_depth(reader.png, reader.info) == 16;
+    result.image = {static_cast<int>(width), static_cast<int>(height), {}};
+    if (!deep) {
+        result.image = to_float({result.image.width, result.image.height, std::move(raw)});
+        return result;
+    }
+    result.image.pixels.resize(width * height);
+    const auto level = [&](std::size_t i) { return static_cast<float>(raw[2 * i] << 8 | raw[2 * i + 1]) / 65535.0F; };
+    for (std::size_t i = 0; i < width * height; ++i) {
+        result.image.pixels[i] = {level(3 * i), level(3 * i + 1), level(3 * i + 2)};
+    }
+    return result;
+}
+
+}  // namespace tandem

@@ -1,0 +1,7 @@
+#include "tandem/version/version.h"
+
+namespace tandem {
+
+const char* version() { return TANDEM_VERSION; }
+
+}  // namespace tandem

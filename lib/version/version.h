@@ -1,0 +1,9 @@
+/// Which Tandem this is.
+#pragma once
+
+namespace tandem {
+
+/// "major.minor.patch", from the project's CMakeLists.txt.
+[[nodiscard]] const char* version();
+
+}  // namespace tandem

@@ -1,0 +1,19 @@
+/// What an exception says, for tests of messages.
+#pragma once
+
+#include <string>
+
+namespace tandem::test {
+
+/// The message of the `Error` that `action` throws; empty if it throws none. Other exceptions pass.
+template <class Error, class Action>
+std::string thrown_message(Action action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace tandem::test
