@@ -42,4 +42,12 @@ TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, OnSpher
     on_parallelepiped(scene.parallelepipeds[id - scene.ellipsoid_count]);
 }
 
+/// World-space bounds of primitive `id`, not padded.
+TANDEM_HD Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
+    Aabb result;
+    const auto take = [&](const auto& primitive) { result = bounds(primitive); };
+    visit_primitive(scene, id, take, take, take, take);
+    return result;
+}
+
 }  // namespace tandem

@@ -1,0 +1,28 @@
+/// What users write on the command line, as values.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tandem::bench {
+
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+/// "1000x900". Throws InputError that shows the form.
+[[nodiscard]] Size parse_size(const std::string& text);
+
+/// First and last frame, both included.
+struct FrameRange {
+    std::int32_t first = 0;
+    std::int32_t last = 0;
+
+    [[nodiscard]] std::int32_t count() const { return last - first + 1; }
+};
+
+/// "0-119" or "7". Throws InputError that shows the form.
+[[nodiscard]] FrameRange parse_frames(const std::string& text);
+
+}  // namespace tandem::bench

@@ -1,0 +1,27 @@
+/// Where benchmarks get their backends from; tests put their own in its place.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/render/backend.h"
+#include "tandem/report/report.h"
+
+namespace tandem::bench {
+
+struct BackendSource {
+    std::function<std::string(const std::string& name)> why_unavailable = tandem::why_unavailable;
+    std::function<std::unique_ptr<Backend>(const std::string& name, const BackendOptions& options)> make =
+        tandem::make_backend;
+};
+
+/// Those of `names` that run here. For each of the others a note goes into `report`: what is left out and why.
+[[nodiscard]] std::vector<std::string> available_backends(const BackendSource& source,
+                                                          const std::vector<std::string>& names, Report& report);
+
+/// Adds the backend's device and libraries to the machine of the report, once.
+void describe_backend(const Backend& backend, Report& report);
+
+}  // namespace tandem::bench

@@ -1,0 +1,114 @@
+#include "embree_native.h"
+
+#if TANDEM_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <limits>
+
+#include "tandem/error/error.h"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr std::size_t rays_per_task = 1024;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void intersect(RTCScene scene, RTCRayHit& query) {
+#if TANDEM_EMBREE_MAJOR >= 4
+    rtcIntersect1(scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+#endif
+}
+
+Hit trace_one(RTCScene scene, const Ray<float>& ray) {
+    RTCRayHit query{};
+    query.ray.org_x = ray.origin.x;
+    query.ray.org_y = ray.origin.y;
+    query.ray.org_z = ray.origin.z;
+    query.ray.dir_x = ray.direction.x;
+    query.ray.dir_y = ray.direction.y;
+    query.ray.dir_z = ray.direction.z;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0U;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    intersect(scene, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {query.ray.tfar, query.hit.primID};
+}
+
+}  // namespace
+
+struct EmbreeNative::State {
+    explicit State(int threads) : arena(threads == 0 ? tbb::task_arena::automatic : threads) {}
+    ~State() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    tbb::task_arena arena;
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    double build_seconds = 0;
+};
+
+EmbreeNative::EmbreeNative(std::span<const Sphere> spheres, int threads) : state_(std::make_unique<State>(threads)) {
+    // The number of threads is the arena's: Embree joins it for the build.
+    state_->device = rtcNewDevice(nullptr);
+    if (state_->device == nullptr) throw EnvironmentError("Embree cannot make a device");
+    state_->scene = rtcNewScene(state_->device);
+    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                                                 4 * sizeof(float), spheres.size()));
+    for (std::size_t i = 0; vertices != nullptr && i < spheres.size(); ++i) {
+        vertices[4 * i] = spheres[i].centre.x;
+        vertices[4 * i + 1] = spheres[i].centre.y;
+        vertices[4 * i + 2] = spheres[i].centre.z;
+        vertices[4 * i + 3] = spheres[i].radius;
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(state_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    const auto start = std::chrono::steady_clock::now();
+    state_->arena.execute([&] { rtcJoinCommitScene(state_->scene); });
+    state_->build_seconds = seconds_since(start);
+    const RTCError error = rtcGetDeviceError(state_->device);
+    if (error != RTC_ERROR_NONE) {
+        throw EnvironmentError(fmt::format("Embree cannot build a scene of {} spheres: error {}", spheres.size(),
+                                           static_cast<int>(error)));
+    }
+}
+
+EmbreeNative::~EmbreeNative() = default;
+
+double EmbreeNative::trace(std::span<const Ray<float>> rays, std::span<Hit> hits) {
+    const auto start = std::chrono::steady_clock::now();
+    state_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), rays_per_task), [&](const auto& block) {
+            for (std::size_t i = block.begin(); i < block.end(); ++i) hits[i] = trace_one(state_->scene, rays[i]);
+        });
+    });
+    return seconds_since(start);
+}
+
+double EmbreeNative::build_seconds() const { return state_->build_seconds; }
+
+std::string EmbreeNative::version() { return "Embree " RTC_VERSION_STRING; }
+
+}  // namespace tandem::bench

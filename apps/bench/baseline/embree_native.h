@@ -1,0 +1,35 @@
+/// Raw Embree over spheres, as a program without Tandem would use it: a baseline for rays per second.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tandem/geometry/hit.h"
+#include "tandem/geometry/sphere.h"
+#include "tandem/math/ray.h"
+
+namespace tandem::bench {
+
+/// Embree's own sphere geometry (RTC_GEOMETRY_TYPE_SPHERE_POINT) and one rtcIntersect1 per ray, blocks of rays shared
+/// among the threads by TBB. Its hits are Embree's: approximate, and different from processor to processor.
+class EmbreeNative {
+  public:
+    /// threads: 0 means one per core. Builds the scene. Throws EnvironmentError if Embree does.
+    EmbreeNative(std::span<const Sphere> spheres, int threads);
+    ~EmbreeNative();
+    EmbreeNative(const EmbreeNative&) = delete;
+    EmbreeNative& operator=(const EmbreeNative&) = delete;
+
+    /// Nearest hits; sizes must be equal. Returns the seconds that it took.
+    double trace(std::span<const Ray<float>> rays, std::span<Hit> hits);
+
+    [[nodiscard]] double build_seconds() const;
+    [[nodiscard]] static std::string version();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tandem::bench

@@ -1,0 +1,44 @@
+#include "frame_timing.h"
+
+#include "tandem/render/seconds.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem::bench {
+
+TimedFrame render_timed(Backend& backend, const Scene& scene, const RenderJob& job) {
+    TimedFrame timed;
+    const Stopwatch everything;
+    const PreparedScene prepared = prepare(scene, {static_cast<std::int32_t>(job.frame), {}});
+    timed.prepare = everything.seconds();
+    const std::shared_ptr<ResidentScene> resident = backend.load(prepared);
+    const Stopwatch frame;
+    RenderResult result = backend.render(resident, job);
+    timed.frame = frame.seconds();
+    timed.everything = everything.seconds();
+    timed.load = resident->load_times();
+    timed.film = std::move(result.film);
+    timed.stats = std::move(result.stats);
+    return timed;
+}
+
+void record(BenchmarkRow& row, std::int32_t round, double seconds, const TimedFrame& timed) {
+    row.seconds.push_back(seconds);
+    row.rounds.push_back(round);
+    row.variant = timed.stats.variant;
+    row.registers = timed.stats.registers;
+    row.occupancy = timed.stats.occupancy;
+    row.rays = static_cast<double>(timed.stats.rays);
+    const auto add = [&](const char* name, double value) { phase(row, name).seconds.push_back(value); };
+    add("prepare", timed.prepare);
+    add("build", timed.load.build);
+    add("upload", timed.load.upload);
+    add("render", timed.stats.seconds.render);
+    add("download", timed.stats.seconds.download);
+    add("frame", timed.frame);
+}
+
+double sample_count(const RenderJob& job) {
+    return static_cast<double>(job.width) * static_cast<double>(job.height) * static_cast<double>(job.samples);
+}
+
+}  // namespace tandem::bench

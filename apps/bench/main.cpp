@@ -1,0 +1,208 @@
+// tandem-bench: what Tandem costs, and whether CPU and GPU agree. docs/reading-results.md explains every number.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "common/run_main.h"
+#include "output.h"
+#include "paper.h"
+#include "parity.h"
+#include "ray_sets.h"
+#include "targets.h"
+#include "versus.h"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr int status_done = 0;
+constexpr int status_short = 1;  ///< the result falls short of what was asked
+constexpr int status_usage = 2;
+
+/// Texts as typed; they become options once all are read.
+struct Texts {
+    std::string size;
+    std::string frames;
+    std::string rays;
+};
+
+struct Everything {
+    Texts texts;
+    OutputOptions output;
+    ParityOptions parity;
+    VersusOptions versus;
+    PaperOptions paper;
+    TargetOptions targets;
+    bool list_targets = false;
+};
+
+void add_output_options(CLI::App& app, OutputOptions& output) {
+    app.add_option("--json", output.json, "Write everything, with every single measurement; - is standard output");
+    app.add_option("--csv", output.csv, "Write one line per row");
+    app.add_option("--html", output.html, "Write a self-contained page");
+}
+
+template <class Options>
+void add_picture_options(CLI::App& app, Texts& texts, Options& options) {
+    app.add_option("--size", texts.size, fmt::format("Pixels; default {}x{}", options.size.width, options.size.height));
+    app.add_option("--spp", options.samples, "Samples a pixel")->capture_default_str()->check(CLI::Range(1, 1 << 24));
+}
+
+template <class Options>
+void add_frames_option(CLI::App& app, Texts& texts, Options& options) {
+    app.add_option("--frames", texts.frames,
+                   fmt::format("Frames, both included; default {}-{}", options.frames.first, options.frames.last));
+}
+
+template <class Options>
+void add_backends_option(CLI::App& app, Options& options) {
+    app.add_option("--backends", options.backends, "Which take part")->delimiter(',')->capture_default_str();
+}
+
+CLI::App* add_parity(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("parity", "Does everything draw the same picture? Status 1 if not");
+    command->add_option("SCENE", all.parity.scenes, "Files, or named:NAME")->capture_default_str();
+    add_backends_option(*command, all.parity);
+    add_frames_option(*command, all.texts, all.parity);
+    add_picture_options(*command, all.texts, all.parity);
+    command->add_option("--seed", all.parity.seed, "Of the random numbers")->capture_default_str();
+    return command;
+}
+
+CLI::App* add_versus(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("versus", "CPU against GPU, phases apart; or rays per second");
+    command->add_option("SCENE", all.versus.scene, "A file, or named:NAME")->capture_default_str();
+    add_backends_option(*command, all.versus);
+    add_picture_options(*command, all.texts, all.versus);
+    command->add_option("--frame", all.versus.frame, "Of the animation")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--rays", all.texts.rays, "Trace rays in place of rendering: coherent or random");
+    command->add_option("--ray-edge", all.versus.ray_edge, "Trace the square of this many rays")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16384));
+    command->add_option("--threads", all.versus.threads, "Of the CPU; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--repetitions", all.versus.repetitions, "Rounds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--seed", all.versus.seed, "Of the random numbers")->capture_default_str();
+    return command;
+}
+
+CLI::App* add_paper(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("paper", "The paper's speed-up, audited: pictures and a page");
+    command->add_option("--out", all.paper.out, "Folder for the pictures, report.html, report.json and report.csv")
+        ->capture_default_str();
+    add_backends_option(*command, all.paper);
+    add_frames_option(*command, all.texts, all.paper);
+    add_picture_options(*command, all.texts, all.paper);
+    command
+        ->add_option("--slow-frames", all.paper.slow_frames,
+                     "Frames that the paper's CPU program renders without optimisation; three times as many with it, "
+                     "on one thread; 0 is 3 with a GPU and 1 without")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000));
+    command->add_option("--threads", all.paper.threads, "Of the CPU; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--seed", all.paper.seed, "Of the random numbers")->capture_default_str();
+    return command;
+}
+
+CLI::App* add_targets(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("targets", "Is Tandem as fast as it must be? Status 1 if not");
+    command->add_option("--only", all.targets.only, "Ids of targets")->delimiter(',');
+    command->add_flag("--list", all.list_targets, "Print the targets of this machine and measure nothing");
+    add_frames_option(*command, all.texts, all.targets);
+    add_picture_options(*command, all.texts, all.targets);
+    command->add_option("--ray-edge", all.targets.ray_edge, "Trace the square of this many rays")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16384));
+    command->add_option("--repetitions", all.targets.repetitions, "Rounds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--out", all.targets.folder, "Folder for the pictures of the animation")->capture_default_str();
+    return command;
+}
+
+/// The command line as it can be typed again.
+std::string command_line(int count, const char* const* words) {
+    std::string line = "tandem-bench";
+    for (int i = 1; i < count; ++i) {
+        const std::string word = words[i];
+        const bool plain = word.find_first_not_of(
+                               "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                               "-_=.,:/+") == std::string::npos;
+        line += ' ';
+        line += plain && !word.empty() ? word : "'" + word + "'";
+    }
+    return line;
+}
+
+template <class Options>
+void take_texts(const Texts& texts, Options& options) {
+    if (!texts.size.empty()) options.size = parse_size(texts.size);
+    if constexpr (requires { options.frames; }) {
+        if (!texts.frames.empty()) options.frames = parse_frames(texts.frames);
+    }
+}
+
+void print_targets() {
+    for (const TargetResult& target : list_targets(describe_machine().cores)) {
+        fmt::print("{:18} {}\n", target.id, target.statement);
+    }
+}
+
+int run(int count, char** words) {
+    CLI::App app{"Measures Tandem: time beside error, phases apart, every number with its spread.", "tandem-bench"};
+    app.require_subcommand(1);
+    Everything all;
+    const CLI::App* parity = add_parity(app, all);
+    const CLI::App* versus = add_versus(app, all);
+    const CLI::App* paper = add_paper(app, all);
+    const CLI::App* targets = add_targets(app, all);
+    for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? status_done : status_usage;
+    }
+
+    const BackendSource source;
+    Report report;
+    report.command = command_line(count, words);
+    report.machine = describe_machine();
+    bool satisfied = true;
+    if (parity->parsed()) {
+        take_texts(all.texts, all.parity);
+        satisfied = run_parity(all.parity, source, report);
+    } else if (versus->parsed()) {
+        take_texts(all.texts, all.versus);
+        if (!all.texts.rays.empty()) all.versus.rays = parse_ray_set(all.texts.rays);
+        satisfied = run_versus(all.versus, source, report);
+    } else if (paper->parsed()) {
+        take_texts(all.texts, all.paper);
+        satisfied = run_paper(all.paper, source, report);
+        const std::string start = all.paper.out + "/report.";
+        write_report(report, {start + "json", start + "csv", start + "html"});
+    } else if (targets->parsed()) {
+        if (all.list_targets) {
+            print_targets();
+            return status_done;
+        }
+        take_texts(all.texts, all.targets);
+        satisfied = run_targets(all.targets, source, report);
+    }
+    if (!write_report(report, all.output)) print_report(report);
+    return satisfied ? status_done : status_short;
+}
+
+}  // namespace
+
+}  // namespace tandem::bench
+
+int main(int count, char** words) {
+    return tandem::run_main("tandem-bench", [&] { return tandem::bench::run(count, words); });
+}

@@ -1,0 +1,40 @@
+/// tandem-bench parity: the same picture from everything that can render it, or not.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "backend_source.h"
+#include "tandem/film/film.h"
+#include "tandem/report/report.h"
+
+namespace tandem::bench {
+
+struct ParityOptions {
+    std::vector<std::string> scenes = {"named:paper", "named:mixed/10000", "named:spheres/1000000"};
+    std::vector<std::string> backends = {"cpu", "cuda", "oracle"};
+    FrameRange frames{0, 0};
+    Size size{1000, 900};
+    int samples = 4;
+    std::uint64_t seed = 0;
+};
+
+/// A way to render that must not change the picture.
+struct ParityVariant {
+    std::string label;
+    std::string backend;
+    BackendOptions options;
+};
+
+/// Of the CPU: 1, 2 and 7 threads, tiles of 8, 16 and 13 pixels, every instruction set of this machine; of the others
+/// one each.
+[[nodiscard]] std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backends,
+                                                         const std::vector<std::string>& instruction_sets);
+
+/// Renders and compares; fills `report`. True if all films of backends that promise bits are equal. The others (the
+/// oracle) are compared by tolerance and only reported.
+[[nodiscard]] bool run_parity(const ParityOptions& options, const BackendSource& source, Report& report);
+
+}  // namespace tandem::bench

@@ -1,0 +1,60 @@
+#include "pictures.h"
+
+#include "tandem/film/image_io.h"
+#include "tandem/version/version.h"
+
+namespace tandem::bench {
+
+namespace {
+
+/// Each pixel the mean of step * step; what is left over at the right and below is cut off.
+FloatImage shrunk(const FloatImage& image, int step) {
+    FloatImage small{image.width / step, image.height / step, {}};
+    small.pixels.reserve(pixel_count(small));
+    for (int y = 0; y < small.height; ++y) {
+        for (int x = 0; x < small.width; ++x) {
+            Vec3d sum{0, 0, 0};
+            for (int i = 0; i < step * step; ++i) {
+                const int at = (y * step + i / step) * image.width + x * step + i % step;
+                sum = sum + widen(image.pixels[static_cast<std::size_t>(at)]);
+            }
+            small.pixels.push_back(narrow(sum / static_cast<double>(step * step)));
+        }
+    }
+    return small;
+}
+
+}  // namespace
+
+ImageMetadata describe_picture(const RenderJob& job, const std::string& backend) {
+    ImageMetadata metadata;
+    metadata.frame = job.frame;
+    metadata.width = job.width;
+    metadata.height = job.height;
+    metadata.samples = job.samples;
+    metadata.seed = job.seed;
+    metadata.tier = to_string(job.tier);
+    metadata.backend = backend;
+    metadata.version = version();
+    return metadata;
+}
+
+void write_picture(const std::string& path, const Film& film, const ImageMetadata& metadata) {
+    write_image(path, film, metadata, {.ppm_text = true, .durability = Durability::written});
+}
+
+Film film_of(std::span<const float> rgb, int width, int height) {
+    Film film(width, height, 1);
+    for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+        film.sums()[i] = widen(Vec3f{rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]});
+    }
+    return film;
+}
+
+Picture small_picture(const Film& film, int most_width, const std::string& caption) {
+    const FloatImage image = shrunk(film_to_image(film), (film.width() + most_width - 1) / most_width);
+    const EncodedImage png = encode_image(image, ImageFormat::png, {}, {.png_level = 9});
+    return {caption, {reinterpret_cast<const char*>(png.bytes.data()), png.bytes.size()}};
+}
+
+}  // namespace tandem::bench

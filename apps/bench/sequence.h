@@ -1,0 +1,51 @@
+/// A whole animation as a production renders it: frames in flight on the backend, files written by other threads.
+#pragma once
+
+#include <string>
+
+#include "arguments.h"
+#include "tandem/render/backend.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::bench {
+
+/// Share of the wall-clock time that rendering ought to have.
+inline constexpr double least_render_share = 0.8;
+
+enum class SequenceOutput {
+    none,      ///< films are let go
+    png,       ///< one file per frame, by the encoding threads
+    ppm_text,  ///< P3, the same way
+};
+
+struct SequenceOptions {
+    FrameRange frames;
+    SequenceOutput output = SequenceOutput::none;
+    std::string folder;  ///< for the files, which must exist; frame-0007.png
+    int encoders = 0;    ///< encoding threads; 0 means one less than the cores, at least one
+    int in_flight = 3;   ///< frames submitted and not yet taken
+};
+
+/// Seconds. Sums over frames, except for `wall`.
+struct SequenceTimes {
+    int frames = 0;
+    int encoders = 0;
+    double wall = 0;    ///< from before the first frame to after the last file
+    double render = 0;  ///< kernel time
+    double download = 0;
+    double host = 0;     ///< prepare and load, on the thread that drives the backend
+    double encode = 0;   ///< over all encoding threads
+    double blocked = 0;  ///< the driving thread waited for an encoder
+
+    /// Share of the wall-clock time in which the backend rendered.
+    [[nodiscard]] double render_share() const { return wall > 0 ? render / wall : 0; }
+};
+
+/// `job.frame` is set from the options. Errors of the encoding threads are thrown here.
+[[nodiscard]] SequenceTimes render_sequence(Backend& backend, const Scene& scene, const RenderJob& job,
+                                            const SequenceOptions& options);
+
+/// What keeps the backend from rendering all the time, in a sentence with the figures.
+[[nodiscard]] std::string what_holds_it_back(const SequenceTimes& times);
+
+}  // namespace tandem::bench

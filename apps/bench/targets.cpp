@@ -1,0 +1,306 @@
+#include "targets.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "baseline/naive_renderer.h"
+#include "frame_timing.h"
+#include "output.h"
+#include "sequence.h"
+#include "tandem/error/error.h"
+#include "tandem/render/seconds.h"
+#include "tandem/report/format_number.h"
+#include "tandem/scene/load_scene.h"
+#include "versus.h"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr const char* million_spheres = "named:spheres/1000000";
+
+/// What a target needs and how it is measured.
+struct Target {
+    TargetResult description;
+    bool needs_gpu = false;
+    std::function<void(class TargetRun&, TargetResult&)> measure;
+};
+
+class TargetRun {
+  public:
+    TargetRun(const TargetOptions& options, const BackendSource& source, Report& report)
+        : options_(options), source_(source), report_(report), paper_(load_scene("named:paper")) {}
+
+    /// Sample rate of the kernel over that of the naive kernel.
+    void gpu_kernel(TargetResult& result) {
+        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+        const RenderJob job = paper_job();
+        compare(
+            result, "paper's kernel on the GPU", [&] { return naive_gpu_render(naive_job(), buffer().data()).kernel; },
+            "Tandem GPU, kernel", [&] { return render_timed(*gpu, paper_, job).stats.seconds.render; });
+    }
+
+    /// Sample rate of our CPU renderer over that of a build of the naive one, on the same number of threads.
+    void cpu_against(TargetResult& result, const NaiveBuild& build, int threads) {
+        const std::unique_ptr<Backend> cpu = make("cpu", threads);
+        const RenderJob job = paper_job();
+        compare(
+            result, fmt::format("naive loops, {}, {} threads", build.flags, threads),
+            [&] {
+                const Stopwatch watch;
+                naive_render(build, naive_job(), threads, buffer().data());
+                return watch.seconds();
+            },
+            fmt::format("Tandem CPU, {} threads", threads),
+            [&] { return render_timed(*cpu, paper_, job).stats.seconds.render; });
+    }
+
+    /// Our rays per second over raw Embree's.
+    void cpu_rays(TargetResult& result, RaySet set) {
+        const RayTiming timing = time_rays(ray_options(set), {"cpu"}, source_, report_);
+        add_rows(timing.rows);
+        finish(result, ratio_of_medians(timing.rows[1].seconds, timing.rows[0].seconds));
+    }
+
+    /// Our rays per second on the GPU.
+    void gpu_rays(TargetResult& result, RaySet set) {
+        const RayTiming timing = time_rays(ray_options(set), {"cuda"}, source_, report_);
+        add_rows(timing.rows);
+        result.measured = rays_per_second(timing.rows[0]);
+        result.shown =
+            format_count(result.measured) + " rays/s, trace " + format_summary(summarize(timing.rows[0].seconds));
+        result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    /// Share of the animation's wall-clock time that is kernel time.
+    void render_share(TargetResult& result) {
+        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+        std::filesystem::create_directories(options_.folder);
+        const auto run = [&](SequenceOutput output) {
+            return render_sequence(*gpu, paper_, paper_job(), {options_.frames, output, options_.folder, 0, 3});
+        };
+        (void)run(SequenceOutput::none);  // warms up
+        const SequenceTimes png = run(SequenceOutput::png);
+        const SequenceTimes text = run(SequenceOutput::ppm_text);
+        for (std::int32_t frame = options_.frames.first; frame <= options_.frames.last; ++frame) {
+            std::filesystem::remove(fmt::format("{}/frame-{:04}.ppm", options_.folder, frame));
+        }
+        result.measured = png.render_share();
+        result.shown = format_share(result.measured);
+        result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
+        report_.blocks.emplace_back(Paragraph{"PNG files: " + what_holds_it_back(png)});
+        report_.blocks.emplace_back(Paragraph{"PPM text in their place: " + what_holds_it_back(text)});
+    }
+
+  private:
+    std::unique_ptr<Backend> make(const std::string& name, int threads) {
+        std::unique_ptr<Backend> backend = source_.make(name, {threads, 16, {}});
+        describe_backend(*backend, report_);
+        return backend;
+    }
+
+    RenderJob paper_job() const {
+        return {options_.size.width, options_.size.height, options_.samples, 0, 0, Tier::strict};
+    }
+    NaiveJob naive_job() const { return {options_.size.width, options_.size.height, options_.samples, 0, 0}; }
+    std::vector<float>& buffer() {
+        buffer_.resize(static_cast<std::size_t>(3 * sample_count(paper_job()) / options_.samples));
+        return buffer_;
+    }
+
+    VersusOptions ray_options(RaySet set) const {
+        VersusOptions versus;
+        versus.scene = million_spheres;
+        versus.rays = set;
+        versus.ray_edge = options_.ray_edge;
+        versus.repetitions = options_.repetitions;
+        return versus;
+    }
+
+    /// Times both in turns, after one round that does not count; the target is theirs over ours.
+    void compare(TargetResult& result, const std::string& their_name, const std::function<double()>& theirs,
+                 const std::string& our_name, const std::function<double()>& ours) {
+        BenchmarkRow rows[2];
+        const std::function<double()>* measures[2] = {&theirs, &ours};
+        rows[0].label = their_name;
+        rows[1].label = our_name;
+        (void)theirs();
+        (void)ours();
+        for (int round = 0; round < options_.repetitions; ++round) {
+            for (const std::size_t i : interleaved_order(2, static_cast<std::size_t>(round))) {
+                rows[i].seconds.push_back((*measures[i])());
+                rows[i].rounds.push_back(round);
+            }
+        }
+        for (BenchmarkRow& row : rows) {
+            row.scene = "named:paper";
+            row.samples = sample_count(paper_job());
+        }
+        add_rows({rows[0], rows[1]});
+        finish(result, ratio_of_medians(rows[0].seconds, rows[1].seconds));
+    }
+
+    void add_rows(const std::vector<BenchmarkRow>& rows) {
+        report_.rows.insert(report_.rows.end(), rows.begin(), rows.end());
+    }
+
+    static void finish(TargetResult& result, const Ratio& ratio) {
+        result.measured = ratio.value;
+        result.shown = format_ratio(ratio) + " times";
+        result.verdict = ratio.value >= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    const TargetOptions& options_;
+    const BackendSource& source_;
+    Report& report_;
+    Scene paper_;
+    std::vector<float> buffer_;
+};
+
+std::string command_of(const std::string& id) { return "tandem-bench targets --only " + id; }
+
+Target target(const std::string& id, const std::string& statement, double required, bool needs_gpu,
+              std::function<void(TargetRun&, TargetResult&)> measure) {
+    Target made;
+    made.description.id = id;
+    made.description.statement = statement;
+    made.description.required = required;
+    made.description.command = command_of(id);
+    made.needs_gpu = needs_gpu;
+    made.measure = std::move(measure);
+    return made;
+}
+
+/// Thread counts to ask about on a machine of `cores`: 1, 2, 16, as far as it has them.
+std::vector<int> thread_counts(int cores) {
+    std::vector<int> counts;
+    for (const int count : {1, 2, 16}) {
+        if (count <= cores) counts.push_back(count);
+    }
+    return counts;
+}
+
+std::vector<Target> all_targets(int cores) {
+    std::vector<Target> targets;
+    targets.push_back(
+        target("gpu-paper",
+               "Paper's scene, GPU, kernel time: at least 0.5 times the sample rate of the naive kernel, which "
+               "has the scene in its code",
+               0.5, true, [](TargetRun& run, TargetResult& result) { run.gpu_kernel(result); }));
+    for (const int threads : thread_counts(cores)) {
+        const char* plural = threads == 1 ? "" : "s";
+        targets.push_back(
+            target(fmt::format("cpu-paper-{}", threads),
+                   fmt::format("Paper's scene, CPU, {} thread{}: at least 0.5 times the naive loops with -O3", threads,
+                               plural),
+                   0.5, false,
+                   [threads](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o3, threads); }));
+    }
+    targets.push_back(target(
+        "cpu-paper-o0",
+        fmt::format("Paper's scene, CPU, a thread per core ({}): at least 4 times the naive loops with -O0", cores), 4,
+        false, [cores](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o0, cores); }));
+    targets.push_back(target("cpu-rays-coherent",
+                             "A million spheres, CPU, coherent rays: at least 0.8 times raw Embree", 0.8, false,
+                             [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::coherent); }));
+    targets.push_back(target("cpu-rays-random", "A million spheres, CPU, random rays: at least 0.5 times raw Embree",
+                             0.5, false, [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::random); }));
+    targets.push_back(target("gpu-rays-coherent", "A million spheres, GPU (H200), coherent rays: at least 4 G rays/s",
+                             4e9, true, [](TargetRun& run, TargetResult& r) { run.gpu_rays(r, RaySet::coherent); }));
+    targets.push_back(target("gpu-rays-random", "A million spheres, GPU (H200), random rays: at least 0.7 G rays/s",
+                             0.7e9, true, [](TargetRun& run, TargetResult& r) { run.gpu_rays(r, RaySet::random); }));
+    targets.push_back(target(
+        "gpu-share", "Paper's animation on the GPU with PNG files: at least 80 % of the wall-clock time is kernel time",
+        least_render_share, true, [](TargetRun& run, TargetResult& result) { run.render_share(result); }));
+    return targets;
+}
+
+const char* in_words(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::met:
+            return "met";
+        case Verdict::missed:
+            return "MISSED";
+        case Verdict::not_measured:
+            return "not measured";
+    }
+    return "";
+}
+
+void check_ids(const std::vector<std::string>& wanted, const std::vector<Target>& targets) {
+    std::vector<std::string> known;
+    for (const Target& one : targets) known.push_back(one.description.id);
+    for (const std::string& id : wanted) {
+        if (std::find(known.begin(), known.end(), id) == known.end()) {
+            throw InputError(fmt::format("--only: there is no target '{}' on this machine; there are {}", id,
+                                         fmt::join(known, ", ")));
+        }
+    }
+}
+
+int core_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+void report_results(const std::vector<TargetResult>& results, Report& report) {
+    Table table{"The measured value decides; brackets hold its 95 % interval",
+                {{"Target"}, {"What"}, {"Measured", true}, {"Verdict"}},
+                {}};
+    std::size_t missed = 0, met = 0;
+    for (const TargetResult& result : results) {
+        const bool measured = result.verdict != Verdict::not_measured;
+        table.rows.push_back(
+            {result.id, result.statement, measured ? result.shown : result.why_not, in_words(result.verdict)});
+        missed += result.verdict == Verdict::missed ? 1 : 0;
+        met += result.verdict == Verdict::met ? 1 : 0;
+        report.properties.emplace_back("target " + result.id, in_words(result.verdict));
+        if (measured) report.properties.emplace_back("measured " + result.id, fmt::format("{}", result.measured));
+        report.properties.emplace_back("required " + result.id, fmt::format("{}", result.required));
+        report.properties.emplace_back("command " + result.id, result.command);
+    }
+    report.blocks.emplace_back(std::move(table));
+    report.blocks.emplace_back(Callout{missed == 0 ? Callout::Kind::good : Callout::Kind::bad,
+                                       fmt::format("{} targets met, {} missed, {} cannot be measured on this machine.",
+                                                   met, missed, results.size() - met - missed)});
+}
+
+}  // namespace
+
+std::vector<TargetResult> list_targets(int cores) {
+    std::vector<TargetResult> results;
+    for (Target& one : all_targets(cores)) results.push_back(std::move(one.description));
+    return results;
+}
+
+bool run_targets(const TargetOptions& options, const BackendSource& source, Report& report) {
+    report.title = "Targets";
+    report.summary = fmt::format("What Tandem must reach, measured in one run: {} rounds that go forth and back.",
+                                 options.repetitions);
+    std::vector<Target> targets = all_targets(core_count());
+    check_ids(options.only, targets);
+    const std::string no_gpu = source.why_unavailable("cuda");
+    std::vector<TargetResult> results;
+    TargetRun run(options, source, report);
+    for (Target& one : targets) {
+        TargetResult& result = one.description;
+        if (!options.only.empty() &&
+            std::find(options.only.begin(), options.only.end(), result.id) == options.only.end()) {
+            continue;
+        }
+        if (one.needs_gpu && !no_gpu.empty()) {
+            result.why_not = "no GPU: " + no_gpu;
+        } else {
+            log_progress("targets: " + result.id);
+            one.measure(run, result);
+        }
+        results.push_back(std::move(result));
+    }
+    report_results(results, report);
+    return std::none_of(results.begin(), results.end(),
+                        [](const TargetResult& result) { return result.verdict == Verdict::missed; });
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,43 @@
+/// tandem-bench targets: is Tandem as fast as it must be? Everything is measured in this one run, on this machine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arguments.h"
+#include "backend_source.h"
+#include "tandem/report/report.h"
+
+namespace tandem::bench {
+
+struct TargetOptions {
+    std::vector<std::string> only;  ///< ids; empty means all
+    Size size{1000, 900};
+    int samples = 100;
+    FrameRange frames{0, 119};  ///< of the animation whose wall-clock time is measured
+    int ray_edge = 2048;
+    int repetitions = 7;
+    std::string folder = "out/targets";  ///< for the pictures of the animation
+};
+
+enum class Verdict { met, missed, not_measured };
+
+struct TargetResult {
+    std::string id;
+    std::string statement;
+    double required = 0;
+    double measured = 0;
+    std::string shown;  ///< the measured value with its interval, in words
+    Verdict verdict = Verdict::not_measured;
+    std::string why_not;  ///< for what is not measured
+    std::string command;  ///< that measures it alone
+};
+
+/// Ids and statements of all targets, for usage texts; with the thread counts of a machine of `cores` cores.
+[[nodiscard]] std::vector<TargetResult> list_targets(int cores);
+
+/// Measures and fills `report`. True if no target that could be measured is missed. Throws InputError for an id that
+/// there is not.
+[[nodiscard]] bool run_targets(const TargetOptions& options, const BackendSource& source, Report& report);
+
+}  // namespace tandem::bench

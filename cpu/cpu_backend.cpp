@@ -1,0 +1,215 @@
+#include "cpu/cpu_backend.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+#include <tbb/version.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "cpu/fp_environment.h"
+#include "cpu/instruction_sets.h"
+#include "tandem/error/error.h"
+#include "tandem/integrator/pixel_job.h"
+#include "tandem/render/ready_frame.h"
+#include "tandem/render/seconds.h"
+
+namespace tandem {
+
+namespace {
+
+/// Up to here a packet tries every primitive; beyond, it asks Embree (docs/performance.md has the crossing point).
+constexpr std::size_t loop_limit = 12;
+
+/// Owns an Embree handle.
+template <class Handle, void (*release)(Handle)>
+class EmbreeHandle {
+  public:
+    explicit EmbreeHandle(Handle handle = nullptr) : handle_(handle) {}
+    EmbreeHandle(EmbreeHandle&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+    EmbreeHandle& operator=(EmbreeHandle&& other) noexcept {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~EmbreeHandle() {
+        if (handle_ != nullptr) release(handle_);
+    }
+    Handle get() const { return handle_; }
+
+  private:
+    Handle handle_;
+};
+using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
+using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
+using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
+
+/// Throws what Embree last reported on this thread.
+void check_embree(RTCDevice device, const char* doing) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw EnvironmentError(fmt::format("out of memory while {}", doing));
+    throw std::runtime_error(fmt::format("Embree failed while {} (error {})", doing, static_cast<int>(error)));
+}
+
+class CpuScene final : public ResidentScene {
+  public:
+    CpuScene(const PreparedScene& scene, RTCDevice device, const CpuKernels& kernels) : scene_(scene) {
+        const Stopwatch watch;
+        const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
+        view_ = {tandem::view(scene_), {}, nullptr};
+        if (count > loop_limit) build(device, kernels, count);
+        times_.build = watch.seconds();
+    }
+
+    [[nodiscard]] PhaseTimes load_times() const override { return times_; }
+    [[nodiscard]] const PreparedScene& prepared() const { return scene_; }
+    [[nodiscard]] const CpuSceneView& view() const { return view_; }
+
+  private:
+    void build(RTCDevice device, const CpuKernels& kernels, std::uint32_t count) {
+        const Aabb bounds = tbb::parallel_reduce(
+            tbb::blocked_range<std::uint32_t>(0, count, 4096), Aabb{},
+            [&](const tbb::blocked_range<std::uint32_t>& range, Aabb box) {
+                for (std::uint32_t id = range.begin(); id < range.end(); ++id) {
+                    box = merge(box, primitive_bounds(view_.scene, id));
+                }
+                return box;
+            },
+            [](const Aabb& a, const Aabb& b) { return merge(a, b); });
+        view_.frame = make_structure_frame(bounds);
+
+        embree_ = EmbreeScene(rtcNewScene(device));
+        const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+        check_embree(device, "making a scene");
+        rtcSetGeometryUserPrimitiveCount(geometry.get(), count);
+        rtcSetGeometryUserData(geometry.get(), &view_);
+        rtcSetGeometryBoundsFunction(geometry.get(), padded_bounds, nullptr);
+        rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometry(embree_.get(), geometry.get());
+        rtcCommitScene(embree_.get());
+        check_embree(device, "building the acceleration structure");
+        view_.embree = embree_.get();
+    }
+
+    static void padded_bounds(const RTCBoundsFunctionArguments* args) {
+        const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
+        const Aabb box = pad(primitive_bounds(view.scene, args->primID), view.frame.margin);
+        *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
+    }
+
+    PreparedScene scene_;
+    CpuSceneView view_;
+    EmbreeScene embree_;
+    PhaseTimes times_;
+};
+
+class CpuBackend final : public Backend {
+  public:
+    explicit CpuBackend(const BackendOptions& options)
+        : set_(choose_instruction_set(options.instruction_set)), tile_size_(checked_tile_size(options.tile_size)) {
+        const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+        if (options.threads < 0) throw InputError("the number of threads must be 0 (one per core) or more");
+        // more threads than cores are allowed: results must not depend on their number, and tests try it
+        parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                             static_cast<std::size_t>(threads));
+        arena_.initialize(threads);
+        // TBB starts here, before Embree's first commit can arm flush-to-zero in its workers
+        arena_.execute([] { tbb::parallel_for(0, 64, [](int) { const DefaultFpEnvironment guard; }); });
+        device_ = EmbreeDevice(rtcNewDevice(nullptr));
+        if (device_.get() == nullptr) throw EnvironmentError("Embree cannot make a device on this machine");
+    }
+
+    [[nodiscard]] std::string name() const override { return "cpu"; }
+
+    [[nodiscard]] Capabilities capabilities() const override {
+        const auto version = rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_VERSION);
+        return {.device = fmt::format("{} threads, {}", arena_.max_concurrency(), set_.name),
+                .description = fmt::format("Embree {}.{}.{}, oneTBB {}.{}", version / 10000, version / 100 % 100,
+                                           version % 100, TBB_VERSION_MAJOR, TBB_VERSION_MINOR),
+                .exact = true};
+    }
+
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
+        std::shared_ptr<CpuScene> result;
+        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, device_.get(), set_.kernels()); });
+        return result;
+    }
+
+    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
+        if (rays.size() != hits.size()) throw InputError("trace: the numbers of rays and hits differ");
+        const CpuSceneView& view = dynamic_cast<const CpuScene&>(scene).view();
+        const Stopwatch watch;
+        arena_.execute([&] {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 1024), [&](const auto& range) {
+                const DefaultFpEnvironment guard;
+                set_.kernels().trace(view, rays.data() + range.begin(), hits.data() + range.begin(), range.size());
+            });
+        });
+        return watch.seconds();
+    }
+
+    [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
+                                                       const RenderJob& job) override {
+        check(job);
+        const auto& resident = dynamic_cast<const CpuScene&>(*scene);
+        const CpuKernels& kernels = set_.kernels();
+        const PixelJob pixel_job = make_pixel_job(resident.prepared(), job);
+        RenderResult result;
+        result.film = Film(job.width, job.height, job.samples);
+        Vec3d* sums = result.film.sums().data();
+        const auto tiles = [this](int size) { return (size + tile_size_ - 1) / tile_size_; };
+        const int columns = tiles(job.width);
+        std::atomic<std::uint64_t> invalid = 0;
+        const Stopwatch watch;
+        arena_.execute([&] {
+            tbb::parallel_for(0, columns * tiles(job.height), [&](int index) {
+                const DefaultFpEnvironment guard;
+                const Tile tile = tile_at(index % columns, index / columns, job);
+                invalid += kernels.render_tile(resident.view(), pixel_job, tile, sums);
+            });
+        });
+        result.stats.seconds.render = watch.seconds();
+        result.stats.counters.invalid_samples = invalid;
+        result.stats.rays = static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
+        result.stats.variant = fmt::format("{}, {}", set_.name, resident.view().embree != nullptr ? "embree" : "loop");
+        return std::make_unique<ReadyFrame>(std::move(result));
+    }
+
+  private:
+    Tile tile_at(int column, int row, const RenderJob& job) const {
+        const auto first = [this](int index) { return static_cast<std::uint32_t>(index * tile_size_); };
+        const auto end = [this](int index, int limit) {
+            return static_cast<std::uint32_t>(std::min((index + 1) * tile_size_, limit));
+        };
+        return {first(column), end(column, job.width), first(row), end(row, job.height)};
+    }
+
+    static int checked_tile_size(int size) {
+        if (size < 1 || size > 4096) throw InputError(fmt::format("a tile of {} pixels; take 1 to 4096", size));
+        return size;
+    }
+
+    const InstructionSet& set_;
+    int tile_size_;
+    std::unique_ptr<tbb::global_control> parallelism_;
+    mutable tbb::task_arena arena_;
+    EmbreeDevice device_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cpu_backend(const BackendOptions& options) {
+    return std::make_unique<CpuBackend>(options);
+}
+
+std::string why_cpu_unavailable() {
+    return instruction_sets().front().is_supported() ? "" : "this processor lacks SSE4.2 (x86-64-v2)";
+}
+
+}  // namespace tandem

@@ -1,0 +1,15 @@
+/// The CPU backend: Embree and TBB.
+#pragma once
+
+#include <memory>
+
+#include "tandem/render/backend.h"
+
+namespace tandem {
+
+[[nodiscard]] std::unique_ptr<Backend> make_cpu_backend(const BackendOptions& options);
+
+/// Empty if this processor can run it.
+[[nodiscard]] std::string why_cpu_unavailable();
+
+}  // namespace tandem

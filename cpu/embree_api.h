@@ -1,0 +1,81 @@
+/// Embree 3.13 and Embree 4 behind one set of names. The only include of Embree in the library.
+#pragma once
+
+#if TANDEM_EMBREE_MAJOR == 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace tandem::embree {
+
+#if TANDEM_EMBREE_MAJOR == 4
+using QueryContext = RTCRayQueryContext;
+#else
+using QueryContext = RTCIntersectContext;
+#endif
+
+/// Prepares the head of a context that extends QueryContext. `coherent`: the rays of a packet run alike.
+inline void init_context(QueryContext& context, bool coherent) {
+#if TANDEM_EMBREE_MAJOR == 4
+    rtcInitRayQueryContext(&context);
+    (void)coherent;
+#else
+    rtcInitIntersectContext(&context);
+    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+}
+
+#if TANDEM_EMBREE_MAJOR == 4
+inline RTCIntersectArguments arguments(QueryContext& context, bool coherent) {
+    RTCIntersectArguments result;
+    rtcInitIntersectArguments(&result);
+    result.context = &context;
+    result.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    return result;
+}
+#endif
+
+inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
+#if TANDEM_EMBREE_MAJOR == 4
+    RTCIntersectArguments args = arguments(context, false);
+    rtcIntersect1(scene, &ray, &args);
+#else
+    rtcIntersect1(scene, &context, &ray);
+#endif
+}
+
+/// Packets of 4, 8 and 16 by the type of the ray. `valid`: -1 for lanes that take part, aligned as the packet.
+#if TANDEM_EMBREE_MAJOR == 4
+#define TANDEM_EMBREE_PACKET(n)                                                                         \
+    inline void intersect(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit##n& ray) { \
+        RTCIntersectArguments args = arguments(context, true);                                          \
+        rtcIntersect##n(valid, scene, &ray, &args);                                                     \
+    }
+#else
+#define TANDEM_EMBREE_PACKET(n)                                                                         \
+    inline void intersect(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit##n& ray) { \
+        rtcIntersect##n(valid, scene, &context, &ray);                                                  \
+    }
+#endif
+TANDEM_EMBREE_PACKET(4)
+TANDEM_EMBREE_PACKET(8)
+TANDEM_EMBREE_PACKET(16)
+#undef TANDEM_EMBREE_PACKET
+
+template <int lanes>
+struct Packet;
+template <>
+struct Packet<4> {
+    using RayHit = RTCRayHit4;
+};
+template <>
+struct Packet<8> {
+    using RayHit = RTCRayHit8;
+};
+template <>
+struct Packet<16> {
+    using RayHit = RTCRayHit16;
+};
+
+}  // namespace tandem::embree

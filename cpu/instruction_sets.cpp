@@ -1,0 +1,50 @@
+#include "cpu/instruction_sets.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "tandem/error/error.h"
+
+namespace tandem {
+
+namespace {
+
+bool has_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
+bool has_v3() {
+    return has_v2() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+}
+bool has_v4() {
+    return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+}
+
+constexpr std::array sets = {
+    InstructionSet{"x86-64-v2", has_v2, cpu_kernels_v2},
+    InstructionSet{"x86-64-v3", has_v3, cpu_kernels_v3},
+    InstructionSet{"x86-64-v4", has_v4, cpu_kernels_v4},
+};
+
+}  // namespace
+
+std::span<const InstructionSet> instruction_sets() { return sets; }
+
+const InstructionSet& choose_instruction_set(const std::string& name) {
+    const InstructionSet* best = nullptr;
+    for (const InstructionSet& set : sets) {
+        if (name == set.name && !set.is_supported()) {
+            throw EnvironmentError(fmt::format("this processor does not have the instruction set {}", name));
+        }
+        if (set.is_supported() && (name.empty() || name == set.name)) best = &set;
+    }
+    if (best != nullptr) return *best;
+    if (name.empty()) {
+        throw EnvironmentError(
+            "this processor lacks SSE4.2; the CPU backend needs x86-64-v2, which all have since 2009");
+    }
+    throw InputError(fmt::format("no instruction set is named '{}'; there are x86-64-v2, x86-64-v3, x86-64-v4", name));
+}
+
+}  // namespace tandem

@@ -1,0 +1,24 @@
+/// Which compiled kernels this processor can run.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cpu/kernels.h"
+
+namespace tandem {
+
+struct InstructionSet {
+    const char* name;
+    bool (*is_supported)();
+    const CpuKernels& (*kernels)();
+};
+
+/// From the least to the most capable.
+[[nodiscard]] std::span<const InstructionSet> instruction_sets();
+
+/// Empty name: the best of this machine. Throws InputError for an unknown name, EnvironmentError for a set that this
+/// processor lacks.
+[[nodiscard]] const InstructionSet& choose_instruction_set(const std::string& name);
+
+}  // namespace tandem

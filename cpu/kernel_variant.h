@@ -1,0 +1,94 @@
+/// The kernels for one instruction set. Included by kernels_v2.cpp, kernels_v3.cpp and kernels_v4.cpp, each compiled
+/// for its own.
+#pragma once
+
+#include "cpu/embree_tracer.h"
+#include "cpu/kernels.h"
+#include "tandem/math/lanes.h"
+
+namespace tandem {
+
+/// One pixel per lane, along rows.
+template <class Isa, class Tracer>
+std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                            Vec3d* sums) {
+    using Real = Lanes<float, Isa>;
+    using Word = Lanes<std::uint32_t, Isa>;
+    constexpr std::uint32_t width = Real::size;
+    std::uint64_t invalid = 0;
+    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+        for (std::uint32_t x = tile.x0; x < tile.x1; x += width) {
+            const std::uint32_t used = tile.x1 - x < width ? tile.x1 - x : width;
+            const Word lane = lane_index(Word(0U));
+            const PixelSum<Real> pixel =
+                render_pixel<Real>(tracer, scene, job, Word(x) + lane, Word(y), lane < Word(used));
+            Vec3d* row = sums + static_cast<std::size_t>(y) * job.width + x;
+            for (std::uint32_t i = 0; i < used; ++i) {
+                const int l = static_cast<int>(i);
+                row[i] = {pixel.sum.x[l], pixel.sum.y[l], pixel.sum.z[l]};
+                invalid += pixel.invalid[l];
+            }
+        }
+    }
+    return invalid;
+}
+
+template <class Isa>
+std::uint64_t render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
+    if (view.embree != nullptr) return render_pixels<Isa>(EmbreeTracer{view}, view.scene, job, tile, sums);
+    return render_pixels<Isa>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+}
+
+/// Do the rays run alike? Then a packet is faster than its rays one by one. One origin, and directions whose signs
+/// agree: true of camera rays, and cheap to see.
+template <class Isa>
+TANDEM_HD bool is_coherent(const Ray<Lanes<float, Isa>>& rays) {
+    using Real = Lanes<float, Isa>;
+    const auto same = [](const Real& a) { return a == Real(a[0]); };
+    const auto same_sign = [](const Real& a) { return select(LaneMask<Isa>(a[0] < 0.0F), a, -a) <= Real(0.0F); };
+    return all(same(rays.origin.x) && same(rays.origin.y) && same(rays.origin.z) && same_sign(rays.direction.x) &&
+               same_sign(rays.direction.y) && same_sign(rays.direction.z));
+}
+
+template <class Isa, class Tracer>
+void trace_rays(const Tracer& tracer, bool always_packets, const Ray<float>* rays, Hit* hits, std::size_t count) {
+    using Real = Lanes<float, Isa>;
+    constexpr std::size_t width = Real::size;
+    for (std::size_t first = 0; first < count; first += width) {
+        const std::size_t used = count - first < width ? count - first : width;
+        const auto load = [&](auto component) {
+            return Real::from([&](int lane) {
+                const std::size_t i = static_cast<std::size_t>(lane) < used ? static_cast<std::size_t>(lane) : 0;
+                return component(rays[first + i]);
+            });
+        };
+        const Ray<Real> packet = {
+            {load([](const Ray<float>& r) { return r.origin.x; }), load([](const Ray<float>& r) { return r.origin.y; }),
+             load([](const Ray<float>& r) { return r.origin.z; })},
+            {load([](const Ray<float>& r) { return r.direction.x; }),
+             load([](const Ray<float>& r) { return r.direction.y; }),
+             load([](const Ray<float>& r) { return r.direction.z; })}};
+        if (always_packets || is_coherent(packet)) {
+            const Closest<Real> closest = tracer.closest(packet, is_traceable(packet));
+            for (std::size_t i = 0; i < used; ++i) {
+                const int lane = static_cast<int>(i);
+                hits[first + i] = to_hit({closest.t[lane], closest.primitive[lane]});
+            }
+        } else {
+            for (std::size_t i = first; i < first + used; ++i) {
+                hits[i] = is_traceable(rays[i]) ? to_hit(tracer.closest(rays[i], true)) : Hit{};
+            }
+        }
+    }
+}
+
+template <class Isa>
+void trace(const CpuSceneView& view, const Ray<float>* rays, Hit* hits, std::size_t count) {
+    if (view.embree != nullptr) return trace_rays<Isa>(EmbreeTracer{view}, false, rays, hits, count);
+    trace_rays<Isa>(LoopTracer{view.scene}, true, rays, hits, count);
+}
+
+template <class Isa>
+inline constexpr CpuKernels cpu_kernels = {Isa::name, render_tile<Isa>, trace<Isa>, intersect_callback<Isa>};
+
+}  // namespace tandem

@@ -1,0 +1,40 @@
+/// The CPU's kernels, compiled once per instruction set, behind plain function pointers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "cpu/embree_api.h"
+#include "tandem/bvh/proposal.h"
+#include "tandem/geometry/hit.h"
+#include "tandem/integrator/pixel.h"
+#include "tandem/scene/scene_view.h"
+
+namespace tandem {
+
+/// A scene as the kernels read it. `embree` is null for a scene of few primitives, which are tried one by one.
+struct CpuSceneView {
+    SceneView scene;
+    StructureFrame frame;
+    RTCScene embree;
+};
+
+/// Pixels [x0, x1) x [y0, y1).
+struct Tile {
+    std::uint32_t x0, x1, y0, y1;
+};
+
+struct CpuKernels {
+    const char* instruction_set;
+    /// Writes the sums of the tile's pixels into the film (rows of job.width); returns how many samples were invalid.
+    std::uint64_t (*render_tile)(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
+    void (*trace)(const CpuSceneView& scene, const Ray<float>* rays, Hit* hits, std::size_t count);
+    /// Embree's callback for primitives. The geometry's user pointer is a CpuSceneView.
+    RTCIntersectFunctionN intersect;
+};
+
+const CpuKernels& cpu_kernels_v2();
+const CpuKernels& cpu_kernels_v3();
+const CpuKernels& cpu_kernels_v4();
+
+}  // namespace tandem

@@ -1,0 +1,77 @@
+/// How an acceleration structure is asked. A structure only proposes candidates; the primitive tests decide, on the
+/// true ray. So that it never loses one, its boxes are padded, and the ray that it is given is brought to where float
+/// arithmetic serves it: near the scene, with a unit direction.
+///
+/// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
+/// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
+/// origin adds 2 u S and rounding the direction 3 u S along a path of length 2 S. Boxes are padded by 32 u S.
+/// Held by tests/agree/structure_test.cpp.
+#pragma once
+
+#include "tandem/geometry/box.h"
+
+namespace tandem {
+
+/// Where a structure over a scene is valid: its bounds, and by how much boxes in it are padded.
+struct StructureFrame {
+    Aabb bounds;   ///< of all primitives, padded
+    float margin;  ///< padding of each box, metres
+};
+
+/// `scene_bounds`: merged bounds of all primitives, not padded.
+TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
+    // the floor keeps the margin a normal number, which flush-to-zero inside Embree does not eat
+    const float margin = 32.0F * float_roundoff * reach(scene_bounds) + 1e-30F;
+    return {pad(scene_bounds, 2.0F * margin), margin};
+}
+
+/// The ray for the structure: parameter s = (t - t_offset) * length along a unit direction.
+template <class Real>
+struct Proposal {
+    Ray<Real> ray;
+    Real length;
+    Double<Real> t_offset;
+    Mask<Real> active;  ///< lanes whose ray can touch the bounds at all
+
+    /// A float not below the parameter of true parameter t: where the structure may stop.
+    TANDEM_HD Real limit(const Double<Real>& t) const {
+        const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
+        const Double<Real> most(3e38);
+        return narrow(select(s < most, s, most));
+    }
+};
+
+/// Needs traceable rays in the lanes of `active` (is_traceable()).
+template <class Real>
+TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
+    using D = Double<Real>;
+    const Real x = absolute(ray.direction.x), y = absolute(ray.direction.y), z = absolute(ray.direction.z);
+    const Real largest = select(active, greater(greater(x, y), z), Real(1.0F));
+    const Vec3<Real> scaled = {ray.direction.x / largest, ray.direction.y / largest, ray.direction.z / largest};
+    const Real scaled_length = square_root(dot(scaled, scaled));
+    const Real inverse_length = Real(1.0F) / scaled_length;
+    Proposal<Real> proposal;
+    proposal.ray.direction = {scaled.x * inverse_length, scaled.y * inverse_length, scaled.z * inverse_length};
+    proposal.length = largest * scaled_length;
+    proposal.ray.origin = ray.origin;
+    proposal.t_offset = D(0.0);
+    proposal.active = active;
+    const Real limit(reach(frame.bounds));
+    const Mask<Real> outside =
+        active && (absolute(ray.origin.x) > limit || absolute(ray.origin.y) > limit || absolute(ray.origin.z) > limit);
+    if (any(outside)) {
+        const Crossing<Real> c = cross_box(Box{frame.bounds.lower, frame.bounds.upper}, ray);
+        const D zero(0.0);
+        proposal.active = active && (!outside || (c.crosses && c.t_far > zero));
+        const Mask<Real> move = outside && proposal.active && c.t_near > zero;
+        proposal.t_offset = select(move, c.t_near, zero);
+        const Vec3<D> o = widen(ray.origin);
+        const Vec3<D> d = widen(ray.direction);
+        const D& t = proposal.t_offset;
+        const Vec3<Real> moved = narrow(Vec3<D>{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z});
+        proposal.ray.origin = select(move, moved, ray.origin);
+    }
+    return proposal;
+}
+
+}  // namespace tandem

@@ -1,0 +1,18 @@
+/// From a RenderJob to what kernels read.
+#pragma once
+
+#include "tandem/integrator/pixel.h"
+#include "tandem/render/render_job.h"
+#include "tandem/scene/prepared_scene.h"
+
+namespace tandem {
+
+[[nodiscard]] inline PixelJob make_pixel_job(const PreparedScene& scene, const RenderJob& job) {
+    return {.camera = camera_view(scene, job.width, job.height),
+            .seed = job.seed,
+            .frame = job.frame,
+            .samples = static_cast<std::uint32_t>(job.samples),
+            .width = static_cast<std::uint32_t>(job.width)};
+}
+
+}  // namespace tandem

@@ -1,0 +1,88 @@
+#include "tandem/oracle/oracle_geometry.h"
+
+#include <cmath>
+#include <utility>
+
+namespace tandem::oracle {
+
+Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
+
+std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line) {
+    // go to the foot of the perpendicular from the centre, then half a chord back or forth
+    const Real speed = std::sqrt(inner(line.direction, line.direction));
+    const Vector along = line.direction * (1 / speed);
+    const Vector from_centre = line.origin - centre;
+    const Real to_foot = -inner(from_centre, along);
+    const Vector foot = from_centre + along * to_foot;
+    const Real height2 = radius * radius - inner(foot, foot);
+    if (!(height2 >= 0)) return std::nullopt;
+    const Real half_chord = std::sqrt(height2);
+    // the root that does not cancel, and the other by the power of the point
+    const Real far_root = to_foot >= 0 ? to_foot + half_chord : to_foot - half_chord;
+    const Real distance = std::sqrt(inner(from_centre, from_centre));
+    const Real power = (distance - radius) * (distance + radius);
+    const Real other = far_root == 0 ? 0 : power / far_root;
+    const Real entry = std::min(far_root, other);
+    const Real exit = std::max(far_root, other);
+    const Real s = entry > 0 ? entry : exit;
+    if (!(s > 0)) return std::nullopt;
+    return SurfaceHit{s / speed, unit(from_centre + along * s)};
+}
+
+std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line) {
+    Real entry = -HUGE_VALL;
+    Real exit = HUGE_VALL;
+    Vector entry_normal{0, 0, 0};
+    Vector exit_normal{0, 0, 0};
+    const auto clip = [&](Real lo, Real hi, Real o, Real d, const Vector& axis) {
+        if (d == 0) return lo <= o && o <= hi;
+        Real first = (lo - o) / d;
+        Real last = (hi - o) / d;
+        if (d < 0) std::swap(first, last);
+        const Vector forward = axis * (d < 0 ? -1 : 1);
+        if (first > entry) {
+            entry = first;
+            entry_normal = forward * -1;
+        }
+        if (last < exit) {
+            exit = last;
+            exit_normal = forward;
+        }
+        return true;
+    };
+    const bool crosses = clip(lower.x, upper.x, line.origin.x, line.direction.x, {1, 0, 0}) &&
+                         clip(lower.y, upper.y, line.origin.y, line.direction.y, {0, 1, 0}) &&
+                         clip(lower.z, upper.z, line.origin.z, line.direction.z, {0, 0, 1}) && entry <= exit;
+    if (!crosses) return std::nullopt;
+    if (entry > 0) return SurfaceHit{entry, entry_normal};
+    if (exit > 0) return SurfaceHit{exit, exit_normal};
+    return std::nullopt;
+}
+
+std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line) {
+    const Vector rows[3] = {to_vector(placement.object_from_world.row[0]),
+                            to_vector(placement.object_from_world.row[1]),
+                            to_vector(placement.object_from_world.row[2])};
+    const auto to_object = [&](const Vector& v) {
+        return Vector{inner(rows[0], v), inner(rows[1], v), inner(rows[2], v)};
+    };
+    const Line local = {to_object(line.origin - to_vector(placement.centre)), to_object(line.direction)};
+    std::optional<SurfaceHit> hit = is_box ? hit_box({-1, -1, -1}, {1, 1, 1}, local) : hit_sphere({0, 0, 0}, 1, local);
+    if (hit) {
+        const Vector n = hit->normal;
+        hit->normal = unit(rows[0] * n.x + rows[1] * n.y + rows[2] * n.z);
+    }
+    return hit;
+}
+
+std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line) {
+    std::optional<SurfaceHit> hit;
+    visit_primitive(
+        scene, id, [&](const Sphere& s) { hit = hit_sphere(to_vector(s.centre), s.radius, line); },
+        [&](const Box& b) { hit = hit_box(to_vector(b.lower), to_vector(b.upper), line); },
+        [&](const Placement& p) { hit = hit_placed(p, false, line); },
+        [&](const Placement& p) { hit = hit_placed(p, true, line); });
+    return hit;
+}
+
+}  // namespace tandem::oracle

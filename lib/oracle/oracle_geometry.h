@@ -1,0 +1,41 @@
+/// The oracle's own intersections and normals, in x87 extended precision (64-bit significand).
+#pragma once
+
+#include <optional>
+
+#include "tandem/scene/scene_view.h"
+
+namespace tandem::oracle {
+
+using Real = long double;
+
+struct Vector {
+    Real x, y, z;
+};
+
+inline Vector to_vector(const Vec3f& v) { return {v.x, v.y, v.z}; }
+inline Vector to_vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
+inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vector operator*(const Vector& a, Real s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Real inner(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+[[nodiscard]] Vector unit(const Vector& a);
+
+struct Line {
+    Vector origin, direction;
+};
+
+/// What lies at the nearest crossing in front of the origin.
+struct SurfaceHit {
+    Real t;
+    Vector normal;  ///< unit, outward
+};
+
+[[nodiscard]] std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line);
+[[nodiscard]] std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line);
+/// `is_box`: the cube [-1, 1]^3 under the placement, else the unit sphere.
+[[nodiscard]] std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line);
+/// Any primitive of a scene.
+[[nodiscard]] std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line);
+
+}  // namespace tandem::oracle

@@ -1,0 +1,15 @@
+/// The rows of a report as a spreadsheet reads them.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "tandem/report/row.h"
+
+namespace tandem {
+
+/// A header line and one line per row, seconds as medians; phases have a column each, named "phase_seconds".
+/// Quoted as in RFC 4180.
+[[nodiscard]] std::string to_csv(std::span<const BenchmarkRow> rows);
+
+}  // namespace tandem

@@ -1,0 +1,42 @@
+/// What a measurement ran on: a time without its machine means nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tandem {
+
+struct Machine {
+    std::string processor;                      ///< model name
+    int cores = 0;                              ///< logical cores that this process may run on
+    std::optional<double> core_quota;           ///< cores' worth of time that a container allows, if it limits it
+    std::vector<std::string> instruction_sets;  ///< "x86-64-v2", "x86-64-v3", "x86-64-v4": those it has
+    std::uint64_t memory_bytes = 0;
+    std::string system;  ///< distribution and kernel
+    std::string compiler;
+    std::string flags;             ///< of the host code outside the CPU kernels
+    std::string commit;            ///< of the source; "unknown" outside a git checkout
+    std::array<double, 3> load{};  ///< load average of the last 1, 5, 15 minutes when the program asked
+    std::vector<std::pair<std::string, std::string>> more;  ///< devices and libraries, added by the caller
+};
+
+[[nodiscard]] Machine describe_machine();
+
+/// Name and value, in the order of a page.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> facts(const Machine& machine);
+
+/// "x86-64-v2", "-v3" and "-v4" as far as processor and system support them.
+[[nodiscard]] std::vector<std::string> supported_instruction_sets();
+
+/// First value of `key` in a text of lines "key : value" (/proc/cpuinfo, /proc/meminfo); empty if it is not there.
+[[nodiscard]] std::string value_of(std::istream& text, const std::string& key);
+
+/// Cores' worth of time from the text of a cgroup's cpu.max ("400000 100000" is 4); none if it sets no limit.
+[[nodiscard]] std::optional<double> parse_core_quota(const std::string& text);
+
+}  // namespace tandem

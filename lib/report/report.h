@@ -1,0 +1,68 @@
+/// A report as a list of blocks: written once, shown as text, JSON, CSV and a page.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tandem/report/machine.h"
+#include "tandem/report/plot.h"
+#include "tandem/report/row.h"
+
+namespace tandem {
+
+struct Heading {
+    std::string text;
+};
+
+struct Paragraph {
+    std::string text;
+};
+
+/// A command line, kept as it was typed.
+struct Command {
+    std::string text;
+};
+
+/// A sentence that must not be overlooked.
+struct Callout {
+    enum class Kind { good, bad, note };
+    Kind kind = Kind::note;
+    std::string text;
+};
+
+struct Table {
+    struct Column {
+        std::string name;
+        bool numeric = false;  ///< aligned to the right
+    };
+    std::string caption;
+    std::vector<Column> columns;
+    std::vector<std::vector<std::string>> rows;
+};
+
+/// A picture as the bytes of a PNG file.
+struct Picture {
+    std::string caption;
+    std::string png;
+};
+
+struct PictureGrid {
+    std::vector<Picture> pictures;
+};
+
+using Block = std::variant<Heading, Paragraph, Command, Callout, Table, LinePlot, BarPlot, PictureGrid>;
+
+struct Report {
+    std::string title;
+    std::string summary;  ///< what the page shows, in a sentence or two
+    std::string command;  ///< the command line that made it
+    Machine machine;
+    std::vector<Block> blocks;
+    std::vector<BenchmarkRow> rows;  ///< every measurement, for machines and for who wants to check
+    /// Figures that are not times: hashes, verdicts, thread counts. Name and value, for the JSON file.
+    std::vector<std::pair<std::string, std::string>> properties;
+};
+
+}  // namespace tandem

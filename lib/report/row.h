@@ -1,0 +1,62 @@
+/// One row of a benchmark: one thing, measured several times, with everything that is needed to read the number.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tandem/report/statistics.h"
+
+namespace tandem {
+
+/// Seconds of one phase of the work, one value per measurement of the row.
+struct PhaseTimings {
+    std::string name;  ///< "render", "download", ...
+    std::vector<double> seconds;
+};
+
+/// Share of pixels (or rays) that differ from a reference by more than a tolerance.
+struct ErrorFigure {
+    std::string against;    ///< "oracle", "cpu", ...
+    std::string tolerance;  ///< in words: "any bit", "5 %"
+    double share = 0;
+};
+
+/// How many times faster than another row of the same report.
+struct Factor {
+    std::string over;  ///< label of the other row
+    Ratio ratio;       ///< its time over ours, above 1 when we are faster
+};
+
+struct BenchmarkRow {
+    std::string label;
+    std::string scene;
+    std::string backend;
+    std::string variant;  ///< which compiled code ran
+    std::string tier;     ///< empty for what is not Tandem
+    int threads = 0;      ///< 0 where it does not apply
+
+    std::vector<double> seconds;       ///< the time that the row is about, one value per measurement
+    std::vector<std::int32_t> rounds;  ///< the round (frame) of each measurement
+    std::vector<PhaseTimings> phases;  ///< what it is made of, and what was kept out of it (build, upload)
+    double samples = 0;                ///< pixel samples per measurement; 0 where it does not apply
+    double rays = 0;                   ///< rays per measurement; 0 if not known
+    std::optional<Factor> factor;
+    std::vector<ErrorFigure> errors;
+    int registers = 0;     ///< of the kernel; 0 if not known
+    double occupancy = 0;  ///< 0 if not known
+    std::string note;
+};
+
+/// By the median time; 0 if the row has no samples or was not measured.
+[[nodiscard]] double samples_per_second(const BenchmarkRow& row);
+[[nodiscard]] double rays_per_second(const BenchmarkRow& row);
+
+/// The factor of `row` over `baseline`, from the rounds that both were measured in; none if there are none.
+[[nodiscard]] std::optional<Factor> factor_over(const BenchmarkRow& baseline, const BenchmarkRow& row);
+
+/// The timings of the phase, made if the row does not have it.
+[[nodiscard]] PhaseTimings& phase(BenchmarkRow& row, const std::string& name);
+
+}  // namespace tandem

@@ -1,0 +1,58 @@
+/// Statistics of repeated timings: robust centre and spread, and how sure a ratio of two of them is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tandem {
+
+/// Middle value; mean of the two middle ones for an even count. Needs at least one value.
+[[nodiscard]] double median(std::span<const double> values);
+
+/// Median of the distances to the median, not scaled: half of the values lie within it.
+[[nodiscard]] double median_absolute_deviation(std::span<const double> values);
+
+/// What a table says about repeated measurements of one thing. All zero if there are none.
+struct Summary {
+    std::size_t count = 0;
+    double median = 0;
+    double deviation = 0;  ///< median absolute deviation
+    double least = 0;
+    double most = 0;
+};
+
+[[nodiscard]] Summary summarize(std::span<const double> values);
+
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+/// A ratio of two medians.
+struct Ratio {
+    double value = 0;
+    std::optional<Interval> interval;  ///< none with fewer than three pairs: they cannot carry one
+    std::size_t pairs = 0;
+};
+
+struct BootstrapOptions {
+    int resamples = 4000;
+    double confidence = 0.95;
+    std::uint32_t seed = 1;  ///< the same seed gives the same interval, on every machine
+};
+
+/// median(numerator) / median(denominator). Value i of both was measured in the same round, so whole rounds are drawn
+/// again: what slows both (clocks, other load) does not widen the interval. Percentile bootstrap; with fewer than
+/// about ten rounds it covers somewhat less than it says. Sizes must be equal and not zero, values positive.
+/// Source: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, ch. 13.
+[[nodiscard]] Ratio ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
+                                     const BootstrapOptions& options = {});
+
+/// In which order a round measures `variants` things: first to last, in the next round last to first (A B, B A), so
+/// that a drift of the machine falls on all alike.
+[[nodiscard]] std::vector<std::size_t> interleaved_order(std::size_t variants, std::size_t round);
+
+}  // namespace tandem
