@@ -22,7 +22,7 @@ target_compile_options(
 )
 if(TANDEM_SANITIZE)
   target_compile_options(
-    tandem_diagnostics INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TANDEM_SANITIZE};-fno-sanitize-recover=all;-g>
+    tandem_diagnostics INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TANDEM_SANITIZE};-fno-sanitize-recover=all;-g1>
   )
   target_link_options(tandem_diagnostics INTERFACE -fsanitize=${TANDEM_SANITIZE})
 endif()

@@ -61,7 +61,6 @@ struct EmbreeTracer {
     [[nodiscard]] TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool) const {
         QueryContext<float> query;
         query.best = no_hit<float>();
-        if (!is_traceable(ray)) return query.best;
         query.proposal = propose(ray, view.frame, true);
         if (!query.proposal.active) return query.best;
         query.filter = make_filter_ray(ray);
@@ -77,12 +76,10 @@ struct EmbreeTracer {
 
     template <class Isa>
     [[nodiscard]] TANDEM_HD Closest<Lanes<float, Isa>> closest(const Ray<Lanes<float, Isa>>& ray,
-                                                               const LaneMask<Isa>& lanes) const {
+                                                               const LaneMask<Isa>& active) const {
         using Real = Lanes<float, Isa>;
         QueryContext<Real> query;
         query.best = no_hit<Real>();
-        const LaneMask<Isa> active = lanes && is_traceable(ray);
-        if (!any(active)) return query.best;
         query.proposal = propose(ray, view.frame, active);
         if (!any(query.proposal.active)) return query.best;
         query.filter = make_filter_ray(ray);

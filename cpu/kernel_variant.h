@@ -69,13 +69,15 @@ void trace_rays(const Tracer& tracer, bool always_packets, const Ray<float>* ray
              load([](const Ray<float>& r) { return r.direction.y; }),
              load([](const Ray<float>& r) { return r.direction.z; })}};
         if (always_packets || is_coherent(packet)) {
-            const Closest<Real> closest = tracer.closest(packet, LaneMask<Isa>(true));
+            const Closest<Real> closest = tracer.closest(packet, is_traceable(packet));
             for (std::size_t i = 0; i < used; ++i) {
                 const int lane = static_cast<int>(i);
                 hits[first + i] = to_hit({closest.t[lane], closest.primitive[lane]});
             }
         } else {
-            for (std::size_t i = first; i < first + used; ++i) hits[i] = to_hit(tracer.closest(rays[i], true));
+            for (std::size_t i = first; i < first + used; ++i) {
+                hits[i] = is_traceable(rays[i]) ? to_hit(tracer.closest(rays[i], true)) : Hit{};
+            }
         }
     }
 }

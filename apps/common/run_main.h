@@ -1,4 +1,4 @@
-/// The frame around the main() of every program: exceptions become one line and an exit status.
+/// The exit statuses of every program of ours.
 #pragma once
 
 #include <cstdio>
@@ -9,26 +9,27 @@
 
 namespace tandem {
 
-/// Runs `main`, a function without arguments that returns the exit status. InputError gives 2; EnvironmentError, and
-/// memory that ran out, 3; any other exception is a bug and gives 1. The message goes to standard error as
-/// "program: message".
-template <class Main>
-int run_main(const char* program, Main&& main) {
-    const auto say = [program](const char* message) { std::fprintf(stderr, "%s: %s\n", program, message); };
+/// 0 done; the others as the programs' usage says.
+enum ExitStatus : int { exit_done = 0, exit_short_of_target = 1, exit_bad_input = 2, exit_environment = 3 };
+
+/// Runs `body`, which returns an exit status, and turns its exceptions into one line on standard error,
+/// "PROGRAM: message", and a status: InputError 2, EnvironmentError and lack of memory 3, anything else 1.
+template <class Body>
+int run_main(const char* program, Body body) {
+    const auto report = [&](const char* message, int status) {
+        std::fprintf(stderr, "%s: %s\n", program, message);
+        return status;
+    };
     try {
-        return main();
+        return body();
     } catch (const InputError& error) {
-        say(error.what());
-        return 2;
+        return report(error.what(), exit_bad_input);
     } catch (const EnvironmentError& error) {
-        say(error.what());
-        return 3;
+        return report(error.what(), exit_environment);
     } catch (const std::bad_alloc&) {
-        say("out of memory; ask for a smaller film or scene");
-        return 3;
+        return report("the machine's memory does not suffice", exit_environment);
     } catch (const std::exception& error) {
-        say(error.what());
-        return 1;
+        return report(error.what(), exit_short_of_target);
     }
 }
 

@@ -15,7 +15,10 @@ struct Placement {
     Vec3d centre;               ///< world space, metres
     Sphere bounding_sphere;     ///< encloses the body; for the reject filter
     Vec3d half_extent;          ///< of its world-space bounding box, from the centre
+    double unused = 0;          ///< what alignment would leave undefined
 };
+static_assert(sizeof(Placement) == 72 + 24 + 16 + 24 + 8,
+              "no byte of a placement is undefined; scene_hash() reads all");
 
 TANDEM_HD Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
 
@@ -34,9 +37,9 @@ TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>&
 }
 
 template <class Real>
-TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
+TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray) {
     const ObjectRay<Real> local = to_object(placement, ray);
-    return cross_sphere<Real>(local.origin, local.direction, Double<Real>(1.0));
+    return sphere_roots<Real>(local.origin, local.direction, Double<Real>(1.0));
 }
 
 template <class Real>

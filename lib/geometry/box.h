@@ -7,10 +7,12 @@
 
 namespace tandem {
 
-/// Closed box [lower, upper], lower <= upper; world space, metres. Zero thickness is allowed.
-struct Box {
+/// Closed box [lower, upper], lower <= upper; world space, metres. Zero thickness is allowed. Aligned for wide loads;
+/// the padding is a member, so that equal boxes are equal bytes.
+struct alignas(16) Box {
     Vec3f lower;
     Vec3f upper;
+    float unused[2] = {0, 0};
 };
 
 TANDEM_HD Aabb bounds(const Box& box) { return {box.lower, box.upper}; }

@@ -19,6 +19,17 @@ namespace tandem {
 /// Allowed error in units of u times a length; 4 would do by the bound above, twice that is taken.
 inline constexpr float filter_margin = 8.0F * float_roundoff;
 
+template <class Real>
+TANDEM_HD Real loose_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+    return loose_multiply_add(a.z, b.z, loose_multiply_add(a.y, b.y, a.x * b.x));
+}
+
+template <class Real>
+TANDEM_HD Vec3<Real> loose_cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+    return {loose_multiply_add(a.y, b.z, -(a.z * b.y)), loose_multiply_add(a.z, b.x, -(a.x * b.z)),
+            loose_multiply_add(a.x, b.y, -(a.y * b.x))};
+}
+
 /// What the filters need of a ray, once for all primitives.
 template <class Real>
 struct FilterRay {
@@ -29,17 +40,17 @@ struct FilterRay {
 
 template <class Real>
 TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
-    return {ray, norm1(ray.origin), dot(ray.direction, ray.direction)};
+    return {ray, norm1(ray.origin), loose_dot(ray.direction, ray.direction)};
 }
 
 /// May the line of the ray touch the sphere? False only if it certainly does not.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
     const Vec3<Real> offset = f.ray.origin - broadcast<Real>(sphere_centre);
-    const Vec3<Real> moment = cross(offset, f.ray.direction);
-    const Real reach = Real(radius) + Real(filter_margin) * (norm1(offset) + f.origin_norm1);
-    const Real limit = f.direction_length2 * (reach * reach) * Real(1.0F + 16.0F * float_roundoff) + Real(1e-36F);
-    return !(dot(moment, moment) > limit);
+    const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
+    const Real reach = loose_multiply_add(Real(filter_margin), norm1(offset) + f.origin_norm1, Real(radius));
+    const Real limit = loose_multiply_add(f.direction_length2 * reach, reach, Real(1e-36F));
+    return !(loose_dot(moment, moment) > limit);
 }
 
 /// May the line of the ray touch the box? Separating axes of a line and a box: direction x each axis.
@@ -47,14 +58,17 @@ template <class Real>
 TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
     const Vec3f half = (upper - lower) * 0.5F;
     const Vec3<Real> offset = f.ray.origin - broadcast<Real>((lower + upper) * 0.5F);
-    const Vec3<Real> moment = cross(offset, f.ray.direction);
+    const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
     const Vec3<Real> d = {absolute(f.ray.direction.x), absolute(f.ray.direction.y), absolute(f.ray.direction.z)};
     const Real corner = Real(norm1(lower) + norm1(upper));
-    const Real slack =
-        Real(filter_margin) * (norm1(offset) + f.origin_norm1 + corner) * ((d.x + d.y) + d.z) + Real(1e-36F);
-    const Real limit_x = (Real(half.y) * d.z + Real(half.z) * d.y) + slack;
-    const Real limit_y = (Real(half.z) * d.x + Real(half.x) * d.z) + slack;
-    const Real limit_z = (Real(half.x) * d.y + Real(half.y) * d.x) + slack;
+    const Real slack = loose_multiply_add(Real(filter_margin) * (norm1(offset) + f.origin_norm1 + corner),
+                                          (d.x + d.y) + d.z, Real(1e-36F));
+    const auto limit = [&](float h0, const Real& d0, float h1, const Real& d1) {
+        return loose_multiply_add(Real(h0), d0, loose_multiply_add(Real(h1), d1, slack));
+    };
+    const Real limit_x = limit(half.y, d.z, half.z, d.y);
+    const Real limit_y = limit(half.z, d.x, half.x, d.z);
+    const Real limit_z = limit(half.x, d.y, half.y, d.x);
     return !(absolute(moment.x) > limit_x || absolute(moment.y) > limit_y || absolute(moment.z) > limit_z);
 }
 

@@ -7,13 +7,13 @@
 
 namespace tandem {
 
-/// Keeps the nearer of `best` and the crossing, in the lanes of `active`.
-template <class Real>
-TANDEM_HD void offer(const Crossing<Real>& crossing, std::uint32_t primitive, const Mask<Real>& active,
-                     Closest<Real>& best) {
+/// Keeps the nearer of `best` and the first point of `meeting` (a Crossing or SphereRoots) in front of the origin, in
+/// the lanes of `active`.
+template <class Real, class Meeting>
+TANDEM_HD void offer(const Meeting& meeting, std::uint32_t primitive, const Mask<Real>& active, Closest<Real>& best) {
     Double<Real> t;
     const UInt<Real> id(primitive);
-    const Mask<Real> hit = first_in_front(crossing, t) && active;
+    const Mask<Real> hit = first_in_front<Real>(meeting, t) && active;
     const Mask<Real> closer = hit && is_closer(t, id, best);
     best.t = select(closer, t, best.t);
     best.primitive = select(closer, id, best.primitive);
@@ -25,7 +25,7 @@ template <class Real>
 TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
                          Closest<Real>& best) {
     const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
-    if (any(candidate)) offer(cross_sphere(sphere, f.ray), id, candidate, best);
+    if (any(candidate)) offer<Real>(sphere_roots(sphere, f.ray), id, candidate, best);
 }
 
 template <class Real>
@@ -40,7 +40,7 @@ TANDEM_HD void intersect_ellipsoid(const Placement& placement, std::uint32_t id,
                                    const Mask<Real>& active, Closest<Real>& best) {
     const Sphere& around = placement.bounding_sphere;
     const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) offer(cross_ellipsoid(placement, f.ray), id, candidate, best);
+    if (any(candidate)) offer<Real>(ellipsoid_roots(placement, f.ray), id, candidate, best);
 }
 
 template <class Real>
@@ -64,14 +64,14 @@ TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, con
         [&](const Placement& body) { intersect_parallelepiped(body, id, f, active, best); });
 }
 
-/// Traces by asking every primitive: no structure, best for a few.
+/// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
+/// `active`, here and with the other tracers.
 struct LoopTracer {
     SceneView scene;
 
     template <class Real>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const Mask<Real>& lanes) const {
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const Mask<Real>& active) const {
         Closest<Real> best = no_hit<Real>();
-        const Mask<Real> active = lanes && is_traceable(ray);
         const FilterRay<Real> f = make_filter_ray(ray);
         std::uint32_t id = 0;
         for (std::uint32_t i = 0; i < scene.sphere_count; ++i, ++id) intersect(scene.spheres[i], id, f, active, best);

@@ -12,13 +12,11 @@ struct Environment {
     Vec3f ambient{1.0F, 1.0F, 1.0F};  ///< ia of Phong's model
 };
 
-/// Radiance along a direction of any length but zero; double inside, so that no length over- or underflows.
+/// Radiance along a direction, whose length is within [1e-15, 1e15]. Within 3 ulp of float.
 template <class Real>
 TANDEM_HD Vec3<Real> background(const Environment& environment, const Vec3<Real>& direction) {
-    using D = Double<Real>;
-    const Vec3<D> d = widen(direction);
-    const D height = d.y / square_root(dot(d, d));
-    const Real m = narrow((height + D(1.0)) * D(0.5));
+    const Real height = direction.y / square_root(dot(direction, direction));
+    const Real m = (height + Real(1.0F)) * Real(0.5F);
     return broadcast<Real>(environment.bottom) * (Real(1.0F) - m) + broadcast<Real>(environment.top) * m;
 }
 

@@ -10,6 +10,7 @@
 #include <immintrin.h>
 
 #include <cstdint>
+#include <type_traits>
 
 #include "tandem/math/real.h"
 
@@ -94,6 +95,14 @@ TANDEM_HD D16 multiply_add(D16 a, D16 b, D16 c) {
     return D16{::fma(a[0], b[0], c[0]), ::fma(a[1], b[1], c[1])};
 #endif
 }
+TANDEM_HD F16 loose_multiply_add(F16 a, F16 b, F16 c) {
+#if defined(__FMA__)
+    return reinterpret_cast<F16>(
+        _mm_fmadd_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b), reinterpret_cast<__m128>(c)));
+#else
+    return a * b + c;
+#endif
+}
 TANDEM_HD D16 round_to_int(D16 a) {
 #if defined(__SSE4_1__)
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
@@ -102,6 +111,30 @@ TANDEM_HD D16 round_to_int(D16 a) {
     return per_element(a, [](double x) { return ::rint(x); });
 #endif
 }
+/// a < b ? a : b and a > b ? a : b, to the bit; the instructions mean just that, also for NaN and zeros.
+TANDEM_HD F16 minimum(F16 a, F16 b) {
+    return reinterpret_cast<F16>(_mm_min_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+}
+TANDEM_HD D16 minimum(D16 a, D16 b) {
+    return reinterpret_cast<D16>(_mm_min_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
+}
+TANDEM_HD F16 maximum(F16 a, F16 b) {
+    return reinterpret_cast<F16>(_mm_max_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+}
+TANDEM_HD D16 maximum(D16 a, D16 b) {
+    return reinterpret_cast<D16>(_mm_max_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
+}
+#if defined(__SSE4_1__)
+/// a where the sign bit of the mask is set, else b.
+TANDEM_HD F16 blend(F16 mask, F16 a, F16 b) {
+    return reinterpret_cast<F16>(
+        _mm_blendv_ps(reinterpret_cast<__m128>(b), reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(mask)));
+}
+TANDEM_HD D16 blend(D16 mask, D16 a, D16 b) {
+    return reinterpret_cast<D16>(
+        _mm_blendv_pd(reinterpret_cast<__m128d>(b), reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(mask)));
+}
+#endif
 /// 64-bit products of the even 32-bit elements.
 TANDEM_HD U16 multiply_even(U16 a, U16 b) {
     return reinterpret_cast<U16>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
@@ -117,9 +150,33 @@ TANDEM_HD D32 multiply_add(D32 a, D32 b, D32 c) {
     return reinterpret_cast<D32>(
         _mm256_fmadd_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b), reinterpret_cast<__m256d>(c)));
 }
+TANDEM_HD F32 loose_multiply_add(F32 a, F32 b, F32 c) {
+    return reinterpret_cast<F32>(
+        _mm256_fmadd_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(c)));
+}
 TANDEM_HD D32 round_to_int(D32 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
     return reinterpret_cast<D32>(_mm256_round_pd(reinterpret_cast<__m256d>(a), nearest));
+}
+TANDEM_HD F32 minimum(F32 a, F32 b) {
+    return reinterpret_cast<F32>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
+}
+TANDEM_HD D32 minimum(D32 a, D32 b) {
+    return reinterpret_cast<D32>(_mm256_min_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b)));
+}
+TANDEM_HD F32 maximum(F32 a, F32 b) {
+    return reinterpret_cast<F32>(_mm256_max_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
+}
+TANDEM_HD D32 maximum(D32 a, D32 b) {
+    return reinterpret_cast<D32>(_mm256_max_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b)));
+}
+TANDEM_HD F32 blend(F32 mask, F32 a, F32 b) {
+    return reinterpret_cast<F32>(
+        _mm256_blendv_ps(reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(mask)));
+}
+TANDEM_HD D32 blend(D32 mask, D32 a, D32 b) {
+    return reinterpret_cast<D32>(
+        _mm256_blendv_pd(reinterpret_cast<__m256d>(b), reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(mask)));
 }
 TANDEM_HD U32 multiply_even(U32 a, U32 b) {
     return reinterpret_cast<U32>(_mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
@@ -127,21 +184,43 @@ TANDEM_HD U32 multiply_even(U32 a, U32 b) {
 #endif
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
+// The maskz forms: in the plain ones GCC 12 sees the use of an uninitialised variable.
 using F64 = Native<float, 64>::type;
 using D64 = Native<double, 64>::type;
 using U64 = Native<std::uint32_t, 64>::type;
-TANDEM_HD F64 square_root(F64 a) { return reinterpret_cast<F64>(_mm512_sqrt_ps(reinterpret_cast<__m512>(a))); }
-TANDEM_HD D64 square_root(D64 a) { return reinterpret_cast<D64>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(a))); }
+TANDEM_HD F64 square_root(F64 a) {
+    return reinterpret_cast<F64>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(a)));
+}
+TANDEM_HD D64 square_root(D64 a) {
+    return reinterpret_cast<D64>(_mm512_maskz_sqrt_pd(0xFF, reinterpret_cast<__m512d>(a)));
+}
 TANDEM_HD D64 multiply_add(D64 a, D64 b, D64 c) {
     return reinterpret_cast<D64>(
         _mm512_fmadd_pd(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), reinterpret_cast<__m512d>(c)));
 }
+TANDEM_HD F64 loose_multiply_add(F64 a, F64 b, F64 c) {
+    return reinterpret_cast<F64>(
+        _mm512_fmadd_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), reinterpret_cast<__m512>(c)));
+}
 TANDEM_HD D64 round_to_int(D64 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
-    return reinterpret_cast<D64>(_mm512_roundscale_pd(reinterpret_cast<__m512d>(a), nearest));
+    return reinterpret_cast<D64>(_mm512_maskz_roundscale_pd(0xFF, reinterpret_cast<__m512d>(a), nearest));
+}
+TANDEM_HD F64 minimum(F64 a, F64 b) {
+    return reinterpret_cast<F64>(_mm512_maskz_min_ps(0xFFFF, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+TANDEM_HD D64 minimum(D64 a, D64 b) {
+    return reinterpret_cast<D64>(_mm512_maskz_min_pd(0xFF, reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b)));
+}
+TANDEM_HD F64 maximum(F64 a, F64 b) {
+    return reinterpret_cast<F64>(_mm512_maskz_max_ps(0xFFFF, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
+}
+TANDEM_HD D64 maximum(D64 a, D64 b) {
+    return reinterpret_cast<D64>(_mm512_maskz_max_pd(0xFF, reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b)));
 }
 TANDEM_HD U64 multiply_even(U64 a, U64 b) {
-    return reinterpret_cast<U64>(_mm512_mul_epu32(reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
+    return reinterpret_cast<U64>(
+        _mm512_maskz_mul_epu32(0xFF, reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
 }
 #endif
 
@@ -274,15 +353,35 @@ struct RealTraits<Lanes<T, I>> {
     static constexpr int lanes = Lanes<T, I>::size;
 };
 
+namespace lanes_detail {
+
+/// mask ? a : b for a mask of all ones or all zeros per element. GCC 12 would compare the mask with zero first; clang
+/// sees through the comparison that made the mask, but not through the instruction.
+template <class M, class V>
+TANDEM_HD V choose(M mask, V a, V b) {
+#if defined(__SSE4_1__) && !defined(__clang__)
+    if constexpr (sizeof(V) <= 32) {
+        using Same = typename Native<std::conditional_t<sizeof(a[0]) == 4, float, double>, sizeof(V)>::type;
+        return reinterpret_cast<V>(
+            blend(reinterpret_cast<Same>(mask), reinterpret_cast<Same>(a), reinterpret_cast<Same>(b)));
+    }
+#endif
+    return mask ? a : b;
+}
+
+}  // namespace lanes_detail
+
 template <class T, class I>
 TANDEM_HD Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, const Lanes<T, I>& b) {
     Lanes<T, I> result;
     if constexpr (Lanes<T, I>::parts == 1) {
-        result.part[0] = mask.v ? a.part[0] : b.part[0];
+        result.part[0] = lanes_detail::choose(mask.v, a.part[0], b.part[0]);
     } else {
         using Wide = typename lanes_detail::Native<std::int64_t, I::bytes>::type;
-        result.part[0] = __builtin_convertvector(lanes_detail::half<0>(mask.v), Wide) ? a.part[0] : b.part[0];
-        result.part[1] = __builtin_convertvector(lanes_detail::half<1>(mask.v), Wide) ? a.part[1] : b.part[1];
+        const Wide first = __builtin_convertvector(lanes_detail::half<0>(mask.v), Wide);
+        const Wide second = __builtin_convertvector(lanes_detail::half<1>(mask.v), Wide);
+        result.part[0] = lanes_detail::choose(first, a.part[0], b.part[0]);
+        result.part[1] = lanes_detail::choose(second, a.part[1], b.part[1]);
     }
     return result;
 }
@@ -290,6 +389,16 @@ TANDEM_HD Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, cons
 template <class I>
 TANDEM_HD LaneMask<I> select(const LaneMask<I>& mask, const LaneMask<I>& a, const LaneMask<I>& b) {
     return LaneMask<I>((mask.v & a.v) | (~mask.v & b.v));
+}
+
+// As the formulas in real.h, in one instruction.
+template <class T, class I>
+requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> lesser(const Lanes<T, I>& a, const Lanes<T, I>& b) {
+    return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::minimum(x, y); });
+}
+template <class T, class I>
+requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> greater(const Lanes<T, I>& a, const Lanes<T, I>& b) {
+    return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::maximum(x, y); });
 }
 
 template <class I>
@@ -330,6 +439,14 @@ TANDEM_HD Lanes<double, I> multiply_add(const Lanes<double, I>& a, const Lanes<d
 }
 
 template <class I>
+TANDEM_HD Lanes<float, I> loose_multiply_add(const Lanes<float, I>& a, const Lanes<float, I>& b,
+                                             const Lanes<float, I>& c) {
+    Lanes<float, I> result;
+    result.part[0] = lanes_detail::loose_multiply_add(a.part[0], b.part[0], c.part[0]);
+    return result;
+}
+
+template <class I>
 TANDEM_HD Lanes<double, I> round_to_int(const Lanes<double, I>& a) {
     Lanes<double, I> result;
     for (int k = 0; k < 2; ++k) result.part[k] = lanes_detail::round_to_int(a.part[k]);
@@ -361,6 +478,17 @@ TANDEM_HD Lanes<std::uint32_t, I> bits_of(const Lanes<float, I>& a) {
 template <class I>
 TANDEM_HD Lanes<float, I> float_of(const Lanes<std::uint32_t, I>& a) {
     return reinterpret_lanes<float>(a);
+}
+
+template <class I>
+TANDEM_HD Lanes<std::int64_t, I> shift_right_logical(const Lanes<std::int64_t, I>& a, int count) {
+    using Unsigned = typename lanes_detail::Native<std::uint64_t, I::bytes>::type;
+    using Signed = typename Lanes<std::int64_t, I>::Vector;
+    Lanes<std::int64_t, I> result;
+    for (int k = 0; k < 2; ++k) {
+        result.part[k] = reinterpret_cast<Signed>(reinterpret_cast<Unsigned>(a.part[k]) >> count);
+    }
+    return result;
 }
 
 template <class I>

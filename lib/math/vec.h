@@ -2,14 +2,22 @@
 /// once (dot, cross, length) is written here, because its order of operations is part of the result.
 #pragma once
 
-#include "tandem/math/real.h"
+#include "tandem/math/error_free.h"
+#include "tandem/math/inverse_square_root.h"
 
 #define GLM_FORCE_XYZW_ONLY
-#define GLM_FORCE_INLINE
 #if TANDEM_COMPILING_CUDA
+#include <cuda.h>  // GLM asks for its CUDA_VERSION
 #define GLM_FORCE_CUDA
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20012  // GLM marks defaulted functions for the device, which changes nothing
+#else
+#define GLM_FORCE_INLINE
 #endif
 #include <glm/vec3.hpp>
+#if TANDEM_COMPILING_CUDA
+#pragma nv_diagnostic pop
+#endif
 
 namespace tandem {
 
@@ -30,16 +38,24 @@ TANDEM_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// cross(a, b) with each component within 1.5 units of its last place, however much its products cancel.
+template <class D>
+TANDEM_HD Vec3<D> accurate_cross(const Vec3<D>& a, const Vec3<D>& b) {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
 /// Sum of magnitudes.
 template <class Real>
 TANDEM_HD Real norm1(const Vec3<Real>& a) {
     return (absolute(a.x) + absolute(a.y)) + absolute(a.z);
 }
 
-/// Unit vector; in double it is safe for every float vector except zero, which gives NaN.
-template <class Real>
-TANDEM_HD Vec3<Real> normalize(const Vec3<Real>& a) {
-    const Real scale = Real(1) / square_root(dot(a, a));
+/// Unit vector, in double, within 4 units of its last place, of every vector whose squares are normal numbers: of all
+/// float vectors. The zero vector stays zero.
+template <class D>
+TANDEM_HD Vec3<D> normalize(const Vec3<D>& a) {
+    const D scale = inverse_square_root(dot(a, a));
     return {a.x * scale, a.y * scale, a.z * scale};
 }
 

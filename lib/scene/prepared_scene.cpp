@@ -1,5 +1,6 @@
 #include "tandem/scene/prepared_scene.h"
 
+#include "tandem/error/error.h"
 #include "tandem/film/sha256.h"
 #include "tandem/scene/scene_view.h"
 
@@ -34,7 +35,15 @@ CameraView camera_view(const PreparedScene& scene, int width, int height) {
     const Vec3d forward = -axes.row[2];
     const Vec3d eye = scene.world_from_camera.translation;
     const Vec3d zero{0, 0, 0};
-    if (scene.orthographic) return {eye + to_corner, right, down, forward, zero, zero, true};
+    if (scene.orthographic) {
+        const Vec3f corner = narrow(eye + to_corner);
+        const Vec3f opposite = narrow(eye - to_corner);
+        if (!(reach({corner, corner}) <= coordinate_limit && reach({opposite, opposite}) <= coordinate_limit)) {
+            throw InputError(
+                "the orthographic camera shows points farther than 1e18 from the origin; make ymag smaller");
+        }
+        return {eye + to_corner, right, down, forward, zero, zero, true};
+    }
     return {eye, zero, zero, forward + to_corner, right, down, false};
 }
 

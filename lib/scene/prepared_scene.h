@@ -38,10 +38,12 @@ struct PreparedScene {
 /// The window of the kernels onto the arrays of `scene`, which must outlive it.
 [[nodiscard]] SceneView view(const PreparedScene& scene);
 
-/// The camera for a film of width x height pixels; pixels are square.
+/// The camera for a film of width x height pixels; pixels are square. All its rays are traceable and
+/// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
-/// SHA-256 over everything above except names, in hexadecimal: equal hashes mean equal pictures.
+/// SHA-256 over everything above except node_of, which serves messages only, in hexadecimal: equal hashes mean equal
+/// pictures.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tandem/math/ray.h"
 
@@ -46,7 +47,6 @@ class Problems {
             for (const Vec3d& row : node.matrix->linear.row) finite = finite && is_number(row);
             require(finite, where, "has a matrix that is not finite");
         }
-        check_parents(index, where);
         for (const Geometry& geometry : node.geometry) check_geometry(geometry, where);
         if (node.camera) check_camera(*node.camera, where);
         if (node.light) {
@@ -55,6 +55,27 @@ class Problems {
             require(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0 && c.y >= 0 && c.z >= 0,
                     where, "has a light whose colour is not three numbers of 0 or more");
             require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a number of 0 or more");
+        }
+    }
+
+    /// Linear in the number of nodes, however deep the tree is.
+    void check_hierarchy() {
+        const std::vector<Node>& nodes = scene_.nodes;
+        const auto has_parent = [&](std::size_t i) {
+            return nodes[i].parent >= 0 && static_cast<std::size_t>(nodes[i].parent) < nodes.size();
+        };
+        // a walk upwards that meets itself is a cycle; where it meets an earlier walk, all is known already
+        std::vector<std::size_t> walk_of(nodes.size(), nodes.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            require(nodes[i].parent == Node::no_parent || has_parent(i), node_label(scene_, i),
+                    "has a parent that does not exist");
+            std::size_t at = i;
+            while (walk_of[at] == nodes.size()) {
+                walk_of[at] = i;
+                if (!has_parent(at)) break;
+                at = static_cast<std::size_t>(nodes[at].parent);
+                require(walk_of[at] != i, node_label(scene_, at), "is its own ancestor");
+            }
         }
     }
 
@@ -96,6 +117,7 @@ class Problems {
                 "has a number of values that does not fit its keys");
         require(std::all_of(channel.values.begin(), channel.values.end(), [](float v) { return is_number(double{v}); }),
                 where, "has values that are not finite");
+        if (channel.path == AnimatedPath::rotation) check_rotation_keys(channel, width * groups, where);
     }
 
     void check_environment() {
@@ -112,27 +134,26 @@ class Problems {
     std::vector<std::string> take() { return std::move(found_); }
 
   private:
-    void check_parents(std::size_t index, const std::string& where) {
-        std::size_t steps = 0;
-        std::int32_t at = scene_.nodes[index].parent;
-        while (at != Node::no_parent) {
-            if (at < 0 || static_cast<std::size_t>(at) >= scene_.nodes.size()) {
-                return require(false, where, "has a parent that does not exist");
-            }
-            if (++steps > scene_.nodes.size()) return require(false, where, "is its own ancestor");
-            at = scene_.nodes[static_cast<std::size_t>(at)].parent;
+    /// `stride`: numbers per key. Of the three groups of a cubic key the middle one is the value.
+    void check_rotation_keys(const AnimationChannel& channel, std::size_t stride, const std::string& where) {
+        const std::size_t first = channel.interpolation == Interpolation::cubic ? 4 : 0;
+        bool none_vanishes = true;
+        for (std::size_t at = first; at + 4 <= channel.values.size(); at += stride) {
+            const float* q = &channel.values[at];
+            none_vanishes = none_vanishes && (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0);
         }
+        require(none_vanishes, where, "has a key with the rotation (0, 0, 0, 0), which is none");
     }
 
     void check_geometry(const Geometry& geometry, const std::string& where) {
         require(geometry.material < scene_.materials.size(), where, "uses a material that does not exist");
         if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
             require(is_number(sphere->radius) && sphere->radius > 0, where,
-                    "has a sphere whose radius is not a positive number");
+                    "has a sphere whose radius is not above 0 and up to 1e18");
         } else {
             const Vec3d size = std::get<BoxShape>(geometry.shape).size;
             require(is_number(size) && size.x >= 0 && size.y >= 0 && size.z >= 0, where,
-                    "has a box whose size is not three numbers of 0 or more");
+                    "has a box whose size is not three numbers from 0 to 1e18");
         }
         for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
             check_trs(geometry.instances[i], fmt::format("{}, instance {},", where, i));
@@ -145,7 +166,8 @@ class Problems {
                     "has a camera whose vertical field of view is not between 0 and pi");
         } else {
             const double ymag = std::get<OrthographicCamera>(camera).ymag;
-            require(is_number(ymag) && ymag > 0, where, "has an orthographic camera whose ymag is not positive");
+            require(is_number(ymag) && ymag > 0, where,
+                    "has an orthographic camera whose ymag is not above 0 and up to 1e18");
         }
     }
 
@@ -164,12 +186,15 @@ std::int32_t frame_count(const Scene& scene) {
     for (const AnimationChannel& channel : scene.animation) {
         if (!channel.times.empty()) end = std::max(end, channel.times.back());
     }
-    return std::max(1, static_cast<std::int32_t>(std::lround(double{end} * scene.frames_per_second)));
+    // a key at the end of time must not overflow the number of a frame
+    const double frames = std::round(double{end} * scene.frames_per_second);
+    return static_cast<std::int32_t>(std::clamp(frames, 1.0, double{std::numeric_limits<std::int32_t>::max()}));
 }
 
 std::vector<std::string> validate(const Scene& scene) {
     Problems problems(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) problems.check_node(i);
+    problems.check_hierarchy();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) problems.check_material(i);
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();

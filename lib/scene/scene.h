@@ -40,7 +40,7 @@ struct BoxShape {
 struct Geometry {
     std::variant<SphereShape, BoxShape> shape;
     std::uint32_t material = 0;
-    std::vector<Trs> instances;  ///< node_from_instance; empty means one, at the node itself
+    std::vector<Trs> instances{};  ///< node_from_instance; empty means one, at the node itself
 };
 
 /// Perspective: `yfov` is the whole vertical angle, in radians.
@@ -65,17 +65,18 @@ struct Material {
     PhongMaterial phong;
 };
 
-/// parent: index of the parent node, or no_parent. A node may carry several things.
+/// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
+/// that Node{.name = ..., .light = ...} compiles without warnings.
 struct Node {
     static constexpr std::int32_t no_parent = -1;
 
-    std::string name;
+    std::string name{};
     std::int32_t parent = no_parent;
-    Trs trs;
-    std::optional<Transform> matrix;  ///< replaces trs; such a node cannot be animated
-    std::vector<Geometry> geometry;
-    std::optional<Camera> camera;
-    std::optional<PointLightSource> light;
+    Trs trs{};
+    std::optional<Transform> matrix{};  ///< replaces trs; such a node cannot be animated
+    std::vector<Geometry> geometry{};
+    std::optional<Camera> camera{};
+    std::optional<PointLightSource> light{};
 };
 
 enum class Interpolation { step, linear, cubic };

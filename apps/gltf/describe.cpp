@@ -1,0 +1,232 @@
+#include "apps/gltf/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "tandem/error/error.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t most_prepared_frames = 240;
+/// The text lists this many nodes, materials and problems, and counts the others.
+constexpr std::size_t most_lines = 24;
+
+Json colour(const Vec3f& c) { return Json::array({c.x, c.y, c.z}); }
+
+Json describe_nodes(const Scene& scene) {
+    Json nodes = Json::array();
+    std::set<std::uint32_t> animated;
+    for (const AnimationChannel& channel : scene.animation) animated.insert(channel.node);
+    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        Json row = {{"name", node.name}};
+        if (node.parent != Node::no_parent) row["parent"] = node.parent;
+        std::size_t spheres = 0, boxes = 0;
+        for (const Geometry& geometry : node.geometry) {
+            const bool is_sphere = std::holds_alternative<SphereShape>(geometry.shape);
+            (is_sphere ? spheres : boxes) += std::max<std::size_t>(1, geometry.instances.size());
+        }
+        if (spheres > 0) row["spheres"] = spheres;
+        if (boxes > 0) row["boxes"] = boxes;
+        if (node.camera) row["camera"] = true;
+        if (node.light) row["light"] = true;
+        if (animated.contains(i)) row["animated"] = true;
+        nodes.push_back(std::move(row));
+    }
+    return nodes;
+}
+
+Json describe_cameras(const Scene& scene) {
+    Json cameras = Json::array();
+    for (const Node& node : scene.nodes) {
+        if (!node.camera) continue;
+        if (const auto* perspective = std::get_if<PerspectiveCamera>(&*node.camera)) {
+            cameras.push_back({{"node", node.name}, {"type", "perspective"}, {"yfov_radians", perspective->yfov}});
+        } else {
+            const double ymag = std::get<OrthographicCamera>(*node.camera).ymag;
+            cameras.push_back({{"node", node.name}, {"type", "orthographic"}, {"ymag_metres", ymag}});
+        }
+    }
+    return cameras;
+}
+
+Json describe_lights(const Scene& scene) {
+    Json lights = Json::array();
+    for (const Node& node : scene.nodes) {
+        if (!node.light) continue;
+        lights.push_back({{"node", node.name},
+                          {"type", "point"},
+                          {"colour", colour(node.light->colour)},
+                          {"intensity", node.light->intensity}});
+    }
+    return lights;
+}
+
+Json describe_materials(const Scene& scene) {
+    Json materials = Json::array();
+    for (const Material& material : scene.materials) {
+        materials.push_back({{"name", material.name},
+                             {"ambient", colour(material.phong.ambient)},
+                             {"diffuse", colour(material.phong.diffuse)},
+                             {"specular", colour(material.phong.specular)},
+                             {"shininess", material.phong.shininess}});
+    }
+    return materials;
+}
+
+Json describe_animation(const Scene& scene) {
+    std::size_t keys = 0;
+    for (const AnimationChannel& channel : scene.animation) keys += channel.times.size();
+    return {{"channels", scene.animation.size()},
+            {"keys", keys},
+            {"frames", frame_count(scene)},
+            {"frames_per_second", scene.frames_per_second}};
+}
+
+/// How many primitives of each kind the renderer gets at frame 0; nothing if the scene cannot be prepared.
+Json describe_primitives(const Scene& scene) {
+    try {
+        const PreparedScene prepared = prepare(scene);
+        return {{"spheres", prepared.spheres.size()},
+                {"boxes", prepared.boxes.size()},
+                {"ellipsoids", prepared.ellipsoids.size()},
+                {"parallelepipeds", prepared.parallelepipeds.size()}};
+    } catch (const InputError&) {
+        return nullptr;  // problems_of() says why
+    }
+}
+
+std::string quoted(const Json& name) {
+    const auto text = name.get<std::string>();
+    return text.empty() ? "(no name)" : name.dump(-1, ' ', true);
+}
+
+std::string components(const Json& colour) {
+    return fmt::format("({:g}, {:g}, {:g})", colour[0].get<float>(), colour[1].get<float>(), colour[2].get<float>());
+}
+
+std::string line_of_node(const Json& node) {
+    std::string carries;
+    for (const char* what : {"spheres", "boxes"}) {
+        if (node.contains(what)) carries += fmt::format(", {} {}", node[what].get<std::size_t>(), what);
+    }
+    for (const char* what : {"camera", "light", "animated"}) {
+        if (node.contains(what)) carries += fmt::format(", {}", what);
+    }
+    return quoted(node["name"]) + (carries.empty() ? ", empty" : carries);
+}
+
+std::string line_of_camera(const Json& camera) {
+    if (camera.contains("ymag_metres")) {
+        return fmt::format("{}, orthographic, {:g} m high", quoted(camera["node"]),
+                           2 * camera["ymag_metres"].get<double>());
+    }
+    return fmt::format("{}, perspective, {:.4g} degrees high", quoted(camera["node"]),
+                       camera["yfov_radians"].get<double>() * 180 / std::numbers::pi);
+}
+
+std::string line_of_light(const Json& light) {
+    return fmt::format("{}, point, colour {}, intensity {:g}", quoted(light["node"]), components(light["colour"]),
+                       light["intensity"].get<float>());
+}
+
+std::string line_of_material(const Json& material) {
+    return fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}", quoted(material["name"]),
+                       components(material["ambient"]), components(material["diffuse"]),
+                       components(material["specular"]), material["shininess"].get<float>());
+}
+
+template <class LineOf>
+void add_list(std::string& text, const char* title, const Json& rows, std::size_t most, LineOf line_of) {
+    text += fmt::format("{}: {}\n", title, rows.size());
+    for (std::size_t i = 0; i < std::min(rows.size(), most); ++i) text += "  " + line_of(rows[i]) + "\n";
+    if (rows.size() > most) text += fmt::format("  and {} more\n", rows.size() - most);
+}
+
+}  // namespace
+
+Json describe(const std::string& specification, const Scene& scene, const ImportReport& report) {
+    Json notes = Json::array();
+    for (const ImportNote& note : report.notes()) {
+        notes.push_back({{"treatment", to_string(note.treatment)},
+                         {"feature", note.feature},
+                         {"json_path", note.json_path},
+                         {"uses", note.uses},
+                         {"reason", note.reason},
+                         {"sentence", to_string(note)}});
+    }
+    const Environment& environment = scene.environment;
+    return {{"file", specification},
+            {"scene", scene.name},
+            {"primitives", describe_primitives(scene)},
+            {"nodes", describe_nodes(scene)},
+            {"cameras", describe_cameras(scene)},
+            {"lights", describe_lights(scene)},
+            {"materials", describe_materials(scene)},
+            {"environment",
+             {{"bottom", colour(environment.bottom)},
+              {"top", colour(environment.top)},
+              {"ambient", colour(environment.ambient)}}},
+            {"animation", describe_animation(scene)},
+            {"report", notes}};
+}
+
+std::string to_text(const Json& description) {
+    std::string text =
+        fmt::format("{}: scene {}\n", description["file"].get<std::string>(), quoted(description["scene"]));
+    if (const Json& primitives = description["primitives"]; primitives.is_null()) {
+        text += "primitives: none that can be prepared; 'tandem-gltf check' says why\n";
+    } else {
+        std::string kinds;
+        std::size_t total = 0;
+        for (const auto& [kind, count] : primitives.items()) {
+            total += count.get<std::size_t>();
+            kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count.get<std::size_t>(), kind);
+        }
+        text += fmt::format("primitives: {} ({})\n", total, kinds);
+    }
+    add_list(text, "nodes", description["nodes"], most_lines, line_of_node);
+    add_list(text, "cameras", description["cameras"], most_lines, line_of_camera);
+    add_list(text, "lights", description["lights"], most_lines, line_of_light);
+    add_list(text, "materials", description["materials"], most_lines, line_of_material);
+    const Json& environment = description["environment"];
+    text += fmt::format("environment: gradient from {} at the bottom to {} at the top, ambient {}\n",
+                        components(environment["bottom"]), components(environment["top"]),
+                        components(environment["ambient"]));
+    const Json& animation = description["animation"];
+    text += fmt::format("animation: {} channels, {} keys, {} frames at {:g} a second\n",
+                        animation["channels"].get<std::size_t>(), animation["keys"].get<std::size_t>(),
+                        animation["frames"].get<std::int64_t>(), animation["frames_per_second"].get<double>());
+    add_list(text, "import report", description["report"], SIZE_MAX,
+             [](const Json& note) { return note["sentence"].get<std::string>(); });
+    return text;
+}
+
+std::vector<std::string> problems_of(const Scene& scene) {
+    std::vector<std::string> problems;
+    const std::int64_t frames = frame_count(scene);
+    const std::int64_t steps = std::min(frames, most_prepared_frames);
+    for (std::int64_t step = 0; step < steps && problems.size() < most_lines; ++step) {
+        const std::int64_t frame = steps == 1 ? 0 : step * (frames - 1) / (steps - 1);
+        try {
+            (void)prepare(scene, {static_cast<std::int32_t>(frame), ""});
+        } catch (const InputError& error) {
+            const bool known = std::any_of(problems.begin(), problems.end(),
+                                           [&](const std::string& problem) { return problem.ends_with(error.what()); });
+            if (!known)
+                problems.push_back(frame == 0 ? error.what() : fmt::format("frame {}: {}", frame, error.what()));
+        }
+    }
+    return problems;
+}
+
+}  // namespace tandem

@@ -1,0 +1,97 @@
+/// tandem-gltf: what a glTF file holds, and what is wrong with it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/common/run_main.h"
+#include "apps/gltf/describe.h"
+#include "tandem/scene/load_scene.h"
+
+namespace tandem {
+
+namespace {
+
+/// Beside the target, then renamed, so that no torn file is left.
+void write_json(const nlohmann::ordered_json& json, const std::string& target) {
+    const std::string text = json.dump(2) + "\n";
+    if (target == "-") {
+        std::fputs(text.c_str(), stdout);
+        return;
+    }
+    const std::string part = target + ".part";
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    std::error_code error;
+    if (out) std::filesystem::rename(part, target, error);
+    if (!out || error) throw InputError(fmt::format("--json {}: cannot be written; check the folder", target));
+}
+
+int run_info(const std::string& scene_name, const std::string& json_target) {
+    ImportReport report;
+    const Scene scene = load_scene(scene_name, &report);
+    const auto description = describe(scene_name, scene, report);
+    if (json_target != "-") std::fputs(to_text(description).c_str(), stdout);
+    if (!json_target.empty()) write_json(description, json_target);
+    return exit_done;
+}
+
+int run_check(const std::string& scene_name, const std::string& json_target) {
+    std::vector<std::string> problems;
+    ImportReport report;
+    try {
+        const Scene scene = load_scene(scene_name, &report);
+        for (const std::string& problem : problems_of(scene)) problems.push_back(scene_name + ": " + problem);
+    } catch (const InputError& error) {
+        problems.push_back(error.what());
+    }
+    std::vector<std::string> notes;
+    for (const ImportNote& note : report.notes()) {
+        if (note.treatment != Treatment::rendered) notes.push_back(to_string(note));
+    }
+    if (!json_target.empty()) {
+        write_json({{"file", scene_name}, {"fine", problems.empty()}, {"problems", problems}, {"notes", notes}},
+                   json_target);
+    }
+    if (!problems.empty()) throw InputError(fmt::format("{}", fmt::join(problems, "\n")));
+    if (json_target == "-") return exit_done;
+    fmt::print("{}: fine\n", scene_name);
+    for (const std::string& note : notes) fmt::print("  {}\n", note);
+    return exit_done;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(
+        "Says what a glTF file holds and what is wrong with it.\n"
+        "Exit status: 0 fine, 2 bad usage or input, 3 the machine lacks something.",
+        "tandem-gltf");
+    app.require_subcommand(1);
+    std::string scene;
+    std::string json_target;
+    const auto add = [&](const char* name, const char* what) {
+        CLI::App* command = app.add_subcommand(name, what);
+        command->add_option("SCENE", scene, "a .gltf or .glb file, or named:NAME")->required();
+        command->add_option("--json", json_target, "write the answer as JSON to a file; - is standard output");
+        return command;
+    };
+    const CLI::App* info = add("info", "What the scene holds, and what Tandem makes of it");
+    add("check", "What keeps the scene from being rendered, and what is not rendered as the file means it");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? exit_done : exit_bad_input;
+    }
+    return info->parsed() ? run_info(scene, json_target) : run_check(scene, json_target);
+}
+
+}  // namespace
+
+}  // namespace tandem
+
+int main(int argc, char** argv) {
+    return tandem::run_main("tandem-gltf", [&] { return tandem::run(argc, argv); });
+}

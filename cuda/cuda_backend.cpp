@@ -1,0 +1,174 @@
+#include "cuda/cuda_backend.h"
+
+#include <fmt/format.h>
+
+#include "cuda/device_scene.h"
+#include "tandem/error/error.h"
+#include "tandem/integrator/pixel_job.h"
+
+namespace tandem {
+
+namespace {
+
+using namespace cuda;
+
+/// Memory and marks of one frame in flight.
+struct FrameMemory {
+    Buffer<DeviceMemory> film;
+    Buffer<DeviceMemory> invalid;  ///< one counter
+    Buffer<PinnedMemory> invalid_on_host;
+    Event render_start, render_end, download_start, download_end;
+};
+
+using FilmPool = Pool<Buffer<PinnedMemory>>;
+
+/// Film memory from the pool; the film's pointer keeps the lease.
+std::shared_ptr<Vec3d> film_memory(FilmPool& pool, std::size_t bytes) {
+    auto buffer = pool.lease();
+    buffer->reserve(bytes);
+    auto* sums = reinterpret_cast<Vec3d*>(buffer->data());
+    return {std::move(buffer), sums};
+}
+
+class CudaFrame final : public PendingFrame {
+  public:
+    CudaFrame(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, RenderResult result)
+        : scene_(std::move(scene)), memory_(std::move(memory)), result_(std::move(result)) {}
+
+    /// The GPU may still be writing; memory must not return to its pool before.
+    ~CudaFrame() override { (void)cudaEventSynchronize(memory_->download_end.get()); }
+
+    RenderResult get() override {
+        memory_->download_end.wait();
+        result_.stats.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
+        result_.stats.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
+        unsigned long long invalid = 0;
+        std::memcpy(&invalid, memory_->invalid_on_host.data(), sizeof(invalid));
+        result_.stats.counters.invalid_samples = invalid;
+        return std::move(result_);
+    }
+
+  private:
+    std::shared_ptr<ResidentScene> scene_;  // its memory is being read
+    std::shared_ptr<FrameMemory> memory_;
+    RenderResult result_;
+};
+
+class CudaBackend final : public Backend {
+  public:
+    CudaBackend() {
+        check(cudaSetDevice(0), "choosing the GPU");
+        check(cudaGetDeviceProperties(&properties_, 0), "reading what the GPU is");
+    }
+
+    /// Nothing may be running when the streams go.
+    ~CudaBackend() override { (void)cudaDeviceSynchronize(); }
+
+    [[nodiscard]] std::string name() const override { return "cuda"; }
+
+    [[nodiscard]] Capabilities capabilities() const override {
+        int driver = 0;
+        int runtime = 0;
+        check(cudaDriverGetVersion(&driver), "reading the driver's version");
+        check(cudaRuntimeGetVersion(&runtime), "reading the runtime's version");
+        const auto version = [](int v) { return fmt::format("{}.{}", v / 1000, v % 1000 / 10); };
+        return {.device = fmt::format("{}, {} multiprocessors, compute capability {}.{}", properties_.name,
+                                      properties_.multiProcessorCount, properties_.major, properties_.minor),
+                .description = fmt::format("CUDA {}, driver for CUDA {}", version(runtime), version(driver)),
+                .exact = true};
+    }
+
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
+        return std::make_shared<DeviceScene>(scene, scenes_->lease(), upload_);
+    }
+
+    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
+        if (rays.size() != hits.size()) throw InputError("trace: the numbers of rays and hits differ");
+        const auto& resident = dynamic_cast<const DeviceScene&>(scene);
+        rays_.reserve(rays.size_bytes());
+        hits_.reserve(hits.size_bytes());
+        compute_.wait_for(resident.uploaded());
+        check(cudaMemcpyAsync(rays_.data(), rays.data(), rays.size_bytes(), cudaMemcpyHostToDevice, compute_.get()),
+              "uploading rays");
+        trace_start_.record(compute_.get());
+        launch_trace(resident.view(), reinterpret_cast<const Ray<float>*>(rays_.data()),
+                     reinterpret_cast<Hit*>(hits_.data()), rays.size(), compute_.get());
+        trace_end_.record(compute_.get());
+        check(cudaMemcpyAsync(hits.data(), hits_.data(), hits.size_bytes(), cudaMemcpyDeviceToHost, compute_.get()),
+              "downloading hits");
+        check(cudaStreamSynchronize(compute_.get()), "tracing rays");
+        return seconds_between(trace_start_, trace_end_);
+    }
+
+    [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
+                                                       const RenderJob& job) override {
+        check(job);
+        const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
+        const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
+        const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+        const std::size_t bytes = pixels * sizeof(Vec3d);
+        constexpr std::size_t counter_bytes = sizeof(unsigned long long);
+
+        auto memory = frames_->lease();
+        memory->film.reserve(bytes);
+        memory->invalid.reserve(counter_bytes);
+        memory->invalid_on_host.reserve(counter_bytes);
+        std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
+
+        compute_.wait_for(resident.uploaded());
+        memory->render_start.record(compute_.get());
+        check(cudaMemsetAsync(memory->invalid.data(), 0, counter_bytes, compute_.get()), "clearing a counter");
+        launch_render(resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
+                      reinterpret_cast<Vec3d*>(memory->film.data()),
+                      reinterpret_cast<unsigned long long*>(memory->invalid.data()), compute_.get());
+        memory->render_end.record(compute_.get());
+
+        download_.wait_for(memory->render_end);
+        memory->download_start.record(download_.get());
+        check(cudaMemcpyAsync(sums.get(), memory->film.data(), bytes, cudaMemcpyDeviceToHost, download_.get()),
+              "downloading the film");
+        check(cudaMemcpyAsync(memory->invalid_on_host.data(), memory->invalid.data(), counter_bytes,
+                              cudaMemcpyDeviceToHost, download_.get()),
+              "downloading a counter");
+        memory->download_end.record(download_.get());
+
+        const KernelFacts facts = render_kernel_facts(resident.view());
+        RenderResult result;
+        result.film = Film(job.width, job.height, job.samples, std::move(sums));
+        result.stats.rays = pixels * pixel_job.samples;
+        result.stats.device_bytes = resident.bytes() + bytes;
+        result.stats.registers = facts.registers;
+        result.stats.occupancy = facts.occupancy;
+        result.stats.variant = fmt::format("sm_{}{}, {}", properties_.major, properties_.minor,
+                                           resident.view().bvh.nodes != nullptr ? "bvh" : "loop");
+        return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(result));
+    }
+
+  private:
+    static void check(cudaError_t code, const char* doing) { cuda::check(code, doing); }
+    static void check(const RenderJob& job) { tandem::check(job); }
+
+    cudaDeviceProp properties_{};
+    Stream upload_, compute_, download_;
+    std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
+    std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
+    std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
+    Buffer<DeviceMemory> rays_, hits_;
+    Event trace_start_, trace_end_;
+};
+
+}  // namespace
+
+std::string why_cuda_unavailable() {
+    int count = 0;
+    const cudaError_t code = cudaGetDeviceCount(&count);
+    if (code != cudaSuccess) {
+        const char* help = advice(code);
+        return help != nullptr ? help : cudaGetErrorString(code);
+    }
+    return count > 0 ? "" : "there is no CUDA GPU";
+}
+
+std::unique_ptr<Backend> make_cuda_backend(const BackendOptions&) { return std::make_unique<CudaBackend>(); }
+
+}  // namespace tandem

@@ -1,0 +1,15 @@
+/// The CUDA backend.
+#pragma once
+
+#include <memory>
+
+#include "tandem/render/backend.h"
+
+namespace tandem {
+
+[[nodiscard]] std::unique_ptr<Backend> make_cuda_backend(const BackendOptions& options);
+
+/// Empty if there is a GPU with a driver that can run this build. Needs neither to be asked.
+[[nodiscard]] std::string why_cuda_unavailable();
+
+}  // namespace tandem

@@ -1,0 +1,114 @@
+#include "cuda/device_scene.h"
+
+#include <cstring>
+
+#include "tandem/bvh/bvh.h"
+#include "tandem/render/seconds.h"
+
+namespace tandem::cuda {
+
+namespace {
+
+/// Up to here a kernel tries every primitive (docs/performance.md has the crossing point).
+constexpr std::size_t loop_limit = 24;
+
+/// Lays arrays out one behind another, each aligned for 16-byte loads.
+class Layout {
+  public:
+    /// Place of an array in the buffer to come.
+    template <class T>
+    std::size_t add(const std::vector<T>& array) {
+        const std::size_t at = bytes_;
+        parts_.push_back({at, array.data(), array.size() * sizeof(T)});
+        bytes_ += (array.size() * sizeof(T) + alignment - 1) / alignment * alignment;
+        return at;
+    }
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+    void write(std::byte* target) const {
+        for (const Part& part : parts_) {
+            if (part.bytes > 0) std::memcpy(target + part.offset, part.data, part.bytes);
+        }
+    }
+
+  private:
+    static constexpr std::size_t alignment = 256;
+    struct Part {
+        std::size_t offset;
+        const void* data;
+        std::size_t bytes;
+    };
+    std::vector<Part> parts_;
+    std::size_t bytes_ = 0;
+};
+
+Aabb scene_bounds(const SceneView& scene) {
+    Aabb bounds;
+    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) bounds = merge(bounds, primitive_bounds(scene, id));
+    return bounds;
+}
+
+}  // namespace
+
+DeviceScene::DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory> memory, Stream& stream)
+    : memory_(std::move(memory)) {
+    camera_.world_from_camera = scene.world_from_camera;
+    camera_.orthographic = scene.orthographic;
+    camera_.half_height = scene.half_height;
+
+    const SceneView host = tandem::view(scene);
+    Bvh bvh;
+    if (primitive_count(scene) > loop_limit) {
+        const Stopwatch watch;
+        view_.bvh.frame = make_structure_frame(scene_bounds(host));
+        bvh = build_bvh(host, view_.bvh.frame.margin);
+        build_seconds_ = watch.seconds();
+    }
+
+    Layout layout;
+    const std::size_t spheres = layout.add(scene.spheres);
+    const std::size_t boxes = layout.add(scene.boxes);
+    const std::size_t ellipsoids = layout.add(scene.ellipsoids);
+    const std::size_t parallelepipeds = layout.add(scene.parallelepipeds);
+    const std::size_t material_of = layout.add(scene.material_of);
+    const std::size_t materials = layout.add(scene.materials);
+    const std::size_t lights = layout.add(scene.lights);
+    const std::size_t nodes = layout.add(bvh.nodes);
+    const std::size_t entry_spheres = layout.add(bvh.entry_spheres);
+    const std::size_t entry_ids = layout.add(bvh.entry_ids);
+    bytes_ = layout.bytes();
+    memory_->device.reserve(bytes_);
+    memory_->staging.reserve(bytes_);
+    layout.write(memory_->staging.data());
+
+    std::byte* base = memory_->device.data();
+    view_.scene = host;
+    view_.scene.spheres = reinterpret_cast<const Sphere*>(base + spheres);
+    view_.scene.boxes = reinterpret_cast<const Box*>(base + boxes);
+    view_.scene.ellipsoids = reinterpret_cast<const Placement*>(base + ellipsoids);
+    view_.scene.parallelepipeds = reinterpret_cast<const Placement*>(base + parallelepipeds);
+    view_.scene.material_of = reinterpret_cast<const std::uint32_t*>(base + material_of);
+    view_.scene.materials = reinterpret_cast<const PhongMaterial*>(base + materials);
+    view_.scene.lights = reinterpret_cast<const PointLight*>(base + lights);
+    if (!bvh.nodes.empty()) {
+        view_.bvh.nodes = reinterpret_cast<const BvhNode*>(base + nodes);
+        view_.bvh.entry_spheres = reinterpret_cast<const Sphere*>(base + entry_spheres);
+        view_.bvh.entry_ids = reinterpret_cast<const std::uint32_t*>(base + entry_ids);
+    }
+
+    memory_->upload_start.record(stream.get());
+    if (bytes_ > 0) {
+        check(cudaMemcpyAsync(base, memory_->staging.data(), bytes_, cudaMemcpyHostToDevice, stream.get()),
+              "uploading the scene");
+    }
+    memory_->upload_end.record(stream.get());
+}
+
+PhaseTimes DeviceScene::load_times() const {
+    memory_->upload_end.wait();
+    PhaseTimes times;
+    times.build = build_seconds_;
+    times.upload = seconds_between(memory_->upload_start, memory_->upload_end);
+    return times;
+}
+
+}  // namespace tandem::cuda

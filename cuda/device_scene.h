@@ -1,0 +1,42 @@
+/// A prepared scene in GPU memory.
+#pragma once
+
+#include <memory>
+
+#include "cuda/kernels.h"
+#include "cuda/memory.h"
+#include "cuda/stream.h"
+#include "tandem/render/backend.h"
+
+namespace tandem::cuda {
+
+/// Memory for one scene: on the GPU, and page-locked beside it to copy from.
+struct SceneMemory {
+    Buffer<DeviceMemory> device;
+    Buffer<PinnedMemory> staging;
+    Event upload_start;
+    Event upload_end;
+};
+
+class DeviceScene final : public ResidentScene {
+  public:
+    /// Starts the upload on `stream`. A scene of many primitives gets a hierarchy, built here on the host.
+    DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory> memory, Stream& stream);
+
+    /// Waits for the upload to know its time.
+    [[nodiscard]] PhaseTimes load_times() const override;
+    [[nodiscard]] const DeviceSceneView& view() const { return view_; }
+    [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }
+    /// For the camera; arrays are not kept.
+    [[nodiscard]] const PreparedScene& camera() const { return camera_; }
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  private:
+    std::shared_ptr<SceneMemory> memory_;
+    PreparedScene camera_;
+    DeviceSceneView view_{};
+    std::size_t bytes_ = 0;
+    double build_seconds_ = 0;
+};
+
+}  // namespace tandem::cuda

@@ -1,0 +1,89 @@
+#include "cuda/kernels.h"
+
+#include "cuda/launch.h"
+
+namespace tandem::cuda {
+
+namespace {
+
+// A block covers 16 x 8 pixels as four warps of 8 x 4: neighbours in a warp see the same things.
+constexpr unsigned int warp_width = 8;
+constexpr unsigned int warp_height = 4;
+constexpr unsigned int block_width = 16;
+constexpr unsigned int block_height = 8;
+constexpr unsigned int block_threads = block_width * block_height;
+/// Blocks that must fit on a multiprocessor: 72 registers a thread. Measured on an H200 against 1, 5, 6 and 8
+/// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
+constexpr unsigned int resident_blocks = 7;
+
+template <class Tracer>
+__global__ void __launch_bounds__(block_threads, resident_blocks)
+    render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
+                  Vec3d* __restrict__ sums, unsigned long long* __restrict__ invalid) {
+    const unsigned int warp = threadIdx.x / 32;
+    const unsigned int lane = threadIdx.x % 32;
+    const std::uint32_t x =
+        blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width + lane % warp_width;
+    const std::uint32_t y =
+        blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
+    if (x >= job.width || y >= height) return;
+    const PixelSum<float> pixel = render_pixel<float>(tracer, tracer.scene, job, x, y, true);
+    sums[static_cast<std::size_t>(y) * job.width + x] = pixel.sum;
+    if (pixel.invalid != 0) atomicAdd(invalid, pixel.invalid);
+}
+
+template <class Tracer>
+__global__ void __launch_bounds__(block_threads, resident_blocks)
+    trace_kernel(const __grid_constant__ Tracer tracer, const Ray<float>* __restrict__ rays, Hit* __restrict__ hits,
+                 std::size_t count) {
+    const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
+    if (i < count) hits[i] = to_hit(tracer.closest(rays[i], is_traceable(rays[i])));
+}
+
+/// Calls f with the tracer that fits the scene.
+template <class F>
+auto with_tracer(const DeviceSceneView& scene, F f) {
+    if (scene.bvh.nodes != nullptr) return f(BvhTracer{scene.scene, scene.bvh});
+    return f(LoopTracer{scene.scene});
+}
+
+unsigned int blocks_for(std::size_t items, std::size_t per_block) {
+    return static_cast<unsigned int>((items + per_block - 1) / per_block);
+}
+
+}  // namespace
+
+void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
+                   unsigned long long* invalid, cudaStream_t stream) {
+    const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
+    with_tracer(scene, [&]<class Tracer>(const Tracer& tracer) {
+        launch("rendering", render_kernel<Tracer>, grid, block_threads, stream, tracer, job, height, sums, invalid);
+    });
+}
+
+void launch_trace(const DeviceSceneView& scene, const Ray<float>* rays, Hit* hits, std::size_t count,
+                  cudaStream_t stream) {
+    if (count == 0) return;
+    with_tracer(scene, [&]<class Tracer>(const Tracer& tracer) {
+        launch("tracing rays", trace_kernel<Tracer>, blocks_for(count, block_threads), block_threads, stream, tracer,
+               rays, hits, count);
+    });
+}
+
+KernelFacts render_kernel_facts(const DeviceSceneView& scene) {
+    return with_tracer(scene, []<class Tracer>(const Tracer&) {
+        cudaFuncAttributes attributes{};
+        check(cudaFuncGetAttributes(&attributes, render_kernel<Tracer>), "reading the facts of a kernel");
+        int blocks = 0;
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, render_kernel<Tracer>, block_threads, 0),
+              "reading the occupancy of a kernel");
+        int device = 0;
+        int threads = 1;
+        check(cudaGetDevice(&device), "finding the current GPU");
+        check(cudaDeviceGetAttribute(&threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), "reading GPU facts");
+        return KernelFacts{attributes.numRegs, static_cast<int>(attributes.localSizeBytes),
+                           static_cast<double>(blocks) * block_threads / threads};
+    });
+}
+
+}  // namespace tandem::cuda

@@ -1,0 +1,48 @@
+/// Streams and events, owned.
+#pragma once
+
+#include <utility>
+
+#include "cuda/cuda_error.h"
+
+namespace tandem::cuda {
+
+/// A mark in a stream, with a time.
+class Event {
+  public:
+    Event() { check(cudaEventCreate(&handle_), "creating an event"); }
+    ~Event() { (void)cudaEventDestroy(handle_); }
+    Event(const Event&) = delete;
+    Event& operator=(const Event&) = delete;
+
+    void record(cudaStream_t stream) { check(cudaEventRecord(handle_, stream), "recording an event"); }
+    void wait() const { check(cudaEventSynchronize(handle_), "waiting for the GPU"); }
+    [[nodiscard]] cudaEvent_t get() const { return handle_; }
+
+  private:
+    cudaEvent_t handle_ = nullptr;
+};
+
+/// Seconds between two events that have happened.
+[[nodiscard]] inline double seconds_between(const Event& start, const Event& end) {
+    float milliseconds = 0;
+    check(cudaEventElapsedTime(&milliseconds, start.get(), end.get()), "reading the time of a kernel or copy");
+    return 1e-3 * static_cast<double>(milliseconds);
+}
+
+class Stream {
+  public:
+    Stream() { check(cudaStreamCreateWithFlags(&handle_, cudaStreamNonBlocking), "creating a stream"); }
+    ~Stream() { (void)cudaStreamDestroy(handle_); }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+
+    /// What is queued from now on starts after the event.
+    void wait_for(const Event& event) { check(cudaStreamWaitEvent(handle_, event.get(), 0), "ordering streams"); }
+    [[nodiscard]] cudaStream_t get() const { return handle_; }
+
+  private:
+    cudaStream_t handle_ = nullptr;
+};
+
+}  // namespace tandem::cuda

@@ -1,0 +1,107 @@
+/// Tracing through the two-child hierarchy: nearer child first, stack in local memory.
+/// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009.
+#pragma once
+
+#include "tandem/bvh/bvh.h"
+#include "tandem/bvh/proposal.h"
+#include "tandem/bvh/slab.h"
+#include "tandem/geometry/intersect.h"
+
+namespace tandem {
+
+/// The arrays of a Bvh in the memory of the side that traverses it.
+struct BvhView {
+    const BvhNode* nodes;
+    const Sphere* entry_spheres;
+    const std::uint32_t* entry_ids;
+    StructureFrame frame;
+};
+
+namespace bvh_detail {
+
+struct alignas(16) Quad {
+    float a, b, c, d;
+};
+
+/// 16 bytes at once; on the GPU through the read-only cache.
+TANDEM_HD Quad load_quad(const void* address) {
+#if TANDEM_ON_DEVICE
+    const float4 v = __ldg(static_cast<const float4*>(address));
+    return {v.x, v.y, v.z, v.w};
+#else
+    Quad quad;
+    std::memcpy(&quad, address, sizeof(quad));
+    return quad;
+#endif
+}
+
+}  // namespace bvh_detail
+
+struct BvhTracer {
+    SceneView scene;
+    BvhView bvh;
+
+    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
+        Closest<float> best = no_hit<float>();
+        if (!active) return best;
+        const Proposal<float> proposal = propose(ray, bvh.frame, true);
+        if (!proposal.active) return best;
+        const FilterRay<float> filter = make_filter_ray(ray);
+        const SlabRay slab = make_slab_ray(proposal.ray.origin, proposal.ray.direction);
+        float limit = 3e38F;
+        std::int32_t stack[max_bvh_depth];
+        int depth = 0;
+        std::int32_t at = 0;
+        while (true) {
+            if (at >= 0) {
+                const BvhNode& node = bvh.nodes[at];
+                const bvh_detail::Quad xy0 = bvh_detail::load_quad(node.xy[0]);
+                const bvh_detail::Quad xy1 = bvh_detail::load_quad(node.xy[1]);
+                const bvh_detail::Quad z = bvh_detail::load_quad(node.z);
+                const bvh_detail::Quad children = bvh_detail::load_quad(node.child);
+                const float entry0 = slab_entry(slab, xy0.a, xy0.b, xy0.c, xy0.d, z.a, z.b, limit);
+                const float entry1 = slab_entry(slab, xy1.a, xy1.b, xy1.c, xy1.d, z.c, z.d, limit);
+                const bool enter0 = entry0 <= limit;
+                const bool enter1 = entry1 <= limit;
+                const auto child0 = static_cast<std::int32_t>(bits_of(children.a));
+                const auto child1 = static_cast<std::int32_t>(bits_of(children.b));
+                if (enter0 && enter1) {
+                    const bool second_first = entry1 < entry0;
+                    stack[depth++] = second_first ? child0 : child1;
+                    at = second_first ? child1 : child0;
+                    continue;
+                }
+                if (enter0 || enter1) {
+                    at = enter0 ? child0 : child1;
+                    continue;
+                }
+            } else {
+                try_leaf(at, filter, proposal, best, limit);
+            }
+            if (depth == 0) return best;
+            at = stack[--depth];
+        }
+    }
+
+  private:
+    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const Proposal<float>& proposal,
+                            Closest<float>& best, float& limit) const {
+        const std::uint32_t first = leaf_first(leaf);
+        const std::uint32_t end = first + leaf_count(leaf);
+        for (std::uint32_t i = first; i < end; ++i) {
+            const bvh_detail::Quad q = bvh_detail::load_quad(&bvh.entry_spheres[i]);
+            const Sphere around = {{q.a, q.b, q.c}, q.d};
+            if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
+            const std::uint32_t id = bvh.entry_ids[i];
+            const double before = best.t;
+            if (id < scene.sphere_count) {
+                offer<float>(sphere_roots(around, filter.ray), id, true, best);
+            } else {
+                intersect_primitive<float>(scene, id, filter, true, best);
+            }
+            if (best.t < before) limit = proposal.limit(best.t);
+        }
+    }
+};
+
+}  // namespace tandem

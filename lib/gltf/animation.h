@@ -1,0 +1,19 @@
+/// Animation channels of a file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tandem/gltf/model.h"
+#include "tandem/gltf/report.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::gltf {
+
+/// Adds the channels of the first animation to the scene. `node_of`: by node of the file its number in the scene, or
+/// nothing if the scene does not have it. Throws InputError.
+void read_animation(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of, Scene& scene,
+                    ImportReport& report);
+
+}  // namespace tandem::gltf

@@ -1,0 +1,53 @@
+#include "tandem/gltf/extensions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tandem::gltf {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> rendered = {
+    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing", "KHR_implicit_shapes",
+    "KHR_lights_punctual",   "TANDEM_environment",      "TANDEM_materials_phong",
+};
+
+struct Reason {
+    std::string_view prefix;  ///< of the extension's name
+    std::string_view reason;
+};
+
+constexpr std::string_view for_triangles = "it serves triangle meshes, which Tandem does not render yet";
+constexpr std::string_view for_textures = "it serves textures, which Tandem does not render yet";
+constexpr std::string_view for_animation = "Tandem animates translation, rotation and scale of nodes only";
+
+constexpr std::array<Reason, 14> reasons = {{
+    {"KHR_draco_mesh_compression", for_triangles},
+    {"KHR_mesh_", for_triangles},
+    {"EXT_mesh_", for_triangles},
+    {"EXT_meshopt_", for_triangles},
+    {"KHR_meshopt_", for_triangles},
+    {"KHR_materials_variants", "materials stay as the primitives name them"},
+    {"KHR_materials_", "Tandem shades with Phong's model only"},
+    {"KHR_texture_", for_textures},
+    {"EXT_texture_", for_textures},
+    {"MSFT_texture_", for_textures},
+    {"KHR_animation_pointer", for_animation},
+    {"KHR_physics_", "Tandem does not simulate motion"},
+    {"KHR_xmp", "it does not change the picture"},
+    {"EXT_lights_image_based", "the background is the gradient of TANDEM_environment"},
+}};
+
+}  // namespace
+
+bool is_rendered_extension(std::string_view name) {
+    return std::find(rendered.begin(), rendered.end(), name) != rendered.end();
+}
+
+std::string why_ignored(std::string_view name) {
+    const auto found =
+        std::find_if(reasons.begin(), reasons.end(), [&](const Reason& r) { return name.starts_with(r.prefix); });
+    return std::string(found == reasons.end() ? "Tandem does not know it" : found->reason);
+}
+
+}  // namespace tandem::gltf

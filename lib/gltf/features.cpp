@@ -1,0 +1,122 @@
+#include "tandem/gltf/features.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "tandem/gltf/extensions.h"
+
+namespace tandem::gltf {
+
+namespace {
+
+struct Feature {
+    const char* name;
+    const char* reason;
+};
+
+constexpr const char* film_decides = "the film decides the shape of the picture";
+constexpr const char* no_clipping = "a ray tracer has no clipping planes";
+constexpr const char* no_textures = "Tandem does not render textures yet";
+constexpr const char* no_skins = "Tandem does not render skins yet";
+constexpr const char* no_morphing = "Tandem does not render morph targets yet";
+constexpr const char* phong_only = "Tandem shades with Phong's model only";
+constexpr const char* no_alpha = "Tandem renders all surfaces as opaque";
+
+/// By place in the file, with [] for any index.
+const std::map<std::string, Feature>& ignored_features() {
+    static const std::map<std::string, Feature> features = {
+        {"images[]", {"image", no_textures}},
+        {"samplers[]", {"texture sampler", no_textures}},
+        {"textures[]", {"texture", no_textures}},
+        {"skins[]", {"skin", no_skins}},
+        {"nodes[].skin", {"node skin", no_skins}},
+        {"nodes[].weights", {"morph weights", no_morphing}},
+        {"meshes[].weights", {"morph weights", no_morphing}},
+        {"meshes[].primitives[].targets", {"morph targets", no_morphing}},
+        {"cameras[].perspective.aspectRatio", {"camera aspectRatio", film_decides}},
+        {"cameras[].perspective.znear", {"camera znear", no_clipping}},
+        {"cameras[].perspective.zfar", {"camera zfar", no_clipping}},
+        {"cameras[].orthographic.xmag", {"camera xmag", film_decides}},
+        {"cameras[].orthographic.znear", {"camera znear", no_clipping}},
+        {"cameras[].orthographic.zfar", {"camera zfar", no_clipping}},
+        {"materials[].pbrMetallicRoughness.baseColorTexture", {"base colour texture", no_textures}},
+        {"materials[].pbrMetallicRoughness.metallicRoughnessTexture", {"metallic-roughness texture", no_textures}},
+        {"materials[].pbrMetallicRoughness.metallicFactor", {"metallicFactor", phong_only}},
+        {"materials[].pbrMetallicRoughness.roughnessFactor", {"roughnessFactor", phong_only}},
+        {"materials[].normalTexture", {"normal texture", no_textures}},
+        {"materials[].occlusionTexture", {"occlusion texture", no_textures}},
+        {"materials[].emissiveTexture", {"emissive texture", no_textures}},
+        {"materials[].emissiveFactor", {"emission", "Tandem does not render emission yet"}},
+        {"materials[].alphaMode", {"alphaMode", no_alpha}},
+        {"materials[].alphaCutoff", {"alphaCutoff", no_alpha}},
+        {"materials[].doubleSided", {"doubleSided", "Tandem shades both sides of every surface alike"}},
+        {"extensions.KHR_lights_punctual.lights[].range", {"light range", "Phong's model has no fall-off"}},
+        {"meshes[].primitives[].extensions.EXT_implicit_geometry.sphere.slice",
+         {"implicit geometry slice", "Tandem renders whole spheres"}},
+        {"meshes[].primitives[].extensions.EXT_implicit_geometry.box.slice",
+         {"implicit geometry slice", "Tandem renders whole boxes"}},
+    };
+    return features;
+}
+
+class Walker {
+  public:
+    Walker(const Document& document, ImportReport& report) : document_(document), report_(report) {}
+
+    void run() {
+        walk(document_.json, "", "");
+        const Json* used = find(document_.json, "extensionsUsed");
+        for (std::size_t i = 0; used != nullptr && i < used->size(); ++i) {
+            const auto name = (*used)[i].get<std::string>();
+            if (met_.contains(name)) continue;
+            report_.add(Treatment::ignored, name, fmt::format("extensionsUsed[{}]", i),
+                        "the file lists it and uses it nowhere");
+        }
+    }
+
+  private:
+    /// `place`: the path with [] for every index. Depth is bounded by read_document().
+    void walk(const Json& value, const std::string& path, const std::string& place) {
+        if (const auto found = ignored_features().find(place); found != ignored_features().end()) {
+            report_.add(Treatment::ignored, found->second.name, path, found->second.reason);
+        }
+        if (value.is_array()) {
+            if (!value.empty() && !value[0].is_structured() && !ignored_features().contains(place + "[]")) return;
+            for (std::size_t i = 0; i < value.size(); ++i) walk(value[i], fmt::format("{}[{}]", path, i), place + "[]");
+        } else if (value.is_object()) {
+            for (const auto& [name, member] : value.items()) walk_member(name, member, path, place);
+        }
+    }
+
+    void walk_member(const std::string& name, const Json& member, const std::string& path, const std::string& place) {
+        if (name == "extras") return;
+        const std::string dot = path.empty() ? "" : ".";
+        if (name == "extensions") {
+            for (const auto& [extension, content] : member.items()) {
+                met_.insert(extension);
+                const std::string where = fmt::format("{}{}extensions.{}", path, dot, extension);
+                if (is_rendered_extension(extension)) {
+                    walk(content, where, fmt::format("{}{}extensions.{}", place, dot, extension));
+                } else {
+                    report_.add(Treatment::ignored, extension, where, why_ignored(extension));
+                }
+            }
+            return;
+        }
+        walk(member, path + dot + name, place + dot + name);
+    }
+
+    const Document& document_;
+    ImportReport& report_;
+    std::set<std::string> met_;  ///< extensions that some object uses
+};
+
+}  // namespace
+
+void note_ignored_features(const Document& document, ImportReport& report) { Walker(document, report).run(); }
+
+}  // namespace tandem::gltf

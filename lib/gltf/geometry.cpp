@@ -1,0 +1,219 @@
+#include "tandem/gltf/geometry.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tandem/gltf/accessor.h"
+#include "tandem/gltf/materials.h"
+
+namespace tandem::gltf {
+
+namespace {
+
+constexpr const char* implicit_geometry = "EXT_implicit_geometry";
+constexpr const char* implicit_shapes = "KHR_implicit_shapes";
+constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
+
+SphereShape sphere_from(const Json& sphere) { return {sphere.value("radius", 0.5)}; }
+
+BoxShape box_from(const Json& box) {
+    const Json* size = find(box, "size");
+    if (size == nullptr) return {};
+    return {{(*size)[0].get<double>(), (*size)[1].get<double>(), (*size)[2].get<double>()}};
+}
+
+const char* mode_name(std::uint64_t mode) {
+    static constexpr const char* names[] = {"points",        "lines",          "line loop",   "line strip",
+                                            "triangle mesh", "triangle strip", "triangle fan"};
+    return mode < std::size(names) ? names[mode] : "mesh of unknown mode";
+}
+
+/// The values of one attribute, or none if the file has none.
+struct Attribute {
+    std::vector<float> values;
+    std::size_t width = 0;
+
+    std::size_t count() const { return width == 0 ? 0 : values.size() / width; }
+    double at(std::size_t element, std::size_t component) const { return double{values[element * width + component]}; }
+    Vec3d vec3(std::size_t i) const { return {at(i, 0), at(i, 1), at(i, 2)}; }
+};
+
+}  // namespace
+
+Budget::Budget(const Source& source) : left_(10'000'000) {
+    std::size_t bytes = 0;
+    for (const tinygltf::Buffer& buffer : source.model.buffers) bytes += buffer.data.size();
+    left_ = std::max(left_, bytes);
+}
+
+void Budget::spend(const Document& document, const std::string& json_path, std::size_t amount) {
+    if (amount > left_) {
+        document.fail(json_path, "repeats the data of the file more than ten million times over; split the file");
+    }
+    left_ -= amount;
+}
+
+std::vector<Geometry> GeometryReader::read(std::size_t index) {
+    const Json& node = source_.document.json["nodes"][index];
+    const Json* instancing = find_extension(node, instancing_name);
+    const std::string node_path = fmt::format("nodes[{}]", index);
+    const std::string instancing_path = fmt::format("{}.extensions.{}", node_path, instancing_name);
+    const Json* mesh = find(node, "mesh");
+    if (mesh == nullptr) {
+        if (instancing != nullptr) {
+            report_.add(Treatment::ignored, instancing_name, instancing_path, "the node has no mesh to repeat");
+        }
+        return {};
+    }
+    std::vector<Trs> instances;
+    if (instancing != nullptr) instances = read_instances(*instancing, instancing_path);
+
+    std::vector<Geometry> result;
+    const auto mesh_index = mesh->get<std::size_t>();
+    const Json& primitives = source_.document.json["meshes"][mesh_index]["primitives"];
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh_index, i);
+        const auto shape = read_shape(primitives[i], path);
+        if (!shape) continue;
+        budget_.spend(source_.document, node_path + ".mesh", std::max<std::size_t>(1, instances.size()));
+        result.push_back({*shape, material_of(primitives[i], path), instances});
+    }
+    return result;
+}
+
+std::optional<GeometryReader::Shape> GeometryReader::read_shape(const Json& primitive, const std::string& path) {
+    const Json* geometry = find_extension(primitive, implicit_geometry);
+    const Json* reference = find_extension(primitive, implicit_shapes);
+    if (geometry != nullptr && reference != nullptr) {
+        source_.document.fail(
+            path, fmt::format("has a shape of {} and one of {}; keep one", implicit_geometry, implicit_shapes));
+    }
+    std::optional<Shape> shape;
+    if (geometry != nullptr) shape = read_implicit_geometry(*geometry, path);
+    if (reference != nullptr) shape = read_implicit_shape(*reference, path);
+    const bool has_vertices = find(primitive, "attributes") != nullptr && !primitive["attributes"].empty();
+    if (!shape && (has_vertices || (geometry == nullptr && reference == nullptr))) {
+        report_.add(Treatment::ignored, mode_name(primitive.value("mode", std::uint64_t{4})), path,
+                    "Tandem renders spheres and boxes only, for now");
+    }
+    return shape;
+}
+
+std::optional<GeometryReader::Shape> GeometryReader::read_implicit_geometry(const Json& geometry,
+                                                                            const std::string& path) {
+    const std::string where = fmt::format("{}.extensions.{}", path, implicit_geometry);
+    std::vector<std::string> kinds;
+    for (const auto& [name, value] : geometry.items()) {
+        if (name != "extensions" && name != "extras") kinds.push_back(name);
+    }
+    if (kinds.size() != 1) {
+        source_.document.fail(where,
+                              fmt::format("has {} shapes; it must have one, such as 'sphere' or 'box'", kinds.size()));
+    }
+    const std::string feature = fmt::format("{} {}", implicit_geometry, kinds[0]);
+    if (kinds[0] == "sphere" || kinds[0] == "box") {
+        report_.add(Treatment::rendered, feature, where, "exactly, without triangles");
+        if (kinds[0] == "sphere") return sphere_from(geometry["sphere"]);
+        return box_from(geometry["box"]);
+    }
+    report_.add(Treatment::ignored, feature, where, "of the implicit shapes, Tandem renders spheres and boxes");
+    return std::nullopt;
+}
+
+std::optional<GeometryReader::Shape> GeometryReader::read_implicit_shape(const Json& reference,
+                                                                         const std::string& path) {
+    const auto index = reference["shape"].get<std::size_t>();
+    const std::string shape_path = fmt::format("extensions.{}.shapes[{}]", implicit_shapes, index);
+    const Json& shape = source_.document.json["extensions"][implicit_shapes]["shapes"][index];
+    const auto type = shape["type"].get<std::string>();
+    const std::string where = fmt::format("{}.extensions.{}", path, implicit_shapes);
+    const std::string feature = fmt::format("{} {}", implicit_shapes, type);
+    if (type != "sphere" && type != "box") {
+        report_.add(Treatment::ignored, feature, where, "of the implicit shapes, Tandem renders spheres and boxes");
+        return std::nullopt;
+    }
+    if (shape.contains(type == "sphere" ? "box" : "sphere")) {
+        source_.document.fail(shape_path,
+                              fmt::format("is of type '{}' and has the parameters of another; keep one", type));
+    }
+    report_.add(Treatment::rendered, feature, where, "exactly, without triangles");
+    const Json parameters = shape.value(type, Json::object());
+    if (type == "sphere") return sphere_from(parameters);
+    return box_from(parameters);
+}
+
+std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const std::string& path) {
+    const Json& attributes = instancing["attributes"];
+    std::size_t count = 0;
+    std::string counted;
+    const auto read = [&](const char* name, const char* type, std::size_t width) {
+        Attribute attribute;
+        const Json* index = find(attributes, name);
+        if (index == nullptr) return attribute;
+        const std::string where = fmt::format("{}.attributes.{}", path, name);
+        const auto accessor = index->get<std::size_t>();
+        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
+        attribute = {read_accessor(source_, accessor, {type, true, "an instance attribute", where}), width};
+        if (!counted.empty() && attribute.count() != count) {
+            source_.document.fail(where, fmt::format("has {} instances, but {} has {}; make them equal",
+                                                     attribute.count(), counted, count));
+        }
+        count = attribute.count();
+        counted = name;
+        return attribute;
+    };
+    const Attribute translation = read("TRANSLATION", "VEC3", 3);
+    const Attribute rotation = read("ROTATION", "VEC4", 4);
+    const Attribute scale = read("SCALE", "VEC3", 3);
+    for (const auto& [name, index] : attributes.items()) {
+        if (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE") continue;
+        report_.add(Treatment::ignored, fmt::format("instance attribute {}", name),
+                    fmt::format("{}.attributes.{}", path, name), "Tandem places instances and does not vary them");
+    }
+    if (counted.empty()) {
+        source_.document.fail(path + ".attributes", "has neither TRANSLATION nor ROTATION nor SCALE; add one");
+    }
+    report_.add(Treatment::rendered, instancing_name, path, "every instance of the spheres and boxes of the mesh");
+    std::vector<Trs> instances(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (translation.width != 0) instances[i].translation = translation.vec3(i);
+        if (rotation.width != 0) {
+            instances[i].rotation = {rotation.at(i, 0), rotation.at(i, 1), rotation.at(i, 2), rotation.at(i, 3)};
+        }
+        if (scale.width != 0) instances[i].scale = scale.vec3(i);
+    }
+    return instances;
+}
+
+std::uint32_t GeometryReader::material_of(const Json& primitive, const std::string& path) {
+    if (const Json* index = find(primitive, "material")) return index->get<std::uint32_t>();
+    report_.add(Treatment::approximated, "default material", path,
+                "the primitive names no material; it is white, as Phong's model can show it");
+    if (!default_material_) {
+        default_material_ = static_cast<std::uint32_t>(scene_.materials.size());
+        scene_.materials.push_back(default_material());
+    }
+    return *default_material_;
+}
+
+void GeometryReader::note_unused_shapes() {
+    std::vector<bool> used(source_.document.length(std::string("extensions/") + implicit_shapes + "/shapes"), false);
+    const Json* meshes = find(source_.document.json, "meshes");
+    for (std::size_t m = 0; meshes != nullptr && m < meshes->size(); ++m) {
+        for (const Json& primitive : (*meshes)[m]["primitives"]) {
+            if (const Json* reference = find_extension(primitive, implicit_shapes)) {
+                used[(*reference)["shape"].get<std::size_t>()] = true;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i]) continue;
+        report_.add(Treatment::ignored, fmt::format("{} shape", implicit_shapes),
+                    fmt::format("extensions.{}.shapes[{}]", implicit_shapes, i),
+                    "no mesh primitive names it; shapes for other purposes, such as colliders, are not drawn");
+    }
+}
+
+}  // namespace tandem::gltf

@@ -1,0 +1,25 @@
+/// Scenes from glTF 2.0 files. docs/scene-format.md says what is read and how.
+#pragma once
+
+#include <filesystem>
+
+#include "tandem/gltf/report.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+struct ImportResult {
+    Scene scene;
+    ImportReport report;
+};
+
+/// Reads a .gltf or .glb file, with the buffers beside it. Files outside of its folder are never opened, and no
+/// image is decoded.
+///
+/// The nodes of the default scene come in the order of the file's `nodes`; lengths in metres, angles in radians, as in
+/// the file. The scene is valid (validate()).
+/// Throws InputError with one sentence that holds the file, the JSON path, the reason and what to do; for malformed
+/// input, for a scene that is not valid, and for a required extension that Tandem does not render.
+[[nodiscard]] ImportResult import_gltf(const std::filesystem::path& file);
+
+}  // namespace tandem

@@ -1,0 +1,72 @@
+#include "tandem/gltf/materials.h"
+
+#include <fmt/format.h>
+
+namespace tandem::gltf {
+
+namespace {
+
+/// A matt surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on.
+PhongMaterial phong_from_base_colour(const Vec3f& base_colour) {
+    return {base_colour * 0.1F, base_colour, {0.04F, 0.04F, 0.04F}, 32};
+}
+
+}  // namespace
+
+Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent) {
+    const Json* found = find(object, member);
+    if (found == nullptr) return absent;
+    return {(*found)[0].get<float>(), (*found)[1].get<float>(), (*found)[2].get<float>()};
+}
+
+std::vector<Material> read_materials(const Source& source, ImportReport& report) {
+    std::vector<Material> materials;
+    const Json* described = find(source.document.json, "materials");
+    for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
+        const tinygltf::Material& read = source.model.materials[i];
+        const std::string path = fmt::format("materials[{}]", i);
+        Material material{read.name, {}};
+        if (const Json* phong = find_extension((*described)[i], "TANDEM_materials_phong")) {
+            const PhongMaterial absent;
+            material.phong = {
+                read_colour(*phong, "ambient", absent.ambient), read_colour(*phong, "diffuse", absent.diffuse),
+                read_colour(*phong, "specular", absent.specular), phong->value("shininess", absent.shininess)};
+            report.add(Treatment::rendered, "TANDEM_materials_phong", path + ".extensions.TANDEM_materials_phong",
+                       "Phong's model");
+        } else {
+            const std::vector<double>& c = read.pbrMetallicRoughness.baseColorFactor;
+            material.phong = phong_from_base_colour(narrow(Vec3d{c[0], c[1], c[2]}));
+            report.add(Treatment::approximated, "metallic-roughness material", path,
+                       "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
+                       "shininess 32");
+        }
+        materials.push_back(std::move(material));
+    }
+    return materials;
+}
+
+Material default_material() { return {"default", phong_from_base_colour({1, 1, 1})}; }
+
+Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
+                             ImportReport& report) {
+    constexpr const char* name = "TANDEM_environment";
+    const Json* of_scene = scene == nullptr ? nullptr : find_extension(*scene, name);
+    const Json* of_root = find_extension(document.json, name);
+    const Json* found = of_scene != nullptr ? of_scene : of_root;
+    Environment environment;
+    if (found == nullptr) return environment;
+    const std::string root_path = fmt::format("extensions.{}", name);
+    report.add(Treatment::rendered, name, of_scene != nullptr ? scene_path + "." + root_path : root_path,
+               "background and ambient light");
+    if (of_scene != nullptr && of_root != nullptr) {
+        report.add(Treatment::ignored, fmt::format("{} of the file", name), root_path, "the scene has its own");
+    }
+    if (const Json* gradient = find(*found, "gradient")) {
+        environment.bottom = read_colour(*gradient, "bottom", environment.bottom);
+        environment.top = read_colour(*gradient, "top", environment.top);
+    }
+    environment.ambient = read_colour(*found, "ambient", environment.ambient);
+    return environment;
+}
+
+}  // namespace tandem::gltf

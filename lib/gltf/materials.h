@@ -1,0 +1,27 @@
+/// Materials and the environment.
+#pragma once
+
+#include <vector>
+
+#include "tandem/gltf/document.h"
+#include "tandem/gltf/model.h"
+#include "tandem/gltf/report.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::gltf {
+
+/// One material per material of the file, in its order. TANDEM_materials_phong as it stands; any other is
+/// approximated from its base colour.
+[[nodiscard]] std::vector<Material> read_materials(const Source& source, ImportReport& report);
+
+/// What glTF gives to primitives that name no material, as far as Phong's model can follow: white.
+[[nodiscard]] Material default_material();
+
+/// TANDEM_environment of the scene, else of the root, else Tandem's default.
+[[nodiscard]] Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
+                                           ImportReport& report);
+
+/// Three numbers of a member, or `absent`.
+[[nodiscard]] Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent);
+
+}  // namespace tandem::gltf

@@ -1,0 +1,40 @@
+/// What an import did with what the file uses: nothing is dropped in silence.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tandem {
+
+/// rendered: as the file means it. approximated: in another way than the file means, said in the reason. ignored: not
+/// in the picture at all.
+enum class Treatment { rendered, approximated, ignored };
+
+[[nodiscard]] std::string to_string(Treatment treatment);
+
+/// One extension or feature of a file.
+struct ImportNote {
+    Treatment treatment = Treatment::rendered;
+    std::string feature;    ///< e.g. "EXT_implicit_geometry sphere", "light range"
+    std::string json_path;  ///< of its first use, e.g. "meshes[2].primitives[0]"
+    std::size_t uses = 1;
+    std::string reason;  ///< what Tandem makes of it, and why
+};
+
+class ImportReport {
+  public:
+    /// Adds a use; uses of one feature with one treatment and reason become one note with the path of the first.
+    void add(Treatment treatment, std::string_view feature, std::string_view json_path, std::string_view reason);
+
+    [[nodiscard]] const std::vector<ImportNote>& notes() const { return notes_; }
+
+  private:
+    std::vector<ImportNote> notes_;
+};
+
+/// One line: "ignored: light range at extensions.KHR_lights_punctual.lights[0].range (2 uses): ...".
+[[nodiscard]] std::string to_string(const ImportNote& note);
+
+}  // namespace tandem

@@ -1,0 +1,173 @@
+// Every backend against the oracle, ray by ray: the same primitive always, t within one unit of the last place.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/backend_list.h"
+#include "support/hard_scenes.h"
+#include "tandem/oracle/oracle.h"
+
+namespace tandem {
+namespace {
+
+constexpr std::size_t rays_per_scene = 110'000;  // ten scenes: over a million rays
+constexpr std::uint64_t scene_seed = 20;
+constexpr std::uint64_t ray_seed = 21;
+
+/// Distance in units of the last place.
+std::int64_t ulps_between(float a, float b) {
+    const auto ordered = [](float x) { return static_cast<std::int64_t>(bits_of(x)); };  // t is positive
+    return std::abs(ordered(a) - ordered(b));
+}
+
+std::string describe(const test::HardScene& scene, std::size_t index, const Ray<float>& ray) {
+    char text[400];
+    std::snprintf(text, sizeof(text), "scene '%s' (seed %llu), ray %zu (seed %llu): origin %a %a %a direction %a %a %a",
+                  scene.name.c_str(), static_cast<unsigned long long>(scene_seed), index,
+                  static_cast<unsigned long long>(ray_seed), static_cast<double>(ray.origin.x),
+                  static_cast<double>(ray.origin.y), static_cast<double>(ray.origin.z),
+                  static_cast<double>(ray.direction.x), static_cast<double>(ray.direction.y),
+                  static_cast<double>(ray.direction.z));
+    return text;
+}
+
+/// The oracle's answers, once for all backends.
+struct Reference {
+    test::HardScene parameters;
+    PreparedScene scene;
+    std::vector<Ray<float>> rays;
+    std::vector<Hit> hits;
+};
+
+const std::vector<Reference>& references() {
+    static const std::vector<Reference> all = [] {
+        std::vector<Reference> list;
+        const auto oracle = make_backend("oracle");
+        for (const test::HardScene& parameters : test::hard_scenes()) {
+            Reference r{parameters, test::make_scene(parameters, scene_seed), {}, {}};
+            // the crowd is dear for brute force
+            r.rays = test::make_rays(r.scene, parameters.count > 500 ? rays_per_scene / 10 : rays_per_scene, ray_seed);
+            r.hits.resize(r.rays.size());
+            oracle->trace(*oracle->load(r.scene), r.rays, r.hits);
+            list.push_back(std::move(r));
+        }
+        return list;
+    }();
+    return all;
+}
+
+class ClosestHit : public test::ExactBackend {};
+
+TEST_P(ClosestHit, AgreesWithTheOracle) {
+    std::size_t total = 0;
+    for (const Reference& reference : references()) {
+        const auto scene = backend_->load(reference.scene);
+        std::vector<Hit> hits(reference.rays.size());
+        backend_->trace(*scene, reference.rays, hits);
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            found += hits[i].primitive != no_primitive;
+            ASSERT_EQ(hits[i].primitive, reference.hits[i].primitive)
+                << describe(reference.parameters, i, reference.rays[i]);
+            ASSERT_LE(ulps_between(hits[i].t, reference.hits[i].t), 1)
+                << describe(reference.parameters, i, reference.rays[i]);
+        }
+        EXPECT_GT(found, hits.size() / 20) << reference.parameters.name << ": too few rays hit to say anything";
+        total += hits.size();
+    }
+    EXPECT_GE(total, 1'000'000U);
+}
+
+TEST_P(ClosestHit, GivesTheBitsOfTheLeastProcessor) {
+    BackendOptions options;
+    options.instruction_set = "x86-64-v2";
+    const auto least = make_backend("cpu", options);
+    for (const Reference& reference : references()) {
+        std::vector<Hit> expected(reference.rays.size());
+        least->trace(*least->load(reference.scene), reference.rays, expected);
+        std::vector<Hit> hits(reference.rays.size());
+        backend_->trace(*backend_->load(reference.scene), reference.rays, hits);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            ASSERT_EQ(bits_of(hits[i].t), bits_of(expected[i].t))
+                << describe(reference.parameters, i, reference.rays[i]);
+            ASSERT_EQ(hits[i].primitive, expected[i].primitive) << describe(reference.parameters, i, reference.rays[i]);
+        }
+    }
+}
+
+TEST_P(ClosestHit, MissesWithRaysThatAreNotTraceable) {
+    const PreparedScene scene = test::make_scene(test::hard_scenes().front(), 1);
+    const float nan = std::nanf("");
+    const float inf = HUGE_VALF;
+    std::vector<Ray<float>> rays = {{{nan, 0, 0}, {0, 0, 1}},  {{0, 0, 0}, {0, nan, 1}}, {{0, inf, 0}, {0, 0, 1}},
+                                    {{0, 0, 0}, {0, 0, -inf}}, {{0, 0, 0}, {0, 0, 0}},   {{0, 0, 2e18F}, {0, 0, -1}},
+                                    {{0, 0, 0}, {3e18F, 0, 0}}};
+    // among rays that hit, so that packets are mixed
+    const auto good = test::make_rays(scene, 64, 3);
+    std::vector<Ray<float>> all;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        all.push_back(good[i]);
+        all.push_back(rays[i % rays.size()]);
+    }
+    std::vector<Hit> hits(all.size(), Hit{5, 5});
+    backend_->trace(*backend_->load(scene), all, hits);
+    std::vector<Hit> alone(good.size());
+    backend_->trace(*backend_->load(scene), good, alone);
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        EXPECT_EQ(hits[2 * i].primitive, alone[i].primitive);
+        EXPECT_EQ(hits[2 * i + 1].primitive, no_primitive);
+        EXPECT_EQ(hits[2 * i + 1].t, 0);
+    }
+}
+
+// Coincident primitives: the lowest id wins on every backend, whatever the structure.
+TEST_P(ClosestHit, GivesTiesToTheLowestId) {
+    PreparedScene scene;
+    for (int i = 0; i < 100; ++i) scene.spheres.push_back({{0, 0, 0}, 1});
+    // a wall of touching boxes, 16 x 16, twice
+    for (int copy = 0; copy < 2; ++copy) {
+        for (int y = 0; y < 16; ++y) {
+            for (int x = 0; x < 16; ++x) {
+                const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+                scene.boxes.push_back({{fx, fy, 5}, {fx + 1, fy + 1, 6}});
+            }
+        }
+    }
+    scene.material_of.assign(scene.spheres.size() + scene.boxes.size(), 0);
+    scene.materials.emplace_back();
+    std::vector<Ray<float>> rays = {{{0, 0, -3}, {0, 0, 1}}, {{0, 0, 0}, {1, 2, 3}}};
+    std::vector<std::uint32_t> expected = {0, 0};
+    for (int y = 1; y < 16; ++y) {
+        for (int x = 1; x < 16; ++x) {  // at shared corners, from afar and askew
+            const Vec3f corner = {static_cast<float>(x), static_cast<float>(y), 5};
+            for (const Vec3f& origin : {Vec3f{corner.x, corner.y, 1}, Vec3f{1000, -2000, -4096}, Vec3f{7, 3, -1}}) {
+                rays.push_back({origin, corner - origin});
+                expected.push_back(static_cast<std::uint32_t>(100 + (y - 1) * 16 + (x - 1)));
+            }
+        }
+    }
+    std::vector<Hit> hits(rays.size());
+    backend_->trace(*backend_->load(scene), rays, hits);
+    std::vector<Hit> reference(rays.size());
+    const auto oracle = make_backend("oracle");
+    oracle->trace(*oracle->load(scene), rays, reference);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i;
+        EXPECT_EQ(hits[i].primitive, expected[i]) << "ray " << i;
+    }
+}
+
+TEST_P(ClosestHit, AnswersForAnEmptySceneAndForNoRays) {
+    const PreparedScene empty;
+    std::vector<Ray<float>> rays = {{{0, 0, 0}, {0, 0, 1}}};
+    std::vector<Hit> hits(1, Hit{5, 5});
+    backend_->trace(*backend_->load(empty), rays, hits);
+    EXPECT_EQ(hits[0].primitive, no_primitive);
+    backend_->trace(*backend_->load(empty), {}, {});
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, ClosestHit, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
+
+}  // namespace
+}  // namespace tandem

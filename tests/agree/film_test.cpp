@@ -1,0 +1,132 @@
+// Films: equal bits from every backend, thread count, tile size and run; near the oracle's.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/backend_list.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+RenderJob small_job() {
+    RenderJob job;
+    job.width = 131;  // odd, so that tiles and packets end in the middle
+    job.height = 97;
+    job.samples = 5;
+    job.seed = 7;
+    return job;
+}
+
+Film render_with(const std::string& backend, const BackendOptions& options, const PreparedScene& scene,
+                 const RenderJob& job) {
+    const auto b = make_backend(backend, options);
+    return b->render(b->load(scene), job).film;
+}
+
+class FilmBits : public test::ExactBackend {};
+
+TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
+    BackendOptions least;
+    least.instruction_set = "x86-64-v2";
+    least.threads = 1;
+    for (const char* name : {"paper", "spheres/7", "mixed/64", "mixed/500", "boxes/100"}) {
+        const PreparedScene scene = prepare(named_scene(name), {.frame = 11, .camera = ""});
+        const Film expected = render_with("cpu", least, scene, small_job());
+        const RenderResult result = backend_->render(backend_->load(scene), small_job());
+        EXPECT_EQ(film_hash(result.film), film_hash(expected)) << name;
+        EXPECT_EQ(result.stats.counters.invalid_samples, 0U) << name;
+        EXPECT_EQ(result.stats.rays, result.film.pixel_count() * 5) << name;
+    }
+}
+
+TEST_P(FilmBits, AreTheSameForFramesInFlightAndFramesAlone) {
+    const Scene scene = named_scene("paper");
+    std::vector<std::unique_ptr<PendingFrame>> pending;
+    RenderJob job = small_job();
+    for (std::uint32_t frame = 0; frame < 5; ++frame) {
+        job.frame = frame;
+        pending.push_back(
+            backend_->submit(backend_->load(prepare(scene, {.frame = static_cast<int>(frame), .camera = ""})), job));
+    }
+    for (std::uint32_t frame = 5; frame-- > 0;) {  // fetched in another order
+        job.frame = frame;
+        const Film in_flight = pending[frame]->get().film;
+        const Film alone =
+            backend_->render(backend_->load(prepare(scene, {.frame = static_cast<int>(frame), .camera = ""})), job)
+                .film;
+        EXPECT_EQ(film_hash(in_flight), film_hash(alone)) << "frame " << frame;
+    }
+}
+
+TEST_P(FilmBits, ChangeWithSeedAndFrame) {
+    const auto scene = backend_->load(prepare(named_scene("paper")));
+    const std::string reference = film_hash(backend_->render(scene, small_job()).film);
+    RenderJob job = small_job();
+    job.seed = 8;
+    EXPECT_NE(film_hash(backend_->render(scene, job).film), reference);
+    job = small_job();
+    job.seed += std::uint64_t{1} << 40;
+    EXPECT_NE(film_hash(backend_->render(scene, job).film), reference);
+    job = small_job();
+    job.frame = 1;
+    EXPECT_NE(film_hash(backend_->render(scene, job).film), reference);
+}
+
+TEST_P(FilmBits, AreNearTheOracle) {
+    for (const char* name : {"paper", "mixed/64"}) {
+        const PreparedScene scene = prepare(named_scene(name));
+        const Film film = backend_->render(backend_->load(scene), small_job()).film;
+        const Film oracle = render_with("oracle", {}, scene, small_job());
+        for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+            const Vec3d difference = film.sums()[i] - oracle.sums()[i];
+            // five samples of at most 2.1 each, a few roundings to float in every one
+            ASSERT_LE(std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)}), 4e-6)
+                << name << ", pixel " << i % 131 << ", " << i / 131;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FilmBits, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
+
+TEST(CpuFilm, DoesNotDependOnThreadsOrTiles) {
+    for (const char* name : {"paper", "mixed/500"}) {
+        const PreparedScene scene = prepare(named_scene(name));
+        std::string reference;
+        for (const int threads : {1, 2, 7}) {
+            for (const int tile : {8, 16, 13}) {
+                BackendOptions options;
+                options.threads = threads;
+                options.tile_size = tile;
+                const std::string hash = film_hash(render_with("cpu", options, scene, small_job()));
+                if (reference.empty()) reference = hash;
+                EXPECT_EQ(hash, reference) << name << ", " << threads << " threads, tiles of " << tile;
+            }
+        }
+    }
+}
+
+// Embree's commit arms flush-to-zero in TBB's workers; a film must not notice. A dark light makes subnormal sums.
+TEST(CpuFilm, KeepsSubnormalsAfterACommit) {
+    Scene scene = named_scene("mixed/200");
+    for (Node& node : scene.nodes) {
+        if (node.light) node.light->intensity = 1e-39F;
+    }
+    scene.environment = {{1e-40F, 1e-40F, 1e-40F}, {1e-41F, 0, 1e-39F}, {0, 0, 0}};
+    BackendOptions many;
+    many.threads = 4;
+    const PreparedScene prepared = prepare(scene);
+    const Film film = render_with("cpu", many, prepared, small_job());
+    const Film oracle = render_with("oracle", {}, prepared, small_job());
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+        lit += film.sums()[i].x > 0;
+        ASSERT_LE(std::abs(film.sums()[i].x - oracle.sums()[i].x), 5e-44) << "pixel " << i;
+    }
+    EXPECT_GT(lit, film.pixel_count() / 2);
+}
+
+}  // namespace
+}  // namespace tandem

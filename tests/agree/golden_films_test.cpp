@@ -1,0 +1,52 @@
+// Films whose hashes are stored: the CPU proves its half of the identity in every run, a GPU run the other half.
+// After a change that is meant to alter pictures: TANDEM_UPDATE_GOLDEN=1 agree_tests --gtest_filter='*Golden*'.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/backend_list.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json read_golden() {
+    std::ifstream file(TANDEM_GOLDEN_FILE);
+    return Json::parse(file);
+}
+
+class Golden : public test::ExactBackend {};
+
+TEST_P(Golden, FilmsAreAsStored) {
+    Json golden = read_golden();
+    ASSERT_GE(golden["films"].size(), 5U);
+    for (Json& entry : golden["films"]) {
+        const auto frame = entry["frame"].get<std::uint32_t>();
+        const PreparedScene scene = prepare(named_scene(entry["scene"].get<std::string>()),
+                                            {.frame = static_cast<std::int32_t>(frame), .camera = ""});
+        RenderJob job;
+        job.width = entry["width"];
+        job.height = entry["height"];
+        job.samples = entry["samples"];
+        job.seed = entry["seed"];
+        job.frame = frame;
+        const std::string hash = film_hash(backend_->render(backend_->load(scene), job).film);
+        if (std::getenv("TANDEM_UPDATE_GOLDEN") != nullptr) {
+            entry["film_sha256"] = hash;
+        } else {
+            EXPECT_EQ(hash, entry["film_sha256"].get<std::string>()) << entry["scene"] << " frame " << frame;
+        }
+    }
+    if (std::getenv("TANDEM_UPDATE_GOLDEN") != nullptr) std::ofstream(TANDEM_GOLDEN_FILE) << golden.dump(2) << "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Golden, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
+
+}  // namespace
+}  // namespace tandem

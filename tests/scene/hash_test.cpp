@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+
+#include "tandem/scene/prepared_scene.h"
+
+namespace tandem {
+namespace {
+
+PreparedScene one_of_each() {
+    PreparedScene scene;
+    scene.spheres = {{{1, 2, 3}, 4}};
+    scene.boxes = {{{0, 0, 0}, {1, 1, 1}}};
+    scene.ellipsoids.resize(1);
+    scene.parallelepipeds.resize(1);
+    for (auto* placements : {&scene.ellipsoids, &scene.parallelepipeds}) {
+        (*placements)[0] = {{}, {1, 2, 3}, {{1, 2, 3}, 2}, {1, 1, 1}};
+    }
+    scene.material_of = {0, 0, 0, 0};
+    scene.node_of = {0, 1, 2, 3};
+    scene.materials.resize(1);
+    scene.lights = {{{1, 1, 1}, {2, 2, 2}}};
+    return scene;
+}
+
+TEST(SceneHash, ChangesWithEveryField) {
+    const std::map<std::string, std::function<void(PreparedScene&)>> changes = {
+        {"nothing", [](PreparedScene&) {}},
+        {"sphere centre", [](PreparedScene& s) { s.spheres[0].centre.y = 7; }},
+        {"sphere radius", [](PreparedScene& s) { s.spheres[0].radius = 7; }},
+        {"one more sphere", [](PreparedScene& s) { s.spheres.push_back(s.spheres[0]); }},
+        {"box lower", [](PreparedScene& s) { s.boxes[0].lower.x = -7; }},
+        {"box upper", [](PreparedScene& s) { s.boxes[0].upper.z = 7; }},
+        {"ellipsoid map", [](PreparedScene& s) { s.ellipsoids[0].object_from_world.row[2].z = 7; }},
+        {"ellipsoid centre", [](PreparedScene& s) { s.ellipsoids[0].centre.x = 7; }},
+        {"ellipsoid bound", [](PreparedScene& s) { s.ellipsoids[0].bounding_sphere.radius = 7; }},
+        {"ellipsoid extent", [](PreparedScene& s) { s.ellipsoids[0].half_extent.y = 7; }},
+        {"parallelepiped map", [](PreparedScene& s) { s.parallelepipeds[0].object_from_world.row[0].x = 7; }},
+        {"material index", [](PreparedScene& s) { s.material_of[3] = 1; }},
+        {"ambient", [](PreparedScene& s) { s.materials[0].ambient.x = 0.5F; }},
+        {"diffuse", [](PreparedScene& s) { s.materials[0].diffuse.y = 0.5F; }},
+        {"specular", [](PreparedScene& s) { s.materials[0].specular.z = 0.5F; }},
+        {"shininess", [](PreparedScene& s) { s.materials[0].shininess = 7; }},
+        {"light position", [](PreparedScene& s) { s.lights[0].position.x = 7; }},
+        {"light intensity", [](PreparedScene& s) { s.lights[0].intensity.y = 7; }},
+        {"background bottom", [](PreparedScene& s) { s.environment.bottom.x = 7; }},
+        {"background top", [](PreparedScene& s) { s.environment.top.x = 7; }},
+        {"ambient light", [](PreparedScene& s) { s.environment.ambient.x = 7; }},
+        {"camera axes", [](PreparedScene& s) { s.world_from_camera.linear.row[0].y = 7; }},
+        {"camera place", [](PreparedScene& s) { s.world_from_camera.translation.y = 7; }},
+        {"projection", [](PreparedScene& s) { s.orthographic = true; }},
+        {"field of view", [](PreparedScene& s) { s.half_height = 7; }},
+    };
+    std::map<std::string, std::string> name_of;
+    for (const auto& [name, change] : changes) {
+        PreparedScene scene = one_of_each();
+        change(scene);
+        const auto [known, is_new] = name_of.emplace(scene_hash(scene), name);
+        EXPECT_TRUE(is_new) << name << " has the hash of " << known->second;
+    }
+}
+
+TEST(SceneHash, DoesNotMoveBetweenNeighbouringArrays) {
+    PreparedScene a = one_of_each();
+    PreparedScene b = one_of_each();
+    a.parallelepipeds.clear();
+    b.ellipsoids.clear();  // the same bytes, in another array
+    EXPECT_NE(scene_hash(a), scene_hash(b));
+}
+
+TEST(SceneHash, LeavesOutWhatOnlyServesMessages) {
+    PreparedScene scene = one_of_each();
+    const std::string before = scene_hash(scene);
+    scene.node_of[2] = 9;
+    EXPECT_EQ(scene_hash(scene), before);
+}
+
+}  // namespace
+}  // namespace tandem

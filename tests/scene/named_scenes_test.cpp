@@ -1,0 +1,58 @@
+#include "tandem/scene/named_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/scenes.h"
+#include "tandem/scene/load_scene.h"
+
+namespace tandem {
+namespace {
+
+using test::contains;
+
+TEST(NamedScenes, PaperIsTheScenarioOfThePaper) {
+    const Scene scene = named_scene("paper");
+    EXPECT_TRUE(validate(scene).empty());
+    EXPECT_EQ(frame_count(scene), 120);
+    const auto prepared = prepare(scene, {30, ""});
+    EXPECT_EQ(prepared.spheres.size(), 3U);
+    ASSERT_EQ(prepared.boxes.size(), 1U);
+    EXPECT_NEAR(prepared.boxes[0].lower.y, 0.5, 1e-6);  // 0.8 up, half a side of 0.6 down
+    EXPECT_NEAR(prepared.lights[0].position.z, -1, 1e-6);
+    EXPECT_NEAR(prepared.half_height, 1 / 1.5, 1e-15);
+}
+
+TEST(NamedScenes, CrowdsHaveWhatTheirNamesSay) {
+    EXPECT_EQ(prepare(named_scene("spheres/100")).spheres.size(), 100U);
+    EXPECT_EQ(prepare(named_scene("boxes/100")).parallelepipeds.size(), 100U);
+    const auto mixed = prepare(named_scene("mixed/103"));
+    EXPECT_EQ(mixed.spheres.size(), 26U);
+    EXPECT_EQ(mixed.boxes.size(), 26U);
+    EXPECT_EQ(mixed.ellipsoids.size(), 26U);
+    EXPECT_EQ(mixed.parallelepipeds.size(), 25U);
+    EXPECT_EQ(mixed.materials.size(), 8U);
+}
+
+TEST(NamedScenes, SeedsMakeOtherScenesAndNamesTheSame) {
+    const auto hash = [](const char* name) { return scene_hash(prepare(named_scene(name))); };
+    EXPECT_EQ(hash("mixed/50"), hash("mixed/50/1"));
+    EXPECT_NE(hash("mixed/50/1"), hash("mixed/50/2"));
+}
+
+TEST(NamedScenes, RefuseOtherNames) {
+    for (const char* name : {"", "papers", "spheres", "spheres/", "spheres/0", "spheres/-1", "spheres/1x",
+                             "spheres/100000001", "spheres/1/0", "spheres/1/2/3", "cubes/3"}) {
+        EXPECT_TRUE(contains(test::input_error([&] { (void)named_scene(name); }), "paper, spheres/N")) << name;
+    }
+}
+
+TEST(LoadScene, TakesNamesAndFiles) {
+    ImportReport report;
+    EXPECT_EQ(load_scene("named:paper", &report).name, "paper");
+    EXPECT_TRUE(report.notes().empty());
+    EXPECT_TRUE(contains(test::input_error([] { (void)load_scene("named:none"); }), "no scene is named 'none'"));
+    EXPECT_TRUE(contains(test::input_error([] { (void)load_scene("no/such.gltf"); }), "no/such.gltf: there is no"));
+}
+
+}  // namespace
+}  // namespace tandem

@@ -1,0 +1,31 @@
+/// Random scenes and rays of adversarial size and place, for comparing backends ray by ray.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tandem/math/ray.h"
+#include "tandem/scene/prepared_scene.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::test {
+
+/// What a random scene is like.
+struct HardScene {
+    std::string name;
+    double scale;   ///< edge of the cloud of primitives, metres
+    double offset;  ///< distance of the cloud from the world's origin, metres
+    double spread;  ///< sizes are scale * 10^-U(0, spread)
+    int count;      ///< primitives: spheres, boxes, ellipsoids and parallelepipeds by turns
+};
+
+[[nodiscard]] std::vector<HardScene> hard_scenes();
+
+[[nodiscard]] PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed);
+
+/// Rays that start near, inside, on and far from the primitives, with directions of length 10^U(-9, 9), aimed at
+/// random points of random primitives' bounds or anywhere, some along axes.
+[[nodiscard]] std::vector<Ray<float>> make_rays(const PreparedScene& scene, std::size_t count, std::uint64_t seed);
+
+}  // namespace tandem::test
