@@ -83,9 +83,6 @@ TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 #endif
 }
 
-/// The integer value of a double that holds an integer of magnitude below 2^31.
-TANDEM_HD std::int64_t to_int64(double a) { return static_cast<std::int32_t>(a); }
-TANDEM_HD double to_double(std::int64_t a) { return static_cast<double>(static_cast<std::int32_t>(a)); }
 /// Shift that fills with zeros. (On signed 64-bit lanes >> fills with the sign, which AVX2 has no instruction for.)
 TANDEM_HD std::int64_t shift_right_logical(std::int64_t a, int count) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) >> count);
