@@ -1,8 +1,9 @@
 /// tandem-render: frames of a scene as image files. docs/images.md has the formats, names and resumption.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
+#include "common/arguments.h"
 #include "common/run_main.h"
-#include "render/arguments.h"
 #include "render/interrupt.h"
 #include "render/render_command.h"
 #include "tandem/error/error.h"
@@ -59,6 +60,20 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_flag("--quiet", command.quiet, "print no lines and no progress, only errors");
 }
 
+FrameRange frames_of(const Words& words, const Scene& scene) {
+    if (words.frames.empty()) return {words.frame, words.frame};
+    if (words.frames == "all") return {0, frame_count(scene) - 1};
+    return parse_frames(words.frames);
+}
+
+/// Nothing that a file asks for is left out in silence; tandem-gltf info has the whole report.
+void say_what_is_not_rendered(const ImportReport& report) {
+    for (const ImportNote& note : report.notes()) {
+        if (note.treatment == Treatment::rendered) continue;
+        std::fprintf(stderr, "tandem-render: %s\n", to_string(note).c_str());
+    }
+}
+
 int render(int argc, char** argv) {
     CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
     RenderCommand command;
@@ -78,8 +93,10 @@ int render(int argc, char** argv) {
     check(sequence.job);
 
     const std::atomic<bool>& interrupted = watch_interrupts();
-    const Scene scene = load_scene(command.scene);
-    sequence.frames = parse_frames(words.frames.empty() ? std::to_string(words.frame) : words.frames, scene);
+    ImportReport import;
+    const Scene scene = load_scene(command.scene, &import);
+    if (!command.quiet) say_what_is_not_rendered(import);
+    sequence.frames = frames_of(words, scene);
     check_output(sequence);
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     return run_render(command, scene, *backend, interrupted);

@@ -35,7 +35,7 @@ void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_
 int run_render(const RenderCommand& command, const Scene& scene, Backend& backend,
                const std::atomic<bool>& interrupted) {
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t total = frame_count(command.sequence);
+    const std::size_t total = static_cast<std::size_t>(command.sequence.frames.count());
     const bool prints_lines = !command.quiet && command.json != "-";
     const bool keeps_records = !command.json.empty();
     if (keeps_records && command.json != "-") check_can_write(command.json);

@@ -100,8 +100,8 @@ class Sequence {
 
     std::size_t run(const std::atomic<bool>& interrupted) {
         const FrameRange& frames = options_.frames;
-        for (std::uint64_t frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
-            start(static_cast<std::uint32_t>(frame));
+        for (std::int32_t i = 0; i < frames.count() && !interrupted; ++i) {
+            start(frames.first + i);
             report_written();
         }
         while (!started_.empty()) pass_to_writer();
@@ -116,13 +116,13 @@ class Sequence {
         std::unique_ptr<PendingFrame> pending;
     };
 
-    void start(std::uint32_t frame) {
+    void start(std::int32_t frame) {
         Stopwatch watch;
-        const PreparedScene prepared = prepare(scene_, {static_cast<std::int32_t>(frame), options_.camera});
+        const PreparedScene prepared = prepare(scene_, {frame, options_.camera});
         RenderJob job = options_.job;
-        job.frame = frame;
+        job.frame = static_cast<std::uint32_t>(frame);
         FrameRecord record;
-        record.file = pattern_.path(frame);
+        record.file = pattern_.path(job.frame);
         record.metadata = describe(job, scene_hash(prepared));
         record.seconds.prepare = watch.lap();
         if (!options_.force) {
@@ -219,18 +219,14 @@ class Sequence {
 
 }  // namespace
 
-std::size_t frame_count(const SequenceOptions& options) {
-    return std::size_t{options.frames.last} - options.frames.first + 1;
-}
-
 void check_output(const SequenceOptions& options) {
     const FramePattern pattern(options.output);
     (void)format_of(options.output, options.write);
-    if (frame_count(options) > 1 && !pattern.has_frame()) {
+    if (options.frames.count() > 1 && !pattern.has_frame()) {
         throw InputError(
             fmt::format("'{}' has no place for the frame number; write a name as in frame-####.png", options.output));
     }
-    check_can_write(pattern.path(options.frames.first));
+    check_can_write(pattern.path(static_cast<std::uint32_t>(options.frames.first)));
 }
 
 std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,

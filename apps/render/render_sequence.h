@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/arguments.h"
+#include "common/arguments.h"
 #include "tandem/film/image_io.h"
 #include "tandem/render/backend.h"
 #include "tandem/scene/scene.h"
@@ -56,9 +56,6 @@ struct FrameRecord {
 std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
                             const std::atomic<bool>& interrupted,
                             const std::function<void(const FrameRecord&)>& on_frame);
-
-/// Number of frames that the options ask for.
-[[nodiscard]] std::size_t frame_count(const SequenceOptions& options);
 
 /// Throws as render_sequence() does for an output that cannot be, without a scene or a backend.
 void check_output(const SequenceOptions& options);

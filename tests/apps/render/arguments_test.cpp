@@ -1,11 +1,10 @@
-#include "render/arguments.h"
+#include "common/arguments.h"
 
 #include <gtest/gtest.h>
 
 #include "render/frame_pattern.h"
 #include "support/thrown_message.h"
 #include "tandem/error/error.h"
-#include "tandem/scene/named_scenes.h"
 
 namespace tandem {
 namespace {
@@ -23,17 +22,15 @@ TEST(Arguments, Size) {
 }
 
 TEST(Arguments, Frames) {
-    const Scene scene = named_scene("paper");
     const auto frames = [&](const char* text) {
-        const FrameRange range = parse_frames(text, scene);
+        const FrameRange range = parse_frames(text);
         return std::pair(range.first, range.last);
     };
-    EXPECT_EQ(frames("7"), std::pair(7U, 7U));
-    EXPECT_EQ(frames("0-119"), std::pair(0U, 119U));
-    EXPECT_EQ(frames("5-5"), std::pair(5U, 5U));
-    EXPECT_EQ(frames("all"), std::pair(0U, 119U));
+    EXPECT_EQ(frames("7"), std::pair(7, 7));
+    EXPECT_EQ(frames("0-119"), std::pair(0, 119));
+    EXPECT_EQ(frames("5-5"), std::pair(5, 5));
     for (const char* text : {"", "-", "-3", "3-", "3-2", "a-b", "1-2-3", "1,2", "2147483648"}) {
-        const auto message = thrown_message<InputError>([&] { (void)parse_frames(text, scene); });
+        const auto message = thrown_message<InputError>([&] { (void)parse_frames(text); });
         EXPECT_NE(message.find("--frames"), std::string::npos) << text;
     }
 }

@@ -48,7 +48,7 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
     using Case = std::pair<std::string, const char*>;
     for (const auto& [arguments, reason] :
          {Case{"", "SCENE"}, Case{"named:paper", "--output"}, Case{"named:paper --nonsense" + out, "nonsense"},
-          Case{"named:paper --size 10" + out, "--size"}, Case{"named:paper --size 0x10" + out, "width"},
+          Case{"named:paper --size 10" + out, "--size"}, Case{"named:paper --size 0x10" + out, "--size"},
           Case{"named:paper --spp 0" + out, "samples"}, Case{"named:paper --spp many" + out, "--spp"},
           Case{"named:paper --seed -1" + out, "--seed"}, Case{"named:paper --frame -1" + out, "--frame"},
           Case{"named:paper --frames 3-1" + out, "--frames"},
