@@ -23,13 +23,15 @@ FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|
 
 def main():
     root, build, nvcc, glm = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
+    # naming the system's own folder would hide the C library from the C++ one
+    where = [] if glm == "/usr/include" else [f"-isystem={glm}"]
     report = Report()
     sources = sorted((root / "cuda").glob("*.cu")) + [root / "tests/lint/device_probe.cu"]
     for source in sources:
         with tempfile.TemporaryDirectory() as folder:
             ptx = pathlib.Path(folder, "out.ptx")
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "--fmad=false", "-DTANDEM_NO_LOOSE_FMA", f"-isystem={glm}",
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "--fmad=false", "-DTANDEM_NO_LOOSE_FMA", *where,
                  "--ftz=false", "--prec-div=true",
                  "--prec-sqrt=true", "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
