@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tandem/error/error.h"
+#include "tandem/file/whole_file.h"
 
 namespace tandem::gltf {
 
@@ -40,15 +41,18 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     auto& files = *static_cast<BufferFiles*>(user);
     const BufferSource* source = files.at(name);
     if (source == nullptr) return false;
+    const auto take = [&](const std::vector<std::byte>& bytes) {
+        const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+        out->assign(begin, begin + std::min(bytes.size(), source->bytes));
+    };
     if (source->place == BufferSource::Place::chunk) {
-        const auto begin = files.document.chunk.begin();
-        out->assign(begin, begin + static_cast<std::ptrdiff_t>(source->bytes));
+        take(files.document.chunk);
         return true;
     }
     try {
-        *out = read_file(source->file, files.document.file.string() + ": " + source->file.string(), source->bytes);
+        take(read_file(source->file.string()));
     } catch (const InputError& failure) {
-        files.failure = failure.what();
+        files.failure = fmt::format("{}: {}", files.document.file.string(), failure.what());
         if (error != nullptr) *error = files.failure;
         return false;
     }

@@ -272,11 +272,15 @@ TEST_F(Malformed, ScenesThatAreNotValidNameTheNode) {
 }
 
 TEST_F(Malformed, WhatIsNoFile) {
-    EXPECT_EQ(error_of(folder_ / "none.gltf"), "there is no such file");
-    EXPECT_EQ(error_of(folder_), "is not a regular file");
+    const auto message = [](const std::filesystem::path& file) {
+        return test::input_error([&] { (void)import_gltf(file); });
+    };
+    const std::string none = (folder_ / "none.gltf").string();
+    EXPECT_EQ(message(none), "cannot read '" + none + "': No such file or directory");
+    EXPECT_TRUE(contains(message(folder_), "it is not a regular file"));
     const auto pipe = folder_ / "pipe.gltf";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_EQ(error_of(pipe), "is not a regular file");
+    EXPECT_TRUE(contains(message(pipe), "it is not a regular file"));
 }
 
 TEST_F(Malformed, WhatIsNoJson) {
