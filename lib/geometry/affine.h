@@ -39,7 +39,13 @@ TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>&
 template <class Real>
 TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray) {
     const ObjectRay<Real> local = to_object(placement, ray);
-    return sphere_roots<Real>(local.origin, local.direction, Double<Real>(1.0));
+    const Double<Real> zero(0.0);
+    return sphere_roots<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0));
+}
+
+template <class Real>
+TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
+    return to_crossing(ellipsoid_roots(placement, ray));
 }
 
 template <class Real>

@@ -8,7 +8,8 @@
 /// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of
 /// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
 /// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
-/// decides. Overflow and NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
+/// decides, and directions shorter than 1e-15 pass the sphere's filter: their square would lose digits. Overflow and
+/// NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -16,8 +17,9 @@
 
 namespace tandem {
 
-/// Allowed error in units of u times a length; 4 would do by the bound above, twice that is taken.
-inline constexpr float filter_margin = 8.0F * float_roundoff;
+/// Allowed error per length: 4 u by the bound above, 4 u for the roundings of the squares and of the limit, and half
+/// of that again for good measure.
+inline constexpr float filter_margin = 12.0F * float_roundoff;
 
 template <class Real>
 TANDEM_HD Real loose_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
@@ -35,12 +37,14 @@ template <class Real>
 struct FilterRay {
     Ray<Real> ray;
     Real origin_norm1;
-    Real direction_length2;
+    Real direction_length2;  ///< infinite for directions too short to be squared in float
 };
 
 template <class Real>
 TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
-    return {ray, norm1(ray.origin), loose_dot(ray.direction, ray.direction)};
+    const Real length2 = loose_dot(ray.direction, ray.direction);
+    const Real infinity(__builtin_huge_valf());
+    return {ray, norm1(ray.origin), select(length2 < Real(1e-30F), infinity, length2)};
 }
 
 /// May the line of the ray touch the sphere? False only if it certainly does not.
@@ -49,6 +53,7 @@ TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sph
     const Vec3<Real> offset = f.ray.origin - broadcast<Real>(sphere_centre);
     const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
     const Real reach = loose_multiply_add(Real(filter_margin), norm1(offset) + f.origin_norm1, Real(radius));
+    // in this order: reach^2 could underflow before the length makes up for it
     const Real limit = loose_multiply_add(f.direction_length2 * reach, reach, Real(1e-36F));
     return !(loose_dot(moment, moment) > limit);
 }

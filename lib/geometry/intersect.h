@@ -58,10 +58,10 @@ template <class Real>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const Mask<Real>& active, Closest<Real>& best) {
     visit_primitive(
-        scene, id, [&](const Sphere& sphere) { intersect(sphere, id, f, active, best); },
-        [&](const Box& box) { intersect(box, id, f, active, best); },
-        [&](const Placement& ellipsoid) { intersect_ellipsoid(ellipsoid, id, f, active, best); },
-        [&](const Placement& body) { intersect_parallelepiped(body, id, f, active, best); });
+        scene, id, [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { intersect(sphere, id, f, active, best); },
+        [&](const Box& box) TANDEM_INLINE_LAMBDA { intersect(box, id, f, active, best); },
+        [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { intersect_ellipsoid(ellipsoid, id, f, active, best); },
+        [&](const Placement& body) TANDEM_INLINE_LAMBDA { intersect_parallelepiped(body, id, f, active, best); });
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of

@@ -3,6 +3,7 @@
 
 #include "tandem/geometry/crossing.h"
 #include "tandem/math/aabb.h"
+#include "tandem/math/error_free.h"
 #include "tandem/math/ray.h"
 
 namespace tandem {
@@ -18,6 +19,43 @@ TANDEM_HD Aabb bounds(const Sphere& sphere) {
     return enclose(widen(sphere.centre), {r, r, r});
 }
 
+namespace sphere_detail {
+
+/// The coefficients of a t^2 - 2 b t + c = 0 that cancel, and the discriminant b^2 - a c, each rounded once.
+template <class D>
+struct Quadratic {
+    D discriminant;
+    D b;
+    D c;
+};
+
+/// In pairs of doubles, to 2^-100: for a line that nearly touches the sphere and an origin that nearly lies on it.
+/// The discriminant is a r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
+template <class Real>
+TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
+                                                          Vec3<Double<Real>> direction, Double<Real> radius) {
+    using D = Double<Real>;
+    using P = Pair<D>;
+    const P fx = two_sum(origin.x, -centre.x);
+    const P fy = two_sum(origin.y, -centre.y);
+    const P fz = two_sum(origin.z, -centre.z);
+    const D zero(0.0);
+    const P dx = {direction.x, zero};
+    const P dy = {direction.y, zero};
+    const P dz = {direction.z, zero};
+    const P mx = fy * dz - fz * dy;
+    const P my = fz * dx - fx * dz;
+    const P mz = fx * dy - fy * dx;
+    const P radius2 = two_product(radius, radius);
+    const P a = dx * dx + dy * dy + dz * dz;
+    const P discriminant = a * radius2 - (mx * mx + my * my + mz * mz);
+    const P b = fx * dx + fy * dy + fz * dz;
+    const P c = fx * fx + fy * fy + fz * fz - radius2;
+    return {discriminant.high, -b.high, c.high};
+}
+
+}  // namespace sphere_detail
+
 /// What decides about a line and a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are q / a and
 /// c / q, where q = b +- sqrt(b^2 - a c) takes the sign that does not cancel.
 template <class Real>
@@ -26,32 +64,51 @@ struct SphereRoots {
     Double<Real> a, b, c, q;
 };
 
-/// Needs: `offset` = origin - centre and `direction`, of any length but zero; float values within coordinate_limit,
-///        widened, so that the subtraction is exact or errs by 2^-53.
-/// Gives: the right decision between hit and miss except where the distance of the line from the centre is within
-///        2^-50 of the radius, relative, and for every case of docs/numerics.md, sphere. A tangent line crosses (closed
-///        ball). t within 1 ulp of float after rounding. NaN in any input: no crossing.
-/// Method: by Lagrange's identity b^2 - a c = a r^2 - |offset x direction|^2. The moment offset x direction comes
-///        from Kahan's differences of products, so nothing cancels, and no division is needed to decide. The textbook
-///        b^2 - a c loses everything when the sphere is small and far.
+/// Needs: direction of any length but zero, radius > 0; magnitudes within coordinate_limit.
+/// Gives: the right decision between hit and miss for float values, widened, unless the sphere is smaller than 2^-90
+///        of its distance; t within 1 ulp of float after rounding. A tangent line crosses (closed ball). NaN in any
+///        input: no crossing.
+/// Method: by Lagrange's identity b^2 - a c = a r^2 - |offset x direction|^2. The moment offset x direction comes from
+///        Kahan's differences of products, so no term cancels before the end, and no division is needed to decide;
+///        the textbook b^2 - a c loses everything when the sphere is small and far. Where double may not suffice the
+///        terms are formed again in pairs of doubles: few lines come so near to touching, and few origins so near to
+///        the surface.
 /// Source: the form with the perpendicular is E. Haines, J. Guenther, T. Akenine-Moeller, "Precision Improvements for
 ///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound held
 ///        by tests/unit/geometry/sphere_test.cpp.
 template <class Real>
-TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& offset, const Vec3<Double<Real>>& direction,
-                                         const Double<Real>& radius) {
+TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin, const Vec3<Double<Real>>& centre,
+                                         const Vec3<Double<Real>>& direction, const Double<Real>& radius) {
     using D = Double<Real>;
     const D zero(0.0);
+    const Vec3<D> offset = origin - centre;
     const Vec3<D> moment = accurate_cross(offset, direction);
+    const D offset2 = dot(offset, offset);
     const D radius2 = radius * radius;
     SphereRoots<Real> roots;
     roots.a = dot(direction, direction);
     roots.b = -dot(offset, direction);
-    roots.c = dot(offset, offset) - radius2;
+    roots.c = offset2 - radius2;
     const D discriminant = roots.a * radius2 - dot(moment, moment);
     roots.crosses = discriminant >= zero;
-    const D root = square_root(select(roots.crosses, discriminant, zero));
+    D root = square_root(absolute(discriminant));
     roots.q = roots.b + select(roots.b < zero, -root, root);
+
+    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q;
+    // c errs by 2^-52 of its terms. In doubt where the sign or 2^-26 of a root could be at stake.
+    const D size2 = offset2 + radius2;
+    const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
+    const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
+                                absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
+    const Mask<Real> doubtful = touching || absolute(roots.c) <= D(0x1p-25) * size2;
+    if (any(doubtful)) [[unlikely]] {
+        const auto exact = sphere_detail::quadratic_in_pairs<Real>(origin, centre, direction, radius);
+        roots.crosses = select(doubtful, exact.discriminant >= zero, roots.crosses);
+        root = select(doubtful, square_root(absolute(exact.discriminant)), root);
+        roots.b = select(doubtful, exact.b, roots.b);
+        roots.c = select(doubtful, exact.c, roots.c);
+        roots.q = roots.b + select(roots.b < zero, -root, root);
+    }
     return roots;
 }
 
@@ -81,7 +138,7 @@ TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>
 template <class Real>
 TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray) {
     using D = Double<Real>;
-    return sphere_roots<Real>(widen(ray.origin) - broadcast<D>(widen(sphere.centre)), widen(ray.direction),
+    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(widen(sphere.centre)), widen(ray.direction),
                               D(widen(sphere.radius)));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -86,6 +87,9 @@ Json core_of(const Document& document, const std::vector<BufferSource>& buffers)
         if (const Json* found = find(document.json, name)) core[name] = *found;
     }
     remove_extensions(core);
+    if (core.contains("animations")) {  // a channel without a node is an error to tinygltf, though not to glTF
+        for (Json& animation : core["animations"]) animation["channels"] = Json::array();
+    }
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         if (buffers[i].place == BufferSource::Place::data_uri) continue;
         core["buffers"][i]["uri"] = fmt::format("{}{}", name_of_buffer, i);
@@ -116,6 +120,7 @@ Source load_model(const Document& document, const std::vector<BufferSource>& buf
     if (!files.failure.empty()) throw InputError(files.failure);
     if (!good || !error.empty()) {
         while (!error.empty() && error.back() == '\n') error.pop_back();
+        std::replace(error.begin(), error.end(), '\n', ';');
         throw InputError(fmt::format("{}: tinygltf cannot read it: {}", document.file.string(), error));
     }
     return source;

@@ -1,6 +1,7 @@
 /// Axis-aligned bounding boxes.
 #pragma once
 
+#include "tandem/math/error_free.h"
 #include "tandem/math/vec.h"
 
 namespace tandem {
@@ -34,19 +35,29 @@ TANDEM_HD float reach(const Aabb& a) {
     return greater(greater(larger(a.lower.x, a.upper.x), larger(a.lower.y, a.upper.y)), larger(a.lower.z, a.upper.z));
 }
 
-/// The smallest float box around centre +- half_extent, which are double.
+/// Largest float that is not above a + b, exactly.
+TANDEM_HD float round_sum_down(double a, double b) {
+    const Pair<double> sum = two_sum(a, b);
+    if (!(sum.low < 0.0)) return round_down(sum.high);
+    // the double below, so that a float at the rounded sum is not taken
+    return round_down(double_of(bits_of(sum.high) + (sum.high > 0.0 ? -1 : 1)));
+}
+TANDEM_HD float round_sum_up(double a, double b) { return -round_sum_down(-a, -b); }
+
+/// The smallest float box around middle +- half_extent, which are double.
 TANDEM_HD Aabb enclose(const Vec3d& middle, const Vec3d& half_extent) {
-    return {
-        {round_down(middle.x - half_extent.x), round_down(middle.y - half_extent.y),
-         round_down(middle.z - half_extent.z)},
-        {round_up(middle.x + half_extent.x), round_up(middle.y + half_extent.y), round_up(middle.z + half_extent.z)}};
+    return {{round_sum_down(middle.x, -half_extent.x), round_sum_down(middle.y, -half_extent.y),
+             round_sum_down(middle.z, -half_extent.z)},
+            {round_sum_up(middle.x, half_extent.x), round_sum_up(middle.y, half_extent.y),
+             round_sum_up(middle.z, half_extent.z)}};
 }
 
 /// The box moved outward by `margin` on every side, rounded outward.
 TANDEM_HD Aabb pad(const Aabb& a, float margin) {
     const double m = widen(margin);
-    return {{round_down(widen(a.lower.x) - m), round_down(widen(a.lower.y) - m), round_down(widen(a.lower.z) - m)},
-            {round_up(widen(a.upper.x) + m), round_up(widen(a.upper.y) + m), round_up(widen(a.upper.z) + m)}};
+    return {{round_sum_down(widen(a.lower.x), -m), round_sum_down(widen(a.lower.y), -m),
+             round_sum_down(widen(a.lower.z), -m)},
+            {round_sum_up(widen(a.upper.x), m), round_sum_up(widen(a.upper.y), m), round_sum_up(widen(a.upper.z), m)}};
 }
 
 }  // namespace tandem

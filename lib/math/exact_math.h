@@ -305,7 +305,7 @@ TANDEM_HD Real exact_pow(const Real& x, const Real& y) {
     const D error = value * D(0x1p-42);
     Real magnitude = narrow(value);
     const Mask<Real> doubtful = narrow(value - error) < narrow(value + error);
-    if (any(doubtful)) {
+    if (any(doubtful)) [[unlikely]] {
         const Pair<D> log_x = exact_detail::log_pair<Real>(base);
         D scale;
         const Pair<D> result = exact_detail::exp_pair<Real>(Pair<D>{exponent, zero} * log_x, scale);

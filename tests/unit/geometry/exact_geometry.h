@@ -1,0 +1,106 @@
+/// The oracle of the geometry tests: intersections in arithmetic of 400 decimal digits, in which the sums and products
+/// of floats that occur are exact, straight from the definitions. Shares no formula with lib/geometry.
+#pragma once
+
+#include <boost/multiprecision/mpfr.hpp>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "tandem/math/ray.h"
+#include "tandem/math/transform.h"
+
+namespace tandem::test {
+
+using Big =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<400>, boost::multiprecision::et_off>;
+struct BigVector {
+    Big x, y, z;
+    const Big& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+};
+
+template <class Real>
+BigVector big(const Vec3<Real>& v) {
+    return {Big(v.x), Big(v.y), Big(v.z)};
+}
+inline BigVector operator-(const BigVector& a, const BigVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Big dot(const BigVector& a, const BigVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline BigVector operator*(const Matrix3& m, const BigVector& v) {
+    return {dot(big(m.row[0]), v), dot(big(m.row[1]), v), dot(big(m.row[2]), v)};
+}
+inline BigVector along(const BigVector& origin, const BigVector& direction, const Big& t) {
+    return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
+}
+
+/// t of the first crossing with t > 0 of a ray and a closed ball around 0; empty for a miss.
+inline std::optional<Big> hit_ball(const BigVector& origin, const BigVector& direction, const Big& radius) {
+    const Big a = dot(direction, direction);
+    const Big b = -dot(origin, direction);
+    const Big c = dot(origin, origin) - radius * radius;
+    const Big discriminant = b * b - a * c;
+    if (discriminant < 0) return std::nullopt;
+    const Big root = sqrt(discriminant);
+    if (c > 0) return b > 0 ? std::optional<Big>(c / (b + root)) : std::nullopt;
+    if (c == 0) return b > 0 ? std::optional<Big>(2 * b / a) : std::nullopt;
+    // inside: the exit, in the form that does not cancel
+    return b > 0 ? (b + root) / a : -c / (root - b);
+}
+
+struct BoxHit {
+    Big t;
+    int axis;       ///< of the face; the lowest of several
+    bool entering;  ///< false: the origin is inside and t the exit
+};
+
+/// The same for a closed box.
+inline std::optional<BoxHit> hit_box(const BigVector& origin, const BigVector& direction, const BigVector& lower,
+                                     const BigVector& upper) {
+    std::optional<Big> near, far;
+    int near_axis = 0, far_axis = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (direction[i] == 0) {
+            if (origin[i] < lower[i] || origin[i] > upper[i]) return std::nullopt;
+            continue;
+        }
+        const Big first = ((direction[i] > 0 ? lower[i] : upper[i]) - origin[i]) / direction[i];
+        const Big second = ((direction[i] > 0 ? upper[i] : lower[i]) - origin[i]) / direction[i];
+        if (!near || first > *near) near = first, near_axis = i;
+        if (!far || second < *far) far = second, far_axis = i;
+    }
+    if (!near || *near > *far || *far <= 0) return std::nullopt;
+    if (*near > 0) return BoxHit{*near, near_axis, true};
+    return BoxHit{*far, far_axis, false};
+}
+
+/// Whether the plane of a face of another axis is crossed within 2^-50 of the hit: then the axis is a tie after
+/// rounding.
+inline bool nearly_tied(const BigVector& origin, const BigVector& direction, const BigVector& lower,
+                        const BigVector& upper, const BoxHit& hit) {
+    for (int i = 0; i < 3; ++i) {
+        if (i == hit.axis || direction[i] == 0) continue;
+        const Big& face = (direction[i] > 0) == hit.entering ? lower[i] : upper[i];
+        if (abs((face - origin[i]) / direction[i] - hit.t) <= abs(hit.t) * Big(0x1p-50)) return true;
+    }
+    return false;
+}
+
+/// Distance of a float from the exact value in units of its last place there.
+inline double error_in_ulps(float value, const Big& exact) {
+    const float nearest = mpfr_get_flt(exact.backend().data(), MPFR_RNDN);
+    if (std::isinf(nearest) || std::isinf(value)) return nearest == value ? 0 : HUGE_VAL;
+    const float ulp = std::nextafter(std::abs(nearest), HUGE_VALF) - std::abs(nearest);
+    if (std::isinf(ulp)) return 0;
+    return static_cast<double>(Big(abs(Big(value) - exact) / Big(ulp)));
+}
+
+/// A ray as a C++ literal, for the one line that reproduces a failure.
+inline std::string reproducer(const Ray<float>& ray) {
+    char text[200];
+    std::snprintf(text, sizeof text, "Ray<float>{{%aF, %aF, %aF}, {%aF, %aF, %aF}}", static_cast<double>(ray.origin.x),
+                  static_cast<double>(ray.origin.y), static_cast<double>(ray.origin.z),
+                  static_cast<double>(ray.direction.x), static_cast<double>(ray.direction.y),
+                  static_cast<double>(ray.direction.z));
+    return text;
+}
+
+}  // namespace tandem::test

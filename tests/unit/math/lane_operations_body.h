@@ -1,0 +1,204 @@
+/// The operations behind lane_operations.h, as templates over Real.
+#pragma once
+
+#include "tandem/geometry/intersect.h"
+#include "tandem/math/exact_math.h"
+#include "tandem/math/lanes.h"
+#include "tandem/sampler/philox.h"
+#include "unit/math/lane_operations.h"
+
+namespace tandem::test {
+namespace {
+
+template <class Real>
+struct Slots {
+    using F = Float<Real>;
+    using D = Double<Real>;
+    using U = UInt<Real>;
+    using I = Int64<Real>;
+    using M = Mask<Real>;
+    static constexpr int lanes = RealTraits<Real>::lanes;
+
+    template <class T, class Scalar, class Make>
+    TANDEM_HD static T fill(Make make) {
+        if constexpr (lanes == 1) {
+            return make(0);
+        } else {
+            T value;
+            for (int i = 0; i < lanes; ++i) value.set(i, static_cast<Scalar>(make(i)));
+            return value;
+        }
+    }
+    template <class T>
+    TANDEM_HD static auto lane(const T& value, int i) {
+        if constexpr (lanes == 1) {
+            return value;
+        } else {
+            return value[i];
+        }
+    }
+
+    // One overload per type, by a tag, so that an operation says only F, D, U or I.
+    TANDEM_HD static void load(const std::uint64_t* p, F& v) {
+        v = fill<F, float>([&](int i) { return float_of(static_cast<std::uint32_t>(p[i])); });
+    }
+    TANDEM_HD static void load(const std::uint64_t* p, D& v) {
+        v = fill<D, double>([&](int i) { return double_of(static_cast<std::int64_t>(p[i])); });
+    }
+    TANDEM_HD static void load(const std::uint64_t* p, U& v) {
+        v = fill<U, std::uint32_t>([&](int i) { return static_cast<std::uint32_t>(p[i]); });
+    }
+    TANDEM_HD static void load(const std::uint64_t* p, I& v) {
+        v = fill<I, std::int64_t>([&](int i) { return static_cast<std::int64_t>(p[i]); });
+    }
+
+    // The bits of a NaN are nobody's promise.
+    TANDEM_HD static std::uint64_t bits(float v) { return v != v ? 0x7FC00000U : bits_of(v); }
+    TANDEM_HD static std::uint64_t bits(double v) {
+        return v != v ? 0x7FF8000000000000U : static_cast<std::uint64_t>(bits_of(v));
+    }
+    TANDEM_HD static std::uint64_t bits(std::uint32_t v) { return v; }
+    TANDEM_HD static std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }
+    TANDEM_HD static std::uint64_t bits(bool v) { return v ? 1U : 0U; }
+
+    template <class T>
+    TANDEM_HD static void store(const T& value, std::uint64_t* out) {
+        for (int i = 0; i < lanes; ++i) out[i] = bits(lane(value, i));
+    }
+};
+
+template <class Real>
+TANDEM_HD UInt<Real> high_word(const UInt<Real>& a, const UInt<Real>& b) {
+    UInt<Real> high, low;
+    multiply_wide(a, b, high, low);
+    return high;
+}
+template <class Real>
+TANDEM_HD UInt<Real> low_word(const UInt<Real>& a, const UInt<Real>& b) {
+    UInt<Real> high, low;
+    multiply_wide(a, b, high, low);
+    return low;
+}
+
+/// The sphere and the box between them use most of what geometry does; both components of the answer count.
+template <class Real>
+TANDEM_HD Double<Real> crossing_value(const Crossing<Real>& crossing) {
+    Double<Real> t;
+    const auto hit = first_in_front(crossing, t);
+    return select(hit, t + crossing.t_near * Double<Real>(0.5), Double<Real>(-1.0));
+}
+template <class Real>
+TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
+    const Real two(2.0F);
+    return {{b, c - two, a}, {c - a, two - b, a + b}};
+}
+
+#define TANDEM_LANE_OPERATIONS(OPERATION)                                                                   \
+    OPERATION(F, add, a + b)                                                                                \
+    OPERATION(F, subtract, a - b)                                                                           \
+    OPERATION(F, multiply, a* b)                                                                            \
+    OPERATION(F, divide, a / b)                                                                             \
+    OPERATION(F, negate, -a)                                                                                \
+    OPERATION(F, absolute, absolute(a))                                                                     \
+    OPERATION(F, square_root, square_root(a))                                                               \
+    OPERATION(F, lesser, lesser(a, b))                                                                      \
+    OPERATION(F, greater, greater(a, b))                                                                    \
+    OPERATION(F, less, a < b)                                                                               \
+    OPERATION(F, less_equal, a <= b)                                                                        \
+    OPERATION(F, more, a > b)                                                                               \
+    OPERATION(F, more_equal, a >= b)                                                                        \
+    OPERATION(F, equal, a == b)                                                                             \
+    OPERATION(F, not_equal, a != b)                                                                         \
+    OPERATION(F, select, select(a < b, b, c))                                                               \
+    OPERATION(F, widen, widen(a))                                                                           \
+    OPERATION(F, bits_of, bits_of(a))                                                                       \
+    OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                         \
+    OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))       \
+    OPERATION(D, add, a + b)                                                                                \
+    OPERATION(D, subtract, a - b)                                                                           \
+    OPERATION(D, multiply, a* b)                                                                            \
+    OPERATION(D, divide, a / b)                                                                             \
+    OPERATION(D, negate, -a)                                                                                \
+    OPERATION(D, absolute, absolute(a))                                                                     \
+    OPERATION(D, square_root, square_root(a))                                                               \
+    OPERATION(D, lesser, lesser(a, b))                                                                      \
+    OPERATION(D, greater, greater(a, b))                                                                    \
+    OPERATION(D, less, a < b)                                                                               \
+    OPERATION(D, less_equal, a <= b)                                                                        \
+    OPERATION(D, more, a > b)                                                                               \
+    OPERATION(D, more_equal, a >= b)                                                                        \
+    OPERATION(D, equal, a == b)                                                                             \
+    OPERATION(D, not_equal, a != b)                                                                         \
+    OPERATION(D, select, select(a < b, b, c))                                                               \
+    OPERATION(D, narrow, narrow(a))                                                                         \
+    OPERATION(D, bits_of, bits_of(a))                                                                       \
+    OPERATION(D, multiply_add, multiply_add(a, b, c))                                                       \
+    OPERATION(D, round_to_int, round_to_int(a))                                                             \
+    OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))        \
+    OPERATION(D, exp_wide, exp_wide<Real>(a))                                                               \
+    OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b))) \
+    OPERATION(U, add, a + b)                                                                                \
+    OPERATION(U, subtract, a - b)                                                                           \
+    OPERATION(U, multiply, a* b)                                                                            \
+    OPERATION(U, bit_and, a& b)                                                                             \
+    OPERATION(U, bit_or, a | b)                                                                             \
+    OPERATION(U, bit_xor, a ^ b)                                                                            \
+    OPERATION(U, left, a << 7)                                                                              \
+    OPERATION(U, right, a >> 9)                                                                             \
+    OPERATION(U, less, a < b)                                                                               \
+    OPERATION(U, equal, (a & U(3U)) == (b & U(3U)))                                                         \
+    OPERATION(U, select, select(a < b, b, c))                                                               \
+    OPERATION(U, float_of, float_of(a))                                                                     \
+    OPERATION(U, to_float, to_float(a >> 1))                                                                \
+    OPERATION(U, high_word, high_word<Real>(a, b))                                                          \
+    OPERATION(U, low_word, low_word<Real>(a, b))                                                            \
+    OPERATION(U, philox, (philox4x32<U>({{a, b, c, a}}, 17U, 23U).word[2]))                                 \
+    OPERATION(U, unit_interval, to_unit_interval<Real>(a))                                                  \
+    OPERATION(I, add, a + b)                                                                                \
+    OPERATION(I, subtract, a - b)                                                                           \
+    OPERATION(I, bit_and, a& b)                                                                             \
+    OPERATION(I, bit_or, a | b)                                                                             \
+    OPERATION(I, bit_xor, a ^ b)                                                                            \
+    OPERATION(I, left, a << 13)                                                                             \
+    OPERATION(I, right, a >> 11)                                                                            \
+    OPERATION(I, right_logical, shift_right_logical(a, 52))                                                 \
+    OPERATION(I, equal, (a & I(3)) == (b & I(3)))                                                           \
+    OPERATION(I, select, select(a == (b & I(-2)), b, c))                                                    \
+    OPERATION(I, double_of, double_of(a))                                                                   \
+    OPERATION(F, exact_sin, exact_sin(a))                                                                   \
+    OPERATION(F, exact_cos, exact_cos(a))                                                                   \
+    OPERATION(F, exact_exp, exact_exp(a))                                                                   \
+    OPERATION(F, exact_log, exact_log(a))                                                                   \
+    OPERATION(F, exact_pow, exact_pow(a, b))                                                                \
+    OPERATION(F, sphere, crossing_value<Real>(cross_sphere(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c))))        \
+    OPERATION(F, box, crossing_value<Real>(cross_box(Box{{-1, 0, 1}, {1, 1, 1}}, ray_of(a, b, c))))         \
+    OPERATION(F, sphere_filter, may_touch_sphere(make_filter_ray(ray_of(a, b, c)), {1, 2, -1}, 3))          \
+    OPERATION(F, box_filter, may_touch_box(make_filter_ray(ray_of(a, b, c)), {-1, 0, 1}, {1, 1, 1}))
+
+#define TANDEM_DEFINE_OPERATION(Type, name, expression)                                           \
+    template <class Real>                                                                         \
+    void Type##_##name(const std::uint64_t* pa, const std::uint64_t* pb, const std::uint64_t* pc, \
+                       std::uint64_t* out) {                                                      \
+        using F [[maybe_unused]] = typename Slots<Real>::F;                                       \
+        using D [[maybe_unused]] = typename Slots<Real>::D;                                       \
+        using U [[maybe_unused]] = typename Slots<Real>::U;                                       \
+        using I [[maybe_unused]] = typename Slots<Real>::I;                                       \
+        Type a, b, c;                                                                             \
+        Slots<Real>::load(pa, a);                                                                 \
+        Slots<Real>::load(pb, b);                                                                 \
+        Slots<Real>::load(pc, c);                                                                 \
+        Slots<Real>::store(expression, out);                                                      \
+    }
+TANDEM_LANE_OPERATIONS(TANDEM_DEFINE_OPERATION)
+#undef TANDEM_DEFINE_OPERATION
+
+template <class Real>
+LaneOperations all_operations() {
+#define TANDEM_LIST_OPERATION(Type, name, expression) {#Type " " #name, &Type##_##name<Real>},
+    static constexpr LaneOperation table[] = {TANDEM_LANE_OPERATIONS(TANDEM_LIST_OPERATION)};
+#undef TANDEM_LIST_OPERATION
+    return {table, sizeof(table) / sizeof(table[0]), RealTraits<Real>::lanes};
+}
+
+}  // namespace
+}  // namespace tandem::test
