@@ -43,8 +43,15 @@ __global__ void __launch_bounds__(block_threads, resident_blocks)
 /// Calls f with the tracer that fits the scene.
 template <class F>
 auto with_tracer(const DeviceSceneView& scene, F f) {
-    if (scene.bvh.nodes != nullptr) return f(BvhTracer{scene.scene, scene.bvh});
-    return f(LoopTracer{scene.scene});
+    switch (structure_of(scene)) {
+        case Structure::few:
+            return f(scene.few);
+        case Structure::loop:
+            return f(LoopTracer{scene.scene});
+        case Structure::bvh:
+            break;
+    }
+    return f(BvhTracer{scene.scene, scene.bvh});
 }
 
 unsigned int blocks_for(std::size_t items, std::size_t per_block) {

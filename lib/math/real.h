@@ -118,6 +118,15 @@ TANDEM_HD void for_each_value(std::uint32_t value, bool active, F f) {
     if (active) f(value, true);
 }
 
+/// Place of the lowest bit that is set; `bits` is not 0.
+TANDEM_HD int lowest_bit(std::uint32_t bits) {
+#if TANDEM_ON_DEVICE
+    return __ffs(static_cast<int>(bits)) - 1;
+#else
+    return __builtin_ctz(bits);
+#endif
+}
+
 /// Unit roundoff of float, 2^-24: one correctly rounded operation errs by at most this, relative.
 inline constexpr float float_roundoff = 0x1p-24F;
 
