@@ -41,7 +41,7 @@ void check_exr_support() {}
 
 Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata) {
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
+    spec.attribute("compression", "zips:1");
     spec.attribute("DateTime", "");  // else the time of writing: equal films are to give equal files
     for (const auto& [key, value] : to_text(metadata)) spec.attribute(key, value);
     OIIO::Filesystem::IOVecOutput memory;
