@@ -95,6 +95,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory
         view_.bvh.entry_ids = reinterpret_cast<const std::uint32_t*>(base + entry_ids);
     }
 
+    if (fits_few_tracer(host)) view_.few = make_few_tracer(host, view_.scene);
+
     memory_->upload_start.record(stream.get());
     if (bytes_ > 0) {
         check(cudaMemcpyAsync(base, memory_->staging.data(), bytes_, cudaMemcpyHostToDevice, stream.get()),

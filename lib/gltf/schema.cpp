@@ -294,7 +294,8 @@ class Checker {
     /// What indices point into comes first, so that a wrong array is named and not the indices into it.
     void check_root() {
         Json& root = document_.json;
-        for (const Property* property : properties_of("root")) {
+        static const std::string root_kind = "root";
+        for (const Property* property : properties_of(root_kind)) {
             const auto member = root.find(property->name);
             if (member == root.end() || property->kind != Kind::objects) continue;
             require(member->is_array(), property->name, "an array of objects", *member);

@@ -501,17 +501,6 @@ TANDEM_HD Lanes<double, I> absolute(const Lanes<double, I>& a) {
     return double_of(bits_of(a) & Lanes<std::int64_t, I>(0x7FFFFFFFFFFFFFFF));
 }
 
-// Below 2^51 an integer sits in the low bits of (1.5 * 2^52 + integer): AVX2 has no conversion of its own.
-template <class I>
-TANDEM_HD Lanes<std::int64_t, I> to_int64(const Lanes<double, I>& a) {
-    const Lanes<double, I> shift(0x1.8p52);
-    return bits_of(a + shift) - bits_of(shift);
-}
-template <class I>
-TANDEM_HD Lanes<double, I> to_double(const Lanes<std::int64_t, I>& a) {
-    const Lanes<double, I> shift(0x1.8p52);
-    return double_of(a + bits_of(shift)) - shift;
-}
 template <class I>
 TANDEM_HD Lanes<float, I> to_float(const Lanes<std::uint32_t, I>& a) {
     Lanes<float, I> result;

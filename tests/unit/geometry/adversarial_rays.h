@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "support/random.h"
 #include "tandem/geometry/box.h"
@@ -172,6 +173,35 @@ inline constexpr const char* box_kinds[] = {"inside and outside",
                                             "any magnitudes",
                                             "edges, by the last bits"};
 
+/// A line that enters by one axis and leaves by another at parameters n1 / d1 and n2 / d2 with n1 d2 - n2 d1 = 0, 1
+/// or -1: apart by 2^-70 of themselves, so that only exact arithmetic tells a touched edge from a missed one.
+inline BoxCase almost_equal_quotients(Random& random) {
+    const auto odd = [&] { return static_cast<std::int64_t>(random.below(1U << 22) * 2U + (1U << 23) + 1U); };
+    std::int64_t d1 = odd(), d2 = odd();
+    // Bezout: x d2 + y d1 = gcd
+    std::int64_t r0 = d2, r1 = d1, x0 = 1, x1 = 0;
+    while (r1 != 0) {
+        const std::int64_t q = r0 / r1;
+        r0 = std::exchange(r1, r0 - q * r1);
+        x0 = std::exchange(x1, x0 - q * x1);
+    }
+    d1 /= r0;
+    d2 /= r0;
+    const std::int64_t apart = static_cast<std::int64_t>(random.below(3)) - 1;
+    const std::int64_t x = ((x0 % d1 + d1) % d1 * apart % d1 + d1) % d1;
+    const std::int64_t k = random.below(1U << 23) + 1;
+    const std::int64_t n1 = x + k * d1;
+    const std::int64_t n2 = (x * d2 - apart) / d1 + k * d2;
+    // n = face - origin, each of at most 24 bits
+    const auto face = [](std::int64_t n) { return (n + (1 << 23)) >> 24 << 24; };
+    const Vec3f origin = {static_cast<float>(face(n1) - n1), static_cast<float>(face(n2) - n2), 0};
+    const Box box = {{static_cast<float>(face(n1)), -0x1p59F, -1}, {0x1p59F, static_cast<float>(face(n2)), 1}};
+    const Vec3f direction = {static_cast<float>(d1), static_cast<float>(d2), 0};
+    const int turn = static_cast<int>(random.below(3));
+    const auto turned = [&](const Vec3f& v) { return Vec3f{v[turn], v[(turn + 1) % 3], v[(turn + 2) % 3]}; };
+    return {{turned(box.lower), turned(box.upper)}, {turned(origin), turned(direction)}};
+}
+
 inline BoxCase box_case(int kind, std::uint64_t number) {
     Random random(number * 64 + static_cast<std::uint64_t>(kind) + 0x5A5A5A00U);
     const Box unit = {{-1, -1, -1}, {1, 1, 1}};
@@ -273,15 +303,8 @@ inline BoxCase box_case(int kind, std::uint64_t number) {
             const double length = std::exp2(random.uniform(-40.0, 5.0)) / size;
             return {box, {narrow(origin), narrow((inside - origin) * std::min(length, 1e17 / size))}};
         }
-        default: {  // (lower - origin) / d and (upper - origin) / d of two axes that agree to the last bits of a
-                    // double: origins with few digits near the box and many far out, directions that are ratios of them
-            const auto n1 = static_cast<float>(random.below(1U << 24) + 1);
-            const auto n2 = static_cast<float>(random.below(1U << 24) + 1);
-            const float tiny = std::ldexp(static_cast<float>(random.below(1U << 23)), -50);
-            const Box box = {{n1, -n2, -1}, {n1 + 4096, tiny, 1}};
-            const Vec3f origin = {random.coin() ? tiny : 0.0F, -n2 + tiny, 0};
-            return {box, {origin, {n1, random.coin() ? n2 : std::nextafter(n2, 0.0F), 0}}};
-        }
+        default:
+            return almost_equal_quotients(random);
     }
 }
 

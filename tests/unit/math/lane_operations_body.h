@@ -67,12 +67,6 @@ struct Slots {
     }
 };
 
-/// A double that holds an integer of magnitude below 2^31.
-template <class D>
-TANDEM_HD D small_integer(const D& a) {
-    return round_to_int(select(absolute(a) < D(0x1p30), a, D(12345.0)));
-}
-
 template <class Real>
 TANDEM_HD UInt<Real> high_word(const UInt<Real>& a, const UInt<Real>& b) {
     UInt<Real> high, low;
@@ -119,7 +113,7 @@ TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
     OPERATION(F, widen, widen(a))                                                                           \
     OPERATION(F, bits_of, bits_of(a))                                                                       \
     OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                         \
-    OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) &&(!Mask<Real>(all(a < b)) || a < b))      \
+    OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))       \
     OPERATION(D, add, a + b)                                                                                \
     OPERATION(D, subtract, a - b)                                                                           \
     OPERATION(D, multiply, a* b)                                                                            \
@@ -140,8 +134,6 @@ TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
     OPERATION(D, bits_of, bits_of(a))                                                                       \
     OPERATION(D, multiply_add, multiply_add(a, b, c))                                                       \
     OPERATION(D, round_to_int, round_to_int(a))                                                             \
-    OPERATION(D, to_int64, to_int64(small_integer(a)))                                                      \
-    OPERATION(D, to_double, to_double(to_int64(small_integer(a))))                                          \
     OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))        \
     OPERATION(D, exp_wide, exp_wide<Real>(a))                                                               \
     OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b))) \

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Compiles every header under lib/ alone, with g++ and, where present, clang++.
+
+usage: headers.py ROOT BUILD
+"""
+
+import concurrent.futures
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+from lint import Report, compile_commands
+
+WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wundef", "-Werror"]
+
+
+def include_flags(root, build):
+    """The -I, -isystem and -D options of all sources under lib/, once each."""
+    flags = []
+    for path, command in compile_commands(build, root):
+        if not path.startswith("lib/"):
+            continue
+        words = shlex.split(command)
+        for word, following in zip(words, words[1:] + [""]):
+            flag = [word, following] if word == "-isystem" else [word] if re.match(r"-[ID]\S", word) else None
+            if flag and flag not in flags:
+                flags.append(flag)
+    return [word for flag in flags for word in flag]
+
+
+def main():
+    root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    report = Report()
+    compilers = [name for name in ("g++", "clang++") if shutil.which(name)]
+    flags = include_flags(root, build)
+    headers = sorted(path.relative_to(root / "lib") for path in (root / "lib").rglob("*.h"))
+
+    def compile_alone(job):
+        compiler, header = job
+        result = subprocess.run(
+            [compiler, "-std=c++20", "-march=x86-64-v2", "-ffp-contract=off", *WARNINGS, *flags, "-fsyntax-only", "-x", "c++", "-"],
+            input=f'#include "tandem/{header.as_posix()}"\n', capture_output=True, text=True)
+        return compiler, header, result
+
+    jobs = [(compiler, header) for header in headers for compiler in compilers]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for compiler, header, result in pool.map(compile_alone, jobs):
+            if result.returncode:
+                first = next((line for line in result.stderr.splitlines() if "error" in line), result.stderr[:300])
+                report.add(f"lib/{header}", f"does not compile alone with {compiler}: {first}")
+    report.finish(f"{len(headers)} headers with {' and '.join(compilers)}")
+
+
+main()

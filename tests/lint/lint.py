@@ -1,0 +1,71 @@
+"""What the lint checks share: the repository's files, C++ without its comments, compile commands, and the report."""
+
+import json
+import pathlib
+import re
+import sys
+
+KERNEL_ROOMS = ("math", "geometry", "material", "light", "camera", "sampler", "integrator", "bvh")
+CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
+# The paper's method re-created to be measured, not used: its arithmetic is its own.
+BASELINE = "apps/bench/baseline/"
+FAST_MATH = re.compile(
+    r"-ffast-math|-Ofast\b|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"
+    r"|-fno-signed-zeros|-ffp-contract=(?:fast|on)|-mdaz-ftz|-?-use_fast_math|-?-ftz=true|-?-fmad=true"
+    r"|-?-prec-div=false|-?-prec-sqrt=false")
+
+
+class Report:
+    """Collects findings, one line each, and ends the program."""
+
+    def __init__(self):
+        self.findings = []
+
+    def add(self, where, message):
+        self.findings.append(f"{where}: {message}")
+
+    def finish(self, checked):
+        for finding in self.findings:
+            print(finding)
+        print(f"{checked}; {len(self.findings)} finding(s)")
+        sys.exit(1 if self.findings else 0)
+
+
+def files(root, rooms, suffixes):
+    """Files under the rooms, as (path relative to the root, text)."""
+    for room in rooms:
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix in suffixes and path.is_file():
+                yield path.relative_to(root).as_posix(), path.read_text()
+
+
+def without_comments(text):
+    """The same text with comments and the contents of strings blanked, so that lines keep their numbers. The names in
+    #include lines stay."""
+    def blank(match):
+        found = match.group(0)
+        if found.startswith('"'):
+            line_start = text.rfind("\n", 0, match.start()) + 1
+            if text[line_start:match.start()].lstrip().startswith("#"):
+                return found
+            return '""' + " " * (len(found) - 2)
+        return re.sub(r"[^\n]", " ", found)
+
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def search(text, pattern):
+    """(line number, match) of every match."""
+    for match in re.finditer(pattern, text):
+        yield text.count("\n", 0, match.start()) + 1, match
+
+
+def compile_commands(build, root):
+    """(path relative to the root, command line) of our own files."""
+    commands = build / "compile_commands.json"
+    if not commands.exists():
+        sys.exit(f"{commands} is missing: configure with CMAKE_EXPORT_COMPILE_COMMANDS=ON and a Ninja or Makefile generator")
+    for entry in json.loads(commands.read_text()):
+        path = pathlib.Path(entry["directory"], entry["file"]).resolve()
+        if path.is_relative_to(root):
+            yield path.relative_to(root).as_posix(), entry["command"]

@@ -1,0 +1,102 @@
+// The reject filters may not drop a hit. The test in double says what a hit is; sphere_test and box_test hold it to the
+// exact answer.
+#include "tandem/geometry/filter.h"
+
+#include <gtest/gtest.h>
+
+#include "tandem/geometry/crossing.h"
+#include "unit/geometry/adversarial_rays.h"
+#include "unit/geometry/exact_geometry.h"
+
+namespace tandem {
+namespace {
+
+using test::Random;
+
+constexpr std::uint64_t rays_per_kind = 80000;
+
+void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
+    if (!is_traceable(ray)) return;
+    double t = 0;
+    const bool passes = may_touch_sphere(make_filter_ray(ray), sphere.centre, sphere.radius);
+    if (!passes) ++rejected;
+    if (!first_in_front(cross_sphere(sphere, ray), t)) return;
+    ++hits;
+    ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
+}
+
+void check(const Box& box, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
+    if (!is_traceable(ray)) return;
+    double t = 0;
+    const bool passes = may_touch_box(make_filter_ray(ray), box.lower, box.upper);
+    if (!passes) ++rejected;
+    if (!first_in_front<float>(cross_box(box, ray), t)) return;
+    ++hits;
+    ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
+}
+
+TEST(Filter, NeverRejectsASphereThatIsHit) {
+    int hits = 0, rejected = 0;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::sphere_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < rays_per_kind; ++number) {
+            const auto c = test::sphere_case(kind, number);
+            const auto where = [&] {
+                return "sphere_case(" + std::to_string(kind) + ", " + std::to_string(number) + ")";
+            };
+            check(c.sphere, c.ray, where(), hits, rejected);
+            if (HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(hits, 400000);
+    EXPECT_GT(rejected, 50000) << "a filter that rejects nothing is no filter";
+}
+
+TEST(Filter, NeverRejectsABoxThatIsHit) {
+    int hits = 0, rejected = 0;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::box_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < rays_per_kind; ++number) {
+            const auto c = test::box_case(kind, number);
+            const auto where = [&] { return "box_case(" + std::to_string(kind) + ", " + std::to_string(number) + ")"; };
+            check(c.box, c.ray, where(), hits, rejected);
+            if (HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(hits, 300000);
+    EXPECT_GT(rejected, 50000);
+}
+
+// Sizes, distances and lengths over all magnitudes that a scene may hold, each on its own: products under- and
+// overflow here. Lines through a point of the body's surface or just inside it.
+TEST(Filter, HoldsOverAllMagnitudes) {
+    int hits = 0, rejected = 0;
+    for (std::uint64_t number = 0; number < 800000; ++number) {
+        Random random(number);
+        const auto any_point = [&](double lower, double upper) {
+            return test::any_unit(random) * std::exp2(random.uniform(lower, upper));
+        };
+        const Vec3d centre = random.coin() ? Vec3d{0, 0, 0} : any_point(-100, 58);
+        const double size = std::exp2(random.uniform(-120.0, 58.0));
+        const Vec3d origin =
+            random.coin() ? centre + test::any_unit(random) * (size * random.uniform(0.0, 3.0)) : any_point(-120, 58);
+        const Vec3d target = centre + test::any_unit(random) * (size * random.uniform(0.9, 1.0));
+        const double length = std::exp2(random.uniform(-140.0, 58.0));
+        const Ray<float> ray = {narrow(origin), narrow(normalize(target - origin) * length)};
+        const auto where = "magnitudes " + std::to_string(number);
+        check(Sphere{narrow(centre), static_cast<float>(size)}, ray, where, hits, rejected);
+        const Vec3d half = {size * random.uniform(0.0, 1.0), size, size * random.uniform(0.0, 1.0)};
+        check(Box{narrow(centre - half), narrow(centre + half)}, ray, where, hits, rejected);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(hits, 400000);
+    EXPECT_GT(rejected, 50000);
+}
+
+TEST(Filter, NanPasses) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto f = make_filter_ray(Ray<float>{{nan, 0, 0}, {0, 0, 1}});
+    EXPECT_TRUE(may_touch_sphere(f, {0, 0, 0}, 1));
+    EXPECT_TRUE(may_touch_box(f, {-1, -1, -1}, {1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace tandem
