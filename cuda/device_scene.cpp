@@ -10,7 +10,7 @@ namespace tandem::cuda {
 namespace {
 
 /// Up to here a kernel tries every primitive (docs/performance.md has the crossing point).
-constexpr std::size_t loop_limit = 24;
+constexpr std::size_t loop_limit = 12;
 
 /// Lays arrays out one behind another, each aligned for 16-byte loads.
 class Layout {
