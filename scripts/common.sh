@@ -1,18 +1,19 @@
 # shellcheck shell=bash
 # Shared by the scripts beside it; source it. Leaves the shell in the repository's root.
 set -euo pipefail
+script=$(realpath "$0")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '\n== %s\n' "$*"; }
 
 # die STATUS SENTENCE: 2 is wrong usage, 3 is a machine that lacks something.
 die() {
-    printf '%s: %s\n' "$(basename "$0")" "$2" >&2
+    printf '%s: %s\n' "$(basename "$script")" "$2" >&2
     exit "$1"
 }
 
 # The comment at the top of the calling script is its help.
-usage() { sed -n '2,/^[^#]/s/^#\($\| \)//p' "$0"; }
+usage() { awk 'NR > 1 { if (!/^#/ || /^# shellcheck/) exit; sub(/^# ?/, ""); print }' "$script"; }
 
 # Debian packages of scripts/packages.txt, one a line.
 packages() { grep -v '^#' scripts/packages.txt; }

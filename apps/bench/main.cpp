@@ -15,10 +15,6 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr int status_done = 0;
-constexpr int status_short = 1;  ///< the result falls short of what was asked
-constexpr int status_usage = 2;
-
 /// Texts as typed; they become options once all are read.
 struct Texts {
     std::string size;
@@ -167,7 +163,7 @@ int run(int count, char** words) {
     try {
         app.parse(count, words);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? status_done : status_usage;
+        return app.exit(error) == 0 ? exit_done : exit_bad_input;
     }
 
     const BackendSource source;
@@ -190,13 +186,13 @@ int run(int count, char** words) {
     } else if (targets->parsed()) {
         if (all.list_targets) {
             print_targets();
-            return status_done;
+            return exit_done;
         }
         take_texts(all.texts, all.targets);
         satisfied = run_targets(all.targets, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
-    return satisfied ? status_done : status_short;
+    return satisfied ? exit_done : exit_short_of_target;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "common/arguments.h"
 #include "backend_source.h"
 #include "sequence.h"
 #include "tandem/film/compare.h"
@@ -15,7 +15,7 @@ namespace tandem::bench {
 struct PaperOptions {
     std::string out = "out/paper";  ///< folder for pictures and report
     FrameRange frames{0, 119};
-    Size size{1000, 900};
+    FilmSize size{1000, 900};
     int samples = 100;
     std::uint64_t seed = 0;
     /// Frames that the program without optimisation renders; three times as many for -O3 on one thread. 0 means 3 with

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "common/arguments.h"
 #include "backend_source.h"
 #include "tandem/film/film.h"
 #include "tandem/report/report.h"
@@ -16,7 +16,7 @@ struct ParityOptions {
     std::vector<std::string> scenes = {"named:paper", "named:mixed/10000", "named:spheres/1000000"};
     std::vector<std::string> backends = {"cpu", "cuda", "oracle"};
     FrameRange frames{0, 0};
-    Size size{1000, 900};
+    FilmSize size{1000, 900};
     int samples = 4;
     std::uint64_t seed = 0;
 };

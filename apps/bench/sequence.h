@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "arguments.h"
+#include "common/arguments.h"
 #include "tandem/render/backend.h"
 #include "tandem/scene/scene.h"
 

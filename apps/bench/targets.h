@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "common/arguments.h"
 #include "backend_source.h"
 #include "tandem/report/report.h"
 
@@ -12,7 +12,7 @@ namespace tandem::bench {
 
 struct TargetOptions {
     std::vector<std::string> only;  ///< ids; empty means all
-    Size size{1000, 900};
+    FilmSize size{1000, 900};
     int samples = 100;
     FrameRange frames{0, 119};  ///< of the animation whose wall-clock time is measured
     int ray_edge = 2048;

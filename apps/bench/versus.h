@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
+#include "common/arguments.h"
 #include "backend_source.h"
 #include "ray_sets.h"
 #include "tandem/report/report.h"
@@ -18,7 +18,7 @@ struct VersusOptions {
     int threads = 0;  ///< of the CPU; 0 means one per core
     int repetitions = 7;
     // frames
-    Size size{1000, 900};
+    FilmSize size{1000, 900};
     int samples = 100;
     std::uint64_t seed = 0;
     std::int32_t frame = 0;

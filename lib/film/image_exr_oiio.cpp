@@ -1,9 +1,18 @@
 /// EXR: the only include of OpenImageIO.
+
+// OpenImageIO's headers compile a copy of fmt into this file. Under the usual names it would stand in for libfmt, and
+// every program that formats a string would load OpenImageIO and the 200 libraries behind it.
+#define FMT_BEGIN_NAMESPACE \
+    namespace fmt {         \
+    inline namespace tandem_exr {
+#define FMT_END_NAMESPACE \
+    }                     \
+    }
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "tandem/film/decode_checks.h"
 #include "tandem/film/exr_header.h"
@@ -23,7 +32,7 @@ int first_channel(const OIIO::ImageSpec& spec, const std::string& name) {
     const auto at = std::search(channels.begin(), channels.end(), std::begin(rgb), std::end(rgb));
     if (at != channels.end()) return static_cast<int>(at - channels.begin());
     if (channels.size() == 1) return 0;
-    fail_decoding(name, "EXR", fmt::format("among its {} channels there are no R, G, B", channels.size()));
+    fail_decoding(name, "EXR", "there are no channels R, G, B among its " + std::to_string(channels.size()));
 }
 
 }  // namespace
@@ -32,7 +41,7 @@ void check_exr_support() {}
 
 Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata) {
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
+    spec.attribute("compression", "zips:1");
     spec.attribute("DateTime", "");  // else the time of writing: equal films are to give equal files
     for (const auto& [key, value] : to_text(metadata)) spec.attribute(key, value);
     OIIO::Filesystem::IOVecOutput memory;

@@ -44,6 +44,11 @@ TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ra
 }
 
 template <class Real>
+TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
+    return to_crossing(ellipsoid_roots(placement, ray));
+}
+
+template <class Real>
 TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     using D = Double<Real>;
     const Vec3<D> one = {D(1.0), D(1.0), D(1.0)};

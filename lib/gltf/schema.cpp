@@ -291,27 +291,54 @@ class Checker {
   public:
     explicit Checker(Document& document) : document_(document) {}
 
-    void check_object(Json& value, const std::string& kind, const std::string& path) {
-        require(value.is_object(), path, "an object", value);
-        for (const Property* property : properties_of(kind)) {
-            const auto member = value.find(property->name);
-            if (member != value.end()) {
-                check_property(*member, *property, path == "root" ? property->name : path + "." + property->name);
-            } else if (property->presence == Presence::required) {
-                document_.fail(path, fmt::format("lacks the required property '{}'", property->name));
-            }
+    /// What indices point into comes first, so that a wrong array is named and not the indices into it.
+    void check_root() {
+        Json& root = document_.json;
+        static const std::string root_kind = "root";
+        for (const Property* property : properties_of(root_kind)) {
+            const auto member = root.find(property->name);
+            if (member == root.end() || property->kind != Kind::objects) continue;
+            require(member->is_array(), property->name, "an array of objects", *member);
         }
-        const auto extensions = value.find("extensions");
-        if (extensions == value.end()) return;
-        const std::string where = path == "root" ? "extensions" : path + ".extensions";
-        require(extensions->is_object(), where, "an object", *extensions);
-        for (const auto& [name, extension] : extensions->items()) {
-            require(extension.is_object(), where + "." + name, "an object", extension);
-        }
-        if (!kind.ends_with(" extensions")) check_object(*extensions, kind + " extensions", where);
+        check_extensions(root, "root", "");
+        check_properties(root, "root", "");
     }
 
   private:
+    void check_object(Json& value, const std::string& kind, const std::string& path) {
+        require(value.is_object(), path, "an object", value);
+        check_properties(value, kind, path);
+        check_extensions(value, kind, path);
+    }
+
+    /// `path` is empty for the root.
+    static std::string member_path(const std::string& path, const std::string& name) {
+        return path.empty() ? name : path + "." + name;
+    }
+
+    void check_properties(Json& value, const std::string& kind, const std::string& path) {
+        for (const Property* property : properties_of(kind)) {
+            const auto member = value.find(property->name);
+            if (member != value.end()) {
+                check_property(*member, *property, member_path(path, property->name));
+            } else if (property->presence == Presence::required) {
+                document_.fail(path.empty() ? "root" : path,
+                               fmt::format("lacks the required property '{}'", property->name));
+            }
+        }
+    }
+
+    void check_extensions(Json& value, const std::string& kind, const std::string& path) {
+        const auto extensions = value.find("extensions");
+        if (extensions == value.end()) return;
+        const std::string where = member_path(path, "extensions");
+        require(extensions->is_object(), where, "an object", *extensions);
+        for (const auto& [name, extension] : extensions->items()) {
+            require(extension.is_object(), member_path(where, name), "an object", extension);
+        }
+        check_properties(*extensions, kind + " extensions", where);
+    }
+
     void require(bool good, const std::string& path, const std::string& wanted, const Json& found) const {
         if (good) return;
         std::string shown = found.is_structured() ? fmt::format("an {}", found.type_name()) : found.dump(-1, ' ', true);
@@ -404,7 +431,7 @@ class Checker {
 
     void check_index_map(Json& value, const char* array, const std::string& path) {
         require(value.is_object(), path, "an object of indices", value);
-        for (auto& [name, element] : value.items()) check_index(element, array, path + "." + name);
+        for (auto& [name, element] : value.items()) check_index(element, array, member_path(path, name));
     }
 
     void check_choice(const std::string& found, const Property& property, const std::string& path,
@@ -422,6 +449,6 @@ class Checker {
 
 }  // namespace
 
-void check_schema(Document& document) { Checker(document).check_object(document.json, "root", "root"); }
+void check_schema(Document& document) { Checker(document).check_root(); }
 
 }  // namespace tandem::gltf

@@ -7,13 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "tandem/report/format_number.h"
+
 namespace tandem {
 
 namespace {
 
-/// The step 1, 2 or 5 times a power of ten that divides `range` into about five parts.
+/// The step 1, 2 or 5 times a power of ten that divides `range` into about seven parts.
 double round_step(double range) {
-    const double rough = range / 5;
+    const double rough = range / 7;
     const double decade = std::pow(10.0, std::floor(std::log10(rough)));
     for (const double factor : {1.0, 2.0, 5.0}) {
         if (rough <= factor * decade * 1.0001) return factor * decade;
@@ -23,8 +25,9 @@ double round_step(double range) {
 
 std::string tick_label(double value) {
     const double magnitude = std::abs(value);
-    if (magnitude >= 1e6 || (magnitude > 0 && magnitude < 1e-3)) return fmt::format("{:.0e}", value);
-    return fmt::format("{:.4g}", value);
+    if (magnitude >= 1e6) return format_count(value);
+    if (magnitude > 0 && magnitude < 1e-3) return fmt::format("{:.0e}", value);
+    return format_number(value);
 }
 
 }  // namespace

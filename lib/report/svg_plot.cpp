@@ -132,6 +132,9 @@ std::string to_svg(const BarPlot& plot) {
         text_room = std::max(text_room, letter * letters(bar.text));
     }
     for (const ReferenceValue& reference : plot.references) values.push_back(reference.value);
+    // On a logarithmic axis the shortest bar needs a length too.
+    if (plot.value.logarithmic && !values.empty())
+        values.push_back(*std::min_element(values.begin(), values.end()) / 2);
     const double left = std::min(label_room + 16, width / 2);
     const double plot_width = std::max(width - left - text_room - 24, 120.0);
     const AxisScale scale(values, plot.value.logarithmic, plot_width);

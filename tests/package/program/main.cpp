@@ -1,4 +1,5 @@
 #include <iostream>
+
 #include <tandem/render/backend.h>
 #include <tandem/scene/named_scenes.h>
 #include <tandem/scene/prepare.h>

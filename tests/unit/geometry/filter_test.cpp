@@ -35,7 +35,7 @@ void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where
     double t = 0;
     bool passes = may_touch_sphere(make_filter_ray(ray), sphere.centre, sphere.radius);
     if (!passes) ++rejected;
-    if (!first_in_front<float>(sphere_roots(sphere, ray), t)) return;
+    if (!first_in_front(sphere, ray, t)) return;
     for (const auto& packet : packets()) passes = passes && packet.may_touch_sphere(&sphere.centre.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);

@@ -88,6 +88,12 @@ TANDEM_HD Double<Real> first_parameter(const Meeting& meeting) {
     return select(hit, t, Double<Real>(-1.0));
 }
 template <class Real>
+TANDEM_HD Double<Real> first_parameter(const Sphere& sphere, const Ray<Real>& ray) {
+    Double<Real> t;
+    const auto hit = first_in_front(sphere, ray, t);
+    return select(hit, t, Double<Real>(-1.0));
+}
+template <class Real>
 TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
     const Real two(2.0F);
     return {{b, c - two, a}, {c - a, two - b, a + b}};
@@ -185,6 +191,7 @@ bool lanes_may_touch_box(const float* box, const float* ray) {
     OPERATION(F, exact_log, exact_log(a))                                                                            \
     OPERATION(F, exact_pow, exact_pow(a, b))                                                                         \
     OPERATION(F, sphere, first_parameter<Real>(sphere_roots(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c))))                \
+    OPERATION(F, sphere_hit, first_parameter<Real>(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c)))                          \
     OPERATION(F, box, first_parameter<Real>(cross_box(Box{{-1, 0, 1}, {1, 1, 1}}, ray_of(a, b, c))))                 \
     OPERATION(D, inverse_square_root, inverse_square_root(select(absolute(a) >= D(0x1p-1022), absolute(a), D(2.0)))) \
     OPERATION(D, difference_of_products, difference_of_products(a, b, c, a))

@@ -1,4 +1,4 @@
-#include "arguments.h"
+#include "common/arguments.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "tandem/error/error.h"
 
-namespace tandem::bench {
+namespace tandem {
 
 namespace {
 
@@ -22,7 +22,7 @@ std::optional<int> parse_whole(std::string_view text, int most) {
 
 }  // namespace
 
-Size parse_size(const std::string& text) {
+FilmSize parse_size(const std::string& text) {
     const std::size_t by = text.find('x');
     const auto width = parse_whole(std::string_view(text).substr(0, by), 65536);
     const auto height =
@@ -44,4 +44,4 @@ FrameRange parse_frames(const std::string& text) {
     return {*first, *last};
 }
 
-}  // namespace tandem::bench
+}  // namespace tandem

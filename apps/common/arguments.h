@@ -4,15 +4,15 @@
 #include <cstdint>
 #include <string>
 
-namespace tandem::bench {
+namespace tandem {
 
-struct Size {
+struct FilmSize {
     int width = 0;
     int height = 0;
 };
 
 /// "1000x900". Throws InputError that shows the form.
-[[nodiscard]] Size parse_size(const std::string& text);
+[[nodiscard]] FilmSize parse_size(const std::string& text);
 
 /// First and last frame, both included.
 struct FrameRange {
@@ -25,4 +25,4 @@ struct FrameRange {
 /// "0-119" or "7". Throws InputError that shows the form.
 [[nodiscard]] FrameRange parse_frames(const std::string& text);
 
-}  // namespace tandem::bench
+}  // namespace tandem

@@ -1,0 +1,109 @@
+/// tandem-render: frames of a scene as image files. docs/images.md has the formats, names and resumption.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "common/arguments.h"
+#include "common/run_main.h"
+#include "render/interrupt.h"
+#include "render/render_command.h"
+#include "tandem/error/error.h"
+#include "tandem/scene/load_scene.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/version/version.h"
+
+namespace {
+
+using namespace tandem;
+
+/// What is typed and needs more than a conversion.
+struct Words {
+    std::string size = "1000x900";
+    int frame = 0;
+    std::string frames;  // empty: the one above
+    std::string tier = "strict";
+    std::string backend = "cpu";
+};
+
+void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
+    SequenceOptions& sequence = command.sequence;
+    std::string scenes;
+    for (const std::string& name : scene_names()) scenes += " named:" + name;
+    app.set_version_flag("--version", version());
+    app.add_option("SCENE", command.scene, "a glTF file, or one of" + scenes)->required();
+    app.add_option("-o,--output", sequence.output,
+                   "image file: .png, .ppm, .pfm or .exr; the name may hold the frame number as %04d or ####")
+        ->required();
+    app.add_option("--size", words.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
+    app.add_option("--spp", sequence.job.samples, "samples per pixel")->capture_default_str();
+    app.add_option("--seed", sequence.job.seed, "of the random numbers")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    auto* const frame = app.add_option("--frame", words.frame, "one frame")
+                            ->type_name("K")
+                            ->check(CLI::NonNegativeNumber)
+                            ->capture_default_str();
+    app.add_option("--frames", words.frames, "from A to B, both included, or all of the animation")
+        ->type_name("A-B|all")
+        ->excludes(frame);
+    app.add_option("--camera", sequence.camera, "name of the camera's node; the scene's first if not given");
+    app.add_option("--backend", words.backend, "cpu, cuda or oracle")->capture_default_str();
+    app.add_option("--tier", words.tier, "accuracy tier")->capture_default_str();
+    app.add_option("--threads", backend.threads, "of the CPU backends; 0: one per core")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+    app.add_option("--json", command.json, "write times, hashes and counts there; - is standard output");
+    app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as P3 text instead of P6");
+    app.add_option("--png-level", sequence.write.png_level, "compression of .png, 0 to 9")
+        ->check(CLI::Range(0, 9))
+        ->capture_default_str();
+    app.add_flag("--force", sequence.force, "render frames again whose files are there with the same metadata");
+    app.add_flag("--quiet", command.quiet, "print no lines and no progress, only errors");
+}
+
+FrameRange frames_of(const Words& words, const Scene& scene) {
+    if (words.frames.empty()) return {words.frame, words.frame};
+    if (words.frames == "all") return {0, frame_count(scene) - 1};
+    return parse_frames(words.frames);
+}
+
+/// Nothing that a file asks for is left out in silence; tandem-gltf info has the whole report.
+void say_what_is_not_rendered(const ImportReport& report) {
+    for (const ImportNote& note : report.notes()) {
+        if (note.treatment == Treatment::rendered) continue;
+        std::fprintf(stderr, "tandem-render: %s\n", to_string(note).c_str());
+    }
+}
+
+int render(int argc, char** argv) {
+    CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
+    RenderCommand command;
+    Words words;
+    BackendOptions backend_options;
+    declare(app, command, words, backend_options);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    const auto [width, height] = parse_size(words.size);
+    SequenceOptions& sequence = command.sequence;
+    sequence.job.width = width;
+    sequence.job.height = height;
+    sequence.job.tier = parse_tier(words.tier);
+    check(sequence.job);
+
+    const std::atomic<bool>& interrupted = watch_interrupts();
+    ImportReport import;
+    const Scene scene = load_scene(command.scene, &import);
+    if (!command.quiet) say_what_is_not_rendered(import);
+    sequence.frames = frames_of(words, scene);
+    check_output(sequence);
+    const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
+    return run_render(command, scene, *backend, interrupted);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return tandem::run_main("tandem-render", [&] { return render(argc, argv); });
+}

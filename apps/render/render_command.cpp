@@ -1,0 +1,78 @@
+#include "render/render_command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "render/progress.h"
+#include "render/render_report.h"
+#include "tandem/version/version.h"
+
+namespace tandem {
+
+namespace {
+
+void put_json(const std::string& target, const nlohmann::ordered_json& json) {
+    // a file name need not be UTF-8
+    const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    if (target != "-") {
+        write_file(target, text);
+        return;
+    }
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
+void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_t total) {
+    const char* advice = command.sequence.force ? " without --force" : "";
+    std::fprintf(stderr, "tandem-render: interrupted; %zu of %zu frames are done. ", done, total);
+    if (done < total) std::fprintf(stderr, "Run the same command again%s to render the others.", advice);
+    std::fputc('\n', stderr);
+}
+
+}  // namespace
+
+int run_render(const RenderCommand& command, const Scene& scene, Backend& backend,
+               const std::atomic<bool>& interrupted) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t total = static_cast<std::size_t>(command.sequence.frames.count());
+    const bool prints_lines = !command.quiet && command.json != "-";
+    const bool keeps_records = !command.json.empty();
+    if (keeps_records && command.json != "-") check_can_write(command.json);
+
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    ProgressBar progress(total, !command.quiet && stderr_is_terminal());
+    const auto on_frame = [&](const FrameRecord& record) {
+        progress.advance(!record.skipped);
+        progress.clear();
+        if (prints_lines) {
+            std::puts(frame_line(record).c_str());
+            std::fflush(stdout);
+        }
+        progress.draw();
+        if (keeps_records) frames.push_back(frame_json(record));
+    };
+    progress.draw();
+    const std::size_t done = render_sequence(scene, backend, command.sequence, interrupted, on_frame);
+    progress.clear();
+
+    const bool stopped = interrupted;
+    if (keeps_records) {
+        const Capabilities capabilities = backend.capabilities();
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+        put_json(command.json, {{"program", "tandem-render"},
+                                {"version", version()},
+                                {"scene", command.scene},
+                                {"backend", backend.name()},
+                                {"device", capabilities.device},
+                                {"description", capabilities.description},
+                                {"wall_seconds", wall.count()},
+                                {"interrupted", stopped},
+                                {"frames", std::move(frames)}});
+    }
+    if (!stopped) return 0;
+    say_how_to_go_on(command, done, total);
+    return exit_interrupted;
+}
+
+}  // namespace tandem

@@ -1,0 +1,41 @@
+#include "render/render_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tandem {
+
+std::string frame_line(const FrameRecord& record) {
+    std::string line = fmt::format("frame {}  {}  {}", record.metadata.frame, record.metadata.film_sha256, record.file);
+    if (record.skipped) line += "  kept";
+    if (record.invalid_samples > 0) {
+        line += fmt::format("  {} samples were NaN or infinite and left out", record.invalid_samples);
+    }
+    if (record.nan_values > 0) line += fmt::format("  {} values are NaN, written as 0", record.nan_values);
+    return line;
+}
+
+nlohmann::ordered_json frame_json(const FrameRecord& record) {
+    nlohmann::ordered_json json;
+#define TANDEM_METADATA(type, name) json[#name] = record.metadata.name;
+#include "tandem/film/metadata_fields.def"
+#undef TANDEM_METADATA
+    json["file"] = record.file;
+    json["skipped"] = record.skipped;
+    json["variant"] = record.variant;
+    const FrameSeconds& seconds = record.seconds;
+    json["seconds"] = {{"prepare", seconds.prepare},
+                       {"build", seconds.backend.build},
+                       {"upload", seconds.backend.upload},
+                       {"render", seconds.backend.render},
+                       {"download", seconds.backend.download},
+                       {"hash", seconds.hash},
+                       {"encode", seconds.encode},
+                       {"write", seconds.write}};
+    json["invalid_samples"] = record.invalid_samples;
+    json["nan_values"] = record.nan_values;
+    return json;
+}
+
+}  // namespace tandem

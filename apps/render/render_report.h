@@ -1,0 +1,17 @@
+/// What tandem-render says about frames: lines for people, JSON for programs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "render/render_sequence.h"
+
+namespace tandem {
+
+/// "frame 12  SHA-256  FILE", with "  kept" where the file was there before, and counts of what went wrong.
+[[nodiscard]] std::string frame_line(const FrameRecord& record);
+
+/// The fields of the metadata, then file, skipped, variant, seconds by phase, and counters.
+[[nodiscard]] nlohmann::ordered_json frame_json(const FrameRecord& record);
+
+}  // namespace tandem

@@ -1,0 +1,240 @@
+#include "render/render_sequence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "render/frame_pattern.h"
+#include "tandem/error/error.h"
+#include "tandem/scene/prepare.h"
+#include "tandem/version/version.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr std::size_t most_with_backend = 2;
+
+/// Seconds from one call to the next.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Films wait for their writers in memory: at most 4 GiB of them, but one at least.
+std::size_t writer_count(const SequenceOptions& options) {
+    const std::size_t wanted = options.writers > 0 ? static_cast<std::size_t>(options.writers)
+                                                   : std::max<std::size_t>(2, std::thread::hardware_concurrency());
+    const std::size_t film_bytes =
+        sizeof(Vec3d) * static_cast<std::size_t>(options.job.width) * static_cast<std::size_t>(options.job.height);
+    return std::clamp<std::size_t>((std::size_t{1} << 32) / film_bytes, 1, wanted);
+}
+
+/// What the file at `path` says about itself, if it is what rendering `wanted` would give.
+std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat format, ImageMetadata wanted) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return std::nullopt;
+    try {
+        const DecodedImage file = read_image(path);
+        if (file.format != format || !file.metadata || file.metadata->film_sha256.empty()) return std::nullopt;
+        if (file.image.width != wanted.width || file.image.height != wanted.height) return std::nullopt;
+        wanted.film_sha256 = file.metadata->film_sha256;
+        wanted.backend = file.metadata->backend;
+        return wanted == *file.metadata ? file.metadata : std::nullopt;
+    } catch (const InputError&) {
+        return std::nullopt;  // damaged, or of another program
+    }
+}
+
+/// The last part of a frame's way, in a thread of its own.
+FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const WriteOptions& options) {
+    Stopwatch watch;
+    record.metadata.film_sha256 = film_hash(film);
+    record.seconds.hash = watch.lap();
+    FloatImage image = film_to_image(film);
+    film = {};  // back to the backend, which has frames to render
+    const EncodedImage encoded = encode_image(image, format, record.metadata, options);
+    record.nan_values = encoded.nan_values;
+    record.seconds.encode = watch.lap();
+    write_encoded(record.file, encoded, format, record.metadata, options);
+    record.seconds.write = watch.lap();
+    return record;
+}
+
+class Sequence {
+  public:
+    Sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
+             const std::function<void(const FrameRecord&)>& on_frame)
+        : scene_(scene),
+          backend_(backend),
+          options_(options),
+          on_frame_(on_frame),
+          pattern_(options.output),
+          format_(format_of(options.output, options.write)),
+          most_writing_(writer_count(options)) {}
+
+    ~Sequence() {
+        // only after an exception: a backend is not left with frames that nobody waits for
+        for (const Started& frame : started_) {
+            try {
+                if (frame.pending) (void)frame.pending->get();
+            } catch (...) {
+            }
+        }
+    }
+    Sequence(const Sequence&) = delete;
+    Sequence& operator=(const Sequence&) = delete;
+
+    std::size_t run(const std::atomic<bool>& interrupted) {
+        const FrameRange& frames = options_.frames;
+        for (std::int32_t i = 0; i < frames.count() && !interrupted; ++i) {
+            start(frames.first + i);
+            report_written();
+        }
+        while (!started_.empty()) pass_to_writer();
+        while (!writing_.empty()) report_first();
+        return done_;
+    }
+
+  private:
+    /// A frame that is with the backend, or one without `pending` that needs no rendering.
+    struct Started {
+        FrameRecord record;
+        std::unique_ptr<PendingFrame> pending;
+    };
+
+    void start(std::int32_t frame) {
+        Stopwatch watch;
+        const PreparedScene prepared = prepare(scene_, {frame, options_.camera});
+        RenderJob job = options_.job;
+        job.frame = static_cast<std::uint32_t>(frame);
+        FrameRecord record;
+        record.file = pattern_.path(job.frame);
+        record.metadata = describe(job, scene_hash(prepared));
+        record.seconds.prepare = watch.lap();
+        if (!options_.force) {
+            if (auto finished = finished_frame(record.file, format_, record.metadata)) {
+                record.metadata = std::move(*finished);
+                record.skipped = true;
+                started_.push_back({std::move(record), nullptr});
+                return;
+            }
+        }
+        while (with_backend_ >= most_with_backend) pass_to_writer();
+        make_resident(prepared, record);
+        ++with_backend_;
+        auto pending = backend_.submit(resident_, job);
+        started_.push_back({std::move(record), std::move(pending)});
+    }
+
+    ImageMetadata describe(const RenderJob& job, std::string scene_hash) const {
+        return {.film_sha256 = {},
+                .scene_hash = std::move(scene_hash),
+                .frame = job.frame,
+                .width = job.width,
+                .height = job.height,
+                .samples = job.samples,
+                .seed = job.seed,
+                .tier = to_string(job.tier),
+                .backend = backend_.name(),
+                .version = version()};
+    }
+
+    /// Loads the scene unless it is the one that is there: in a still scene only the random numbers change.
+    void make_resident(const PreparedScene& prepared, FrameRecord& record) {
+        if (resident_ && resident_hash_ == record.metadata.scene_hash) return;
+        resident_ = backend_.load(prepared);
+        resident_hash_ = record.metadata.scene_hash;
+        record.seconds.backend = resident_->load_times();
+    }
+
+    /// Waits for the oldest frame of the backend, and for room among the writers.
+    void pass_to_writer() {
+        Started frame = std::move(started_.front());
+        started_.pop_front();
+        FrameRecord& record = frame.record;
+        if (!frame.pending) {
+            const auto at_once = [record] { return record; };
+            writing_.push_back(std::async(std::launch::deferred, at_once));
+            return;
+        }
+        --with_backend_;
+        RenderResult result = frame.pending->get();
+        PhaseTimes& seconds = record.seconds.backend;
+        seconds.build += result.stats.seconds.build;
+        seconds.upload += result.stats.seconds.upload;
+        seconds.render = result.stats.seconds.render;
+        seconds.download = result.stats.seconds.download;
+        record.invalid_samples = result.stats.counters.invalid_samples;
+        record.variant = result.stats.variant;
+        while (writing_.size() >= most_writing_) report_first();
+        writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),
+                                      format_, options_.write));
+    }
+
+    void report_first() {
+        std::future<FrameRecord> first = std::move(writing_.front());
+        writing_.pop_front();
+        const FrameRecord record = first.get();
+        ++done_;
+        on_frame_(record);
+    }
+
+    void report_written() {
+        while (!started_.empty() && !started_.front().pending) pass_to_writer();
+        const auto is_done = [](const auto& frame) {
+            return frame.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+        };
+        while (!writing_.empty() && is_done(writing_.front())) report_first();
+    }
+
+    const Scene& scene_;
+    Backend& backend_;
+    const SequenceOptions& options_;
+    const std::function<void(const FrameRecord&)>& on_frame_;
+    FramePattern pattern_;
+    ImageFormat format_;
+    std::size_t most_writing_;
+
+    std::shared_ptr<ResidentScene> resident_;
+    std::string resident_hash_;
+    std::deque<Started> started_;
+    std::size_t with_backend_ = 0;
+    std::deque<std::future<FrameRecord>> writing_;
+    std::size_t done_ = 0;
+};
+
+}  // namespace
+
+void check_output(const SequenceOptions& options) {
+    const FramePattern pattern(options.output);
+    (void)format_of(options.output, options.write);
+    if (options.frames.count() > 1 && !pattern.has_frame()) {
+        throw InputError(
+            fmt::format("'{}' has no place for the frame number; write a name as in frame-####.png", options.output));
+    }
+    check_can_write(pattern.path(static_cast<std::uint32_t>(options.frames.first)));
+}
+
+std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
+                            const std::atomic<bool>& interrupted,
+                            const std::function<void(const FrameRecord&)>& on_frame) {
+    check(options.job);
+    check_output(options);
+    return Sequence(scene, backend, options, on_frame).run(interrupted);
+}
+
+}  // namespace tandem

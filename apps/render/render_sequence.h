@@ -1,0 +1,63 @@
+/// Frames of a scene, rendered by any backend and written as image files.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/arguments.h"
+#include "tandem/film/image_io.h"
+#include "tandem/render/backend.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+struct SequenceOptions {
+    std::string output;  ///< a FramePattern
+    FrameRange frames;
+    RenderJob job;       ///< its frame is set for each frame
+    std::string camera;  ///< empty: the first of the scene
+    WriteOptions write;
+    bool force = false;  ///< render frames again whose files are there
+    int writers = 0;     ///< threads that hash, encode and write; 0: one per core
+};
+
+/// Where the time of a frame went, in seconds. Frames overlap, so the sums are more than the wall time.
+struct FrameSeconds {
+    double prepare = 0;  ///< scene to flat arrays, and their hash
+    PhaseTimes backend;  ///< zero build and upload where the scene is that of the frame before
+    double hash = 0;     ///< SHA-256 of the film
+    double encode = 0;   ///< means, tone curve, compression
+    double write = 0;
+};
+
+struct FrameRecord {
+    ImageMetadata metadata;
+    std::string file;
+    bool skipped = false;  ///< the file was there already; the metadata are the file's
+    FrameSeconds seconds;
+    std::uint64_t invalid_samples = 0;  ///< RenderCounters
+    std::size_t nan_values = 0;         ///< EncodedImage
+    std::string variant;                ///< RenderStats
+};
+
+/// Calls `on_frame` for each frame that is done, in order, on the calling thread, as soon as its file is there.
+///
+/// Two frames are with the backend at a time; hashing, encoding and writing run in other threads meanwhile, as many at
+/// a time as there are writers (fewer where films are large).
+/// A frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
+/// same scene hash, frame, size, samples, seed, tier and version. The backend may differ: films are equal.
+/// Once `interrupted` is set no frame is started; those in flight are finished and written.
+///
+/// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible
+/// before the first frame; errors of backends and writers come out as they are. Then files that were written stay,
+/// whole.
+std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
+                            const std::atomic<bool>& interrupted,
+                            const std::function<void(const FrameRecord&)>& on_frame);
+
+/// Throws as render_sequence() does for an output that cannot be, without a scene or a backend.
+void check_output(const SequenceOptions& options);
+
+}  // namespace tandem

@@ -1,0 +1,236 @@
+#include "render/render_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include "support/gradient_backend.h"
+#include "support/temporary_folder.h"
+#include "support/thrown_message.h"
+#include "tandem/error/error.h"
+#include "tandem/film/tone_curve.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+using namespace test;
+
+class RenderSequence : public testing::Test {
+  protected:
+    RenderSequence() {
+        options.output = folder.file("f##.png");
+        options.frames = {3, 8};
+        options.job.width = 20;
+        options.job.height = 10;
+        options.job.samples = 4;
+        options.write.durability = Durability::written;
+    }
+
+    /// Renders with `backend`; the records are left in `records`.
+    std::size_t render() {
+        records.clear();
+        return render_sequence(scene, backend, options, interrupted,
+                               [this](const FrameRecord& record) { records.push_back(record); });
+    }
+
+    /// How many frames a run of its own has rendered.
+    int rendered() {
+        backend.submitted = 0;
+        EXPECT_EQ(render(), 6U);
+        return backend.submitted;
+    }
+
+    TemporaryFolder folder;
+    Scene scene = named_scene("paper");
+    GradientBackend backend;
+    SequenceOptions options;
+    std::atomic<bool> interrupted{false};
+    std::vector<FrameRecord> records;
+};
+
+TEST_F(RenderSequence, WritesEveryFrameAndReportsInOrder) {
+    EXPECT_EQ(render(), 6U);
+    ASSERT_EQ(records.size(), 6U);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const FrameRecord& record = records[i];
+        RenderJob job = options.job;
+        job.frame = 3 + i;
+        const Film film = gradient_film(job);
+        EXPECT_EQ(record.file, folder.file("f0" + std::to_string(3 + i) + ".png"));
+        EXPECT_EQ(record.metadata.frame, 3 + i);
+        EXPECT_EQ(record.metadata.film_sha256, film_hash(film));
+        EXPECT_EQ(record.metadata.scene_hash, scene_hash(prepare(scene, {static_cast<std::int32_t>(3 + i), ""})));
+        EXPECT_EQ(record.metadata.backend, "gradient");
+        EXPECT_FALSE(record.skipped);
+        EXPECT_EQ(record.invalid_samples, 3 + i);
+        EXPECT_EQ(record.seconds.backend.build, 0.25);
+        EXPECT_EQ(record.seconds.backend.render, 0.5);
+        const DecodedImage file = read_image(record.file);
+        EXPECT_EQ(file.metadata, record.metadata);
+        EXPECT_EQ(tone_map(file.image).image.values, tone_map(film_to_image(film)).image.values);
+    }
+    EXPECT_EQ(folder.names().size(), 6U);
+}
+
+TEST_F(RenderSequence, TwoFramesAreWithTheBackendAtATime) {
+    EXPECT_EQ(render(), 6U);
+    EXPECT_EQ(backend.most_in_flight, 2);
+    EXPECT_EQ(backend.loads, 6);
+}
+
+TEST_F(RenderSequence, AStillSceneIsLoadedOnce) {
+    scene.animation.clear();
+    EXPECT_EQ(render(), 6U);
+    EXPECT_EQ(backend.loads, 1);
+    EXPECT_EQ(records[0].seconds.backend.build, 0.25);
+    EXPECT_EQ(records[1].seconds.backend.build, 0.0);
+}
+
+TEST_F(RenderSequence, OneWriterIsEnough) {
+    options.writers = 1;
+    EXPECT_EQ(render(), 6U);
+    EXPECT_EQ(folder.names().size(), 6U);
+}
+
+TEST_F(RenderSequence, ASecondRunRendersNothing) {
+    EXPECT_EQ(rendered(), 6);
+    const std::vector<FrameRecord> first = records;
+    EXPECT_EQ(rendered(), 0);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_TRUE(records[i].skipped);
+        EXPECT_EQ(records[i].metadata, first[i].metadata);
+    }
+}
+
+TEST_F(RenderSequence, ForceRendersAgain) {
+    EXPECT_EQ(rendered(), 6);
+    options.force = true;
+    EXPECT_EQ(rendered(), 6);
+}
+
+TEST_F(RenderSequence, WhatChangesThePictureRendersAgain) {
+    EXPECT_EQ(rendered(), 6);
+    options.job.seed = 1;
+    EXPECT_EQ(rendered(), 6) << "seed";
+    options.job.samples = 5;
+    EXPECT_EQ(rendered(), 6) << "samples";
+    options.job.width = 21;
+    EXPECT_EQ(rendered(), 6) << "width";
+    options.job.height = 11;
+    EXPECT_EQ(rendered(), 6) << "height";
+    scene.materials[0].phong.diffuse.x = 0.25F;
+    EXPECT_EQ(rendered(), 6) << "scene";
+    options.frames = {4, 9};
+    EXPECT_EQ(rendered(), 1) << "a new frame";
+    EXPECT_EQ(rendered(), 0);
+}
+
+TEST_F(RenderSequence, AnotherBackendKeepsTheFrames) {
+    EXPECT_EQ(rendered(), 6);
+    GradientBackend other("other");
+    std::size_t kept = 0;
+    render_sequence(scene, other, options, interrupted, [&](const FrameRecord& record) {
+        kept += record.skipped ? 1 : 0;
+        EXPECT_EQ(record.metadata.backend, "gradient") << "the one that rendered it";
+    });
+    EXPECT_EQ(kept, 6U);
+    EXPECT_EQ(other.submitted, 0);
+}
+
+TEST_F(RenderSequence, AnotherFormatUnderTheSameNameRendersAgain) {
+    options.output = folder.file("f#.ppm");
+    EXPECT_EQ(rendered(), 6);
+    options.write.ppm_text = true;
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(rendered(), 0);
+}
+
+TEST_F(RenderSequence, PfmFramesAreKeptByTheirSidecars) {
+    options.output = folder.file("f#.pfm");
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(rendered(), 0);
+    std::filesystem::remove(folder.file("f5.pfm.txt"));
+    EXPECT_EQ(rendered(), 1);
+}
+
+TEST_F(RenderSequence, DamagedAndForeignFilesAreRenderedAgain) {
+    EXPECT_EQ(rendered(), 6);
+    const Bytes whole = read_file(folder.file("f04.png"));
+    write_file(folder.file("f04.png"), std::span(whole).first(whole.size() - 30));
+    write_file(folder.file("f06.png"), "not an image");
+    write_file(folder.file("f08.png"), encode_png({20, 10, std::vector<std::uint8_t>(600)}, {}, 1));
+    EXPECT_EQ(rendered(), 3);
+    EXPECT_EQ(read_file(folder.file("f04.png")), whole);
+    EXPECT_EQ(rendered(), 0);
+}
+
+TEST_F(RenderSequence, AnInterruptFinishesWhatIsInFlight) {
+    backend.on_submit = [this](const RenderJob& job) { interrupted = job.frame == 5; };
+    EXPECT_EQ(render(), 3U);
+    EXPECT_EQ(backend.submitted, 3);
+    EXPECT_EQ(backend.in_flight, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"f03.png", "f04.png", "f05.png"}));
+    backend.on_submit = [](const RenderJob&) {};
+    interrupted = false;
+    EXPECT_EQ(rendered(), 3) << "the same call again goes on";
+    EXPECT_EQ(folder.names().size(), 6U);
+}
+
+TEST_F(RenderSequence, AnInterruptBeforeTheFirstFrameRendersNothing) {
+    interrupted = true;
+    EXPECT_EQ(render(), 0U);
+    EXPECT_EQ(backend.submitted, 0);
+}
+
+TEST_F(RenderSequence, AnErrorOfAWriterComesOut) {
+    const std::string place = folder.file("place");
+    std::filesystem::create_directory(place);
+    options.output = place + "/f##.png";
+    backend.on_submit = [&](const RenderJob& job) {
+        if (job.frame == 5) std::filesystem::rename(place, place + "-gone");
+    };
+    const auto message = thrown_message<InputError>([this] { render(); });
+    EXPECT_NE(message.find("cannot write '" + place), std::string::npos) << message;
+    EXPECT_EQ(backend.in_flight, 0) << "no frame is left with the backend";
+}
+
+TEST_F(RenderSequence, AnErrorOfTheBackendComesOutAndWrittenFramesStay) {
+    backend.on_get = [](const RenderJob& job) {
+        if (job.frame >= 6) throw EnvironmentError("the device fell off the bus");
+    };
+    EXPECT_EQ(thrown_message<EnvironmentError>([this] { render(); }), "the device fell off the bus");
+    EXPECT_EQ(backend.in_flight, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"f03.png", "f04.png", "f05.png"}));
+    backend.on_get = [](const RenderJob&) {};
+    EXPECT_EQ(rendered(), 3);
+}
+
+TEST_F(RenderSequence, WhatCannotBeIsSaidBeforeRendering) {
+    const auto refused = [this](const std::string& output, const char* reason) {
+        options.output = output;
+        const auto message = thrown_message<InputError>([this] { render(); });
+        EXPECT_NE(message.find(reason), std::string::npos) << output << " gives: " << message;
+    };
+    refused(folder.file("still.png"), "no place for the frame number");
+    refused(folder.file("#-#.png"), "more than one place");
+    refused(folder.file("f#.jpg"), ".exr");
+    refused(folder.file("none/f#.png"), "no folder");
+    options.output = folder.file("f#.png");
+    options.job.samples = 0;
+    EXPECT_NE(thrown_message<InputError>([this] { render(); }).find("samples"), std::string::npos);
+    options.job.samples = 1;
+    options.camera = "nobody";
+    EXPECT_NE(thrown_message<InputError>([this] { render(); }).find("nobody"), std::string::npos);
+    EXPECT_EQ(backend.submitted, 0);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(RenderSequence, OneFrameNeedsNoPlaceForItsNumber) {
+    options.output = folder.file("still.png");
+    options.frames = {5, 5};
+    EXPECT_EQ(render(), 1U);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"still.png"});
+}
+
+}  // namespace
+}  // namespace tandem

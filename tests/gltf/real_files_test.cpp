@@ -1,0 +1,70 @@
+/// Files of other people: the ones beside the checkout, and Debian's assimp-testmodels.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "gltf/files.h"
+
+namespace tandem {
+namespace {
+
+using test::contains;
+namespace fs = std::filesystem;
+
+/// The folder gltf/ of $TANDEM_SHARED, or of a folder "shared" beside the checkout or beside its parent.
+std::optional<fs::path> shared_files() {
+    std::vector<fs::path> places = {fs::path(TANDEM_SOURCE_DIR) / "../shared",
+                                    fs::path(TANDEM_SOURCE_DIR) / "../../shared"};
+    if (const char* named = std::getenv("TANDEM_SHARED")) places.insert(places.begin(), named);
+    for (const fs::path& place : places) {
+        if (fs::is_directory(place / "gltf")) return place / "gltf";
+    }
+    return std::nullopt;
+}
+
+/// Every file gives a scene, or one sentence that begins with its name.
+void import_or_explain(const fs::path& file) {
+    try {
+        const ImportResult result = import_gltf(file);
+        EXPECT_TRUE(validate(result.scene).empty()) << file;
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.rfind(file.string() + ": ", 0), 0U) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_LT(message.size(), 600U) << message;
+    }
+}
+
+TEST(RealFiles, BesideTheCheckout) {
+    const auto folder = shared_files();
+    if (!folder) GTEST_SKIP() << "no folder shared/gltf beside the checkout, and TANDEM_SHARED does not name one";
+    const auto box = import_gltf(*folder / "CornellBox.glb");
+    EXPECT_EQ(box.scene.nodes.size(), 4U);
+    EXPECT_EQ(box.scene.materials.size(), 5U);
+    EXPECT_TRUE(contains(test::sentences(box.report), "ignored: triangle mesh at meshes[0].primitives[0] (6 uses)"));
+    const auto helmet = import_gltf(*folder / "FlightHelmet/FlightHelmet.gltf");
+    EXPECT_EQ(helmet.scene.nodes.size(), 6U);
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[0] (15 uses)"));
+    const auto fox = import_gltf(*folder / "Fox.glb");
+    EXPECT_EQ(fox.scene.nodes.size(), 26U);
+    EXPECT_EQ(fox.scene.animation.size(), 21U);
+    EXPECT_TRUE(contains(test::sentences(fox.report), "ignored: further animation at animations[1] (2 uses)"));
+}
+
+TEST(RealFiles, AssimpsTestModels) {
+    const fs::path folder = "/usr/share/assimp/models/glTF2";
+    if (!fs::is_directory(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        import_or_explain(entry.path());
+        ++files;
+    }
+    EXPECT_GE(files, 20U);
+}
+
+}  // namespace
+}  // namespace tandem

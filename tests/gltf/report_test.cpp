@@ -1,0 +1,190 @@
+#include "tandem/gltf/report.h"
+
+#include <gtest/gtest.h>
+
+#include "gltf/files.h"
+
+namespace tandem {
+namespace {
+
+using test::contains;
+using test::Json;
+using test::rich_file;
+using test::sentences;
+using test::small_file;
+using test::TestFile;
+
+TEST(ImportReport, JoinsUsesOfOneFeature) {
+    ImportReport report;
+    report.add(Treatment::ignored, "image", "images[0]", "no textures");
+    report.add(Treatment::rendered, "image", "images[1]", "no textures");
+    report.add(Treatment::ignored, "image", "images[2]", "no textures");
+    EXPECT_EQ(sentences(report),
+              "ignored: image at images[0] (2 uses): no textures\nrendered: image at images[1]: no textures\n");
+}
+
+TEST(ImportReport, KeepsControlCharactersFromTheTerminal) {
+    ImportReport report;
+    report.add(Treatment::ignored, "bell\a\x1b[31m", "nodes[0].extensions.a\nb", "straße");
+    EXPECT_EQ(sentences(report), "ignored: bell??[31m at nodes[0].extensions.a?b: straße\n");
+}
+
+class Report : public test::GltfFiles {
+  protected:
+    void expect(const TestFile& file, const std::string& sentence) const {
+        EXPECT_TRUE(contains(sentences(import(file).report), sentence));
+    }
+};
+
+TEST_F(Report, SaysWhatIsRendered) {
+    const std::string all = sentences(import(rich_file()).report);
+    for (const char* sentence :
+         {"rendered: EXT_implicit_geometry sphere at meshes[0].primitives[0].extensions.EXT_implicit_geometry: ",
+          "rendered: EXT_implicit_geometry box at meshes[1].primitives[0].extensions.EXT_implicit_geometry: ",
+          "rendered: EXT_mesh_gpu_instancing at nodes[2].extensions.EXT_mesh_gpu_instancing: ",
+          "rendered: TANDEM_materials_phong at materials[0].extensions.TANDEM_materials_phong: ",
+          "rendered: TANDEM_environment at extensions.TANDEM_environment: ",
+          "rendered: perspective camera at nodes[0].camera: ",
+          "rendered: animation of scale at animations[0].channels[0]: ",
+          "rendered: animation of translation at animations[0].channels[1]: ",
+          "approximated: KHR_lights_punctual point at nodes[3].extensions.KHR_lights_punctual: ",
+          "approximated: default material at meshes[1].primitives[0]: ",
+          "approximated: frame rate at animations[0]: glTF has none; Tandem takes 24 frames a second",
+          "ignored: camera znear at cameras[0].perspective.znear: "}) {
+        EXPECT_TRUE(contains(all, sentence));
+    }
+}
+
+TEST_F(Report, EveryLineHasAPathAndAReason) {
+    const ImportReport report = import(rich_file()).report;
+    for (const ImportNote& note : report.notes()) {
+        EXPECT_FALSE(note.feature.empty());
+        EXPECT_FALSE(note.json_path.empty()) << note.feature;
+        EXPECT_FALSE(note.reason.empty()) << note.feature;
+    }
+}
+
+TEST_F(Report, NamesTriangleMeshesTexturesAndSkins) {
+    TestFile file = small_file();
+    const std::size_t places = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
+    const Json attributes = {{"POSITION", places}};
+    file.json["meshes"].push_back(
+        {{"weights", {0.5}},
+         {"primitives",
+          {{{"attributes", attributes}, {"targets", {attributes}}}, {{"attributes", attributes}, {"mode", 1}}}}});
+    file.json["nodes"][1]["mesh"] = 1;
+    file.json["nodes"][1]["skin"] = 0;
+    file.json["skins"] = {{{"joints", {0}}}};
+    file.json["images"] = {{{"uri", "../../../../etc/passwd"}}};  // never opened
+    file.json["samplers"] = {Json::object()};
+    file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 1}};
+    file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    file.json["materials"][0]["alphaMode"] = "BLEND";
+    file.json["materials"][0]["normalTexture"] = {{"index", 0},
+                                                  {"extensions", {{"KHR_texture_transform", Json::object()}}}};
+    for (const char* sentence :
+         {"ignored: triangle mesh at meshes[1].primitives[0]: ", "ignored: lines at meshes[1].primitives[1]: ",
+          "ignored: morph targets at meshes[1].primitives[0].targets: ",
+          "ignored: morph weights at meshes[1].weights: ", "ignored: node skin at nodes[1].skin: ",
+          "ignored: skin at skins[0]: ", "ignored: image at images[0]: ", "ignored: texture sampler at samplers[0]: ",
+          "ignored: texture at textures[0]: ",
+          "ignored: base colour texture at materials[0].pbrMetallicRoughness.baseColorTexture: ",
+          "ignored: metallicFactor at materials[0].pbrMetallicRoughness.metallicFactor: ",
+          "ignored: emission at materials[0].emissiveFactor: ", "ignored: alphaMode at materials[0].alphaMode: ",
+          "ignored: KHR_texture_transform at materials[0].normalTexture.extensions.KHR_texture_transform: it serves"}) {
+        expect(file, sentence);
+    }
+}
+
+TEST_F(Report, NamesWhatCamerasAndLightsLeaveOut) {
+    TestFile file = rich_file();
+    file.json["cameras"][0]["perspective"]["aspectRatio"] = 1.5;
+    file.json["cameras"][0]["perspective"]["zfar"] = 100;
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(
+        R"([{"type": "point", "range": 10}, {"type": "spot", "spot": {}}, {"type": "directional"}, {"type": "area"}])");
+    for (int light = 1; light < 4; ++light) {
+        file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+        file.json["scenes"][0]["nodes"].push_back(light + 3);
+    }
+    for (const char* sentence :
+         {"ignored: camera aspectRatio at cameras[0].perspective.aspectRatio: the film decides",
+          "ignored: camera zfar at cameras[0].perspective.zfar: ",
+          "ignored: light range at extensions.KHR_lights_punctual.lights[0].range: ",
+          "ignored: KHR_lights_punctual spot at nodes[4].extensions.KHR_lights_punctual: ",
+          "ignored: KHR_lights_punctual directional at nodes[5].extensions.KHR_lights_punctual: ",
+          "ignored: KHR_lights_punctual area at nodes[6].extensions.KHR_lights_punctual: "}) {
+        expect(file, sentence);
+    }
+}
+
+TEST_F(Report, NamesOrthographicLeftovers) {
+    TestFile file = small_file();
+    file.json["cameras"][0] =
+        Json::parse(R"({"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "zfar": 10, "znear": 0}})");
+    expect(file, "ignored: camera xmag at cameras[0].orthographic.xmag: the film decides");
+    expect(file, "rendered: orthographic camera at nodes[0].camera: ");
+}
+
+TEST_F(Report, NamesWhatAnimationsLeaveOut) {
+    TestFile file = rich_file();
+    Json animation = file.json["animations"][0];
+    Json& channels = animation["channels"];
+    channels.push_back({{"sampler", 0}, {"target", {{"node", 1}, {"path", "weights"}}}});
+    channels.push_back({{"sampler", 0}, {"target", {{"path", "translation"}}}});
+    channels.push_back(Json::parse(
+        R"({"sampler": 0, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/x"}}}})"));
+    channels.push_back({{"sampler", 0}, {"target", {{"node", 4}, {"path", "scale"}}}});
+    file.json["nodes"].push_back(Json::object());
+    file.json["animations"] = Json::array({animation, animation});
+    for (const char* sentence :
+         {"ignored: animation of weights at animations[0].channels[2]: ",
+          "ignored: animation without a node at animations[0].channels[3]: ",
+          "ignored: KHR_animation_pointer at animations[0].channels[4].target.extensions.KHR_animation_pointer",
+          "ignored: animation of a node outside of the scene at animations[0].channels[5]: ",
+          "ignored: further animation at animations[1]: ", "ignored: node outside of the scene at nodes[4]: "}) {
+        expect(file, sentence);
+    }
+}
+
+TEST_F(Report, NamesOtherShapesAndAttributes) {
+    TestFile file = rich_file();
+    Json& sphere = file.json["meshes"][0]["primitives"][0]["extensions"]["EXT_implicit_geometry"];
+    sphere = {{"cylinder", {{"radius", 1}, {"height", 2}}}};
+    file.json["meshes"][1]["primitives"][0]["extensions"]["EXT_implicit_geometry"]["box"]["slice"] = Json::object();
+    Json& instancing = file.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"];
+    instancing["attributes"]["_ID"] = 0;
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = instancing;
+    file.json["extensions"]["KHR_implicit_shapes"]["shapes"] = {{{"type", "sphere"}}};
+    for (const char* sentence :
+         {"ignored: EXT_implicit_geometry cylinder at meshes[0].primitives[0].extensions.EXT_implicit_geometry: ",
+          "ignored: implicit geometry slice at meshes[1].primitives[0].extensions.EXT_implicit_geometry.box.slice: ",
+          "ignored: instance attribute _ID at nodes[2].extensions.EXT_mesh_gpu_instancing.attributes._ID: ",
+          "ignored: EXT_mesh_gpu_instancing at nodes[0].extensions.EXT_mesh_gpu_instancing: the node has no mesh",
+          "ignored: KHR_implicit_shapes shape at extensions.KHR_implicit_shapes.shapes[0]: no mesh primitive"}) {
+        expect(file, sentence);
+    }
+}
+
+TEST_F(Report, NamesUnknownExtensionsWhereverTheyAre) {
+    TestFile file = small_file();
+    file.json["extensionsUsed"] = {"ACME_sparkle", "ACME_unused", "KHR_materials_clearcoat"};
+    file.json["nodes"][1]["extensions"]["ACME_sparkle"] = {{"extensions", 3}, {"camera", {1, 2}}};
+    file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = Json::object();
+    expect(file, "ignored: ACME_sparkle at nodes[1].extensions.ACME_sparkle: Tandem does not know it");
+    expect(file, "ignored: ACME_unused at extensionsUsed[1]: the file lists it and uses it nowhere");
+    expect(file, "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: Tandem shades");
+}
+
+TEST_F(Report, NamesTheChoiceOfAScene) {
+    TestFile file = small_file();
+    file.json["scenes"].push_back({{"nodes", {1}}});
+    expect(file, "ignored: further scene at scenes[1]: Tandem renders one scene of a file, here scenes[0]");
+    file.json.erase("scene");
+    expect(file, "approximated: no default scene at scenes: Tandem takes the first one");
+    file.json.erase("scenes");
+    expect(file, "approximated: file without scenes at nodes: all root nodes make up the scene");
+}
+
+}  // namespace
+}  // namespace tandem

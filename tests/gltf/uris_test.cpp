@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include "gltf/files.h"
+
+namespace tandem {
+namespace {
+
+using test::contains;
+using test::rich_file;
+using test::TestFile;
+
+/// The glTF file lies in folder_/inside; a buffer that would do lies in folder_.
+class Uris : public test::GltfFiles {
+  protected:
+    Uris() { write("secret.bin", rich_file().data); }
+
+    std::filesystem::path with_uri(const std::string& uri) const {
+        TestFile file = rich_file();
+        file.json["buffers"] = {{{"uri", uri}, {"byteLength", file.data.size()}}};
+        return write("inside/scene.gltf", file.text());
+    }
+    void expect_refused(const std::string& uri, const std::string& reason) const {
+        EXPECT_TRUE(contains(error_of(with_uri(uri)), "buffers[0].uri: " + reason)) << uri;
+    }
+};
+
+TEST_F(Uris, LeadingOutOfTheFolder) {
+    for (const char* uri : {"../secret.bin", "..%2Fsecret.bin", "%2e%2e/secret.bin", "./../secret.bin",
+                            "data/../../secret.bin", "%2E%2E%2Fsecret.bin", ".."}) {
+        expect_refused(uri, "leads out of the folder");
+    }
+    const std::string absolute = (folder_ / "secret.bin").string();
+    expect_refused(absolute, "is an absolute path");
+    expect_refused("%2F" + absolute.substr(1), "is an absolute path");
+    expect_refused("..\\secret.bin", "holds a backslash");
+}
+
+TEST_F(Uris, WithSchemes) {
+    for (const char* uri : {"file:///etc/passwd", "http://localhost/secret.bin", "HTTPS://x/y", "c:/secret.bin"}) {
+        expect_refused(uri, "has a scheme");
+    }
+}
+
+TEST_F(Uris, Links) {
+    std::filesystem::create_directories(folder_ / "inside");
+    std::filesystem::create_symlink(folder_ / "secret.bin", folder_ / "inside/link.bin");
+    std::filesystem::create_directory_symlink(folder_, folder_ / "inside/up");
+    expect_refused("link.bin", "names 'link.bin', a link that leads out");
+    expect_refused("up/secret.bin", "names 'up/secret.bin', a link that leads out");
+    write("inside/real.bin", rich_file().data);
+    std::filesystem::create_symlink("real.bin", folder_ / "inside/alias.bin");
+    EXPECT_EQ(import_gltf(with_uri("alias.bin")).scene.nodes.size(), 4U);
+}
+
+TEST_F(Uris, ThatNameNothingToRead) {
+    expect_refused("none.bin", "names 'none.bin', which is not there");
+    expect_refused("", "is empty");
+    expect_refused(".", "'.' is not a regular file");
+    expect_refused("a%zzb", "has a '%'");
+    expect_refused("a%2", "has a '%'");
+    expect_refused("scene%00.bin", "holds control characters");
+    expect_refused("~/secret.bin", "names '~/secret.bin', which is not there");  // no expansion
+    expect_refused("$HOME", "names '$HOME', which is not there");
+}
+
+TEST_F(Uris, ShortFiles) {
+    write("inside/short.bin", "abc");
+    EXPECT_TRUE(contains(error_of(with_uri("short.bin")), "but the file has 3 bytes; it may be truncated"));
+}
+
+TEST_F(Uris, DataUris) {
+    const std::string good = "data:application/octet-stream;base64," + test::base64(rich_file().data);
+    EXPECT_EQ(import_gltf(with_uri(good)).scene.nodes.size(), 4U);
+    expect_refused("data:text/html,hello", "is a data URI that does not begin with");
+    expect_refused("data:", "is a data URI that does not begin with");
+    expect_refused(good.substr(0, good.size() - 1), "is a data URI whose base64 is broken");
+    std::string odd = good;
+    odd[odd.size() - 10] = '*';
+    expect_refused(odd, "is a data URI whose base64 is broken");
+    EXPECT_TRUE(contains(error_of(with_uri(good.substr(0, good.size() - 4))), "but its data URI has"));
+    EXPECT_TRUE(contains(error_of(with_uri(good + "AAAA")), "make them equal"));
+}
+
+/// The name that the importer gives to tinygltf for a buffer is not a back door.
+TEST_F(Uris, InternalNamesMeanNothing) {
+    expect_refused("buffer-0", "names 'buffer-0', which is not there");
+    std::filesystem::create_symlink(folder_ / "secret.bin", folder_ / "inside/buffer-0");
+    expect_refused("buffer-0", "names 'buffer-0', a link that leads out");
+}
+
+}  // namespace
+}  // namespace tandem

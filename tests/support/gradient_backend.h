@@ -1,0 +1,79 @@
+/// A backend for tests of what surrounds backends: its films are gradients that depend on the job, its hooks let a test
+/// step in, and it counts what it was asked for.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "tandem/render/backend.h"
+
+namespace tandem::test {
+
+/// The film that GradientBackend renders.
+inline Film gradient_film(const RenderJob& job) {
+    Film film(job.width, job.height, job.samples);
+    const auto share = [](int i, int count) { return (i + 0.5) / count; };
+    for (int y = 0; y < job.height; ++y) {
+        for (int x = 0; x < job.width; ++x) {
+            const auto pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(job.width) + static_cast<std::size_t>(x);
+            const double third = static_cast<double>((job.seed * 7 + job.frame * 3) % 11) / 10;
+            film.sums()[pixel] =
+                Vec3d{share(x, job.width), share(y, job.height), third} * static_cast<double>(job.samples);
+        }
+    }
+    return film;
+}
+
+class GradientBackend : public Backend {
+  public:
+    explicit GradientBackend(std::string name = "gradient") : name_(std::move(name)) {}
+
+    std::function<void(const RenderJob&)> on_submit = [](const RenderJob&) {};
+    std::function<void(const RenderJob&)> on_get = [](const RenderJob&) {};  ///< may throw
+    int loads = 0;
+    int submitted = 0;
+    int in_flight = 0;
+    int most_in_flight = 0;
+
+    [[nodiscard]] std::string name() const override { return name_; }
+    [[nodiscard]] Capabilities capabilities() const override { return {"no device", "for tests", true}; }
+
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene&) override {
+        struct Loaded : ResidentScene {
+            [[nodiscard]] PhaseTimes load_times() const override { return {.build = 0.25, .upload = 0.125}; }
+        };
+        ++loads;
+        return std::make_shared<Loaded>();
+    }
+
+    double trace(ResidentScene&, std::span<const Ray<float>>, std::span<Hit>) override { return 0; }
+
+    [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene>, const RenderJob& job) override {
+        struct Pending : PendingFrame {
+            Pending(GradientBackend& backend, const RenderJob& job) : backend(backend), job(job) {}
+            [[nodiscard]] RenderResult get() override {
+                --backend.in_flight;
+                backend.on_get(job);
+                RenderResult result{gradient_film(job), {}};
+                result.stats.seconds.render = 0.5;
+                result.stats.counters.invalid_samples = job.frame;
+                result.stats.variant = "gradient";
+                return result;
+            }
+            GradientBackend& backend;
+            RenderJob job;
+        };
+        ++submitted;
+        most_in_flight = std::max(most_in_flight, ++in_flight);
+        on_submit(job);
+        return std::make_unique<Pending>(*this, job);
+    }
+
+  private:
+    std::string name_;
+};
+
+}  // namespace tandem::test
