@@ -24,7 +24,7 @@ namespace tandem {
 namespace {
 
 /// Up to here a packet tries every primitive; beyond, it asks Embree (docs/performance.md has the crossing point).
-constexpr std::size_t loop_limit = 12;
+constexpr std::size_t loop_limit = 24;
 
 /// Owns an Embree handle.
 template <class Handle, void (*release)(Handle)>

@@ -139,8 +139,9 @@ class CudaBackend final : public Backend {
         result.stats.device_bytes = resident.bytes() + bytes;
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;
+        static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
         result.stats.variant = fmt::format("sm_{}{}, {}", properties_.major, properties_.minor,
-                                           resident.view().bvh.nodes != nullptr ? "bvh" : "loop");
+                                           structure_names[static_cast<int>(structure_of(resident.view()))]);
         return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(result));
     }
 

@@ -10,7 +10,7 @@ namespace tandem::cuda {
 namespace {
 
 /// Up to here a kernel tries every primitive (docs/performance.md has the crossing point).
-constexpr std::size_t loop_limit = 24;
+constexpr std::size_t loop_limit = 12;
 
 /// Lays arrays out one behind another, each aligned for 16-byte loads.
 class Layout {
@@ -94,6 +94,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory
         view_.bvh.entry_spheres = reinterpret_cast<const Sphere*>(base + entry_spheres);
         view_.bvh.entry_ids = reinterpret_cast<const std::uint32_t*>(base + entry_ids);
     }
+
+    if (fits_few_tracer(host)) view_.few = make_few_tracer(host, view_.scene);
 
     memory_->upload_start.record(stream.get());
     if (bytes_ > 0) {

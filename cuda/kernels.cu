@@ -12,9 +12,9 @@ constexpr unsigned int warp_height = 4;
 constexpr unsigned int block_width = 16;
 constexpr unsigned int block_height = 8;
 constexpr unsigned int block_threads = block_width * block_height;
-/// Blocks that must fit on a multiprocessor: 72 registers a thread. Measured on an H200 against 1, 5, 6 and 8
+/// Blocks that must fit on a multiprocessor: 64 registers a thread. Measured on an H200 against 5, 6 and 7
 /// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
-constexpr unsigned int resident_blocks = 7;
+constexpr unsigned int resident_blocks = 8;
 
 template <class Tracer>
 __global__ void __launch_bounds__(block_threads, resident_blocks)
@@ -43,8 +43,15 @@ __global__ void __launch_bounds__(block_threads, resident_blocks)
 /// Calls f with the tracer that fits the scene.
 template <class F>
 auto with_tracer(const DeviceSceneView& scene, F f) {
-    if (scene.bvh.nodes != nullptr) return f(BvhTracer{scene.scene, scene.bvh});
-    return f(LoopTracer{scene.scene});
+    switch (structure_of(scene)) {
+        case Structure::few:
+            return f(scene.few);
+        case Structure::loop:
+            return f(LoopTracer{scene.scene});
+        case Structure::bvh:
+            break;
+    }
+    return f(BvhTracer{scene.scene, scene.bvh});
 }
 
 unsigned int blocks_for(std::size_t items, std::size_t per_block) {

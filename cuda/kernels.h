@@ -6,17 +6,26 @@
 #include <cstdint>
 
 #include "tandem/bvh/bvh_tracer.h"
+#include "tandem/geometry/few_tracer.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem::cuda {
 
-/// A scene in device memory. Without nodes the primitives are tried one by one.
+/// A scene in device memory.
 struct DeviceSceneView {
     SceneView scene;
-    BvhView bvh;
+    BvhView bvh;    ///< without nodes for a scene of not so many primitives, which are tried one by one
+    FewTracer few;  ///< filled for a scene that fits_few_tracer()
 };
+
+/// How the primitives of a scene are found, by the tracers' names.
+enum class Structure { few, loop, bvh };
+[[nodiscard]] inline Structure structure_of(const DeviceSceneView& view) {
+    if (view.bvh.nodes != nullptr) return Structure::bvh;
+    return fits_few_tracer(view.scene) ? Structure::few : Structure::loop;
+}
 
 struct KernelFacts {
     int registers;

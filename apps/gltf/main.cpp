@@ -4,31 +4,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include "apps/common/run_main.h"
 #include "apps/gltf/describe.h"
+#include "tandem/file/whole_file.h"
 #include "tandem/scene/load_scene.h"
 
 namespace tandem {
 
 namespace {
 
-/// Beside the target, then renamed, so that no torn file is left.
 void write_json(const nlohmann::ordered_json& json, const std::string& target) {
     const std::string text = json.dump(2) + "\n";
     if (target == "-") {
         std::fputs(text.c_str(), stdout);
-        return;
+    } else {
+        write_file(target, text);
     }
-    const std::string part = target + ".part";
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(part, target, error);
-    if (!out || error) throw InputError(fmt::format("--json {}: cannot be written; check the folder", target));
 }
 
 int run_info(const std::string& scene_name, const std::string& json_target) {

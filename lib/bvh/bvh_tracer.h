@@ -95,7 +95,7 @@ struct BvhTracer {
             const std::uint32_t id = bvh.entry_ids[i];
             const double before = best.t;
             if (id < scene.sphere_count) {
-                offer<float>(sphere_roots(around, filter.ray), id, true, best);
+                decide(around, id, filter.ray, true, best);
             } else {
                 intersect_primitive<float>(scene, id, filter, true, best);
             }

@@ -58,23 +58,38 @@ TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sph
     return !(loose_dot(moment, moment) > limit);
 }
 
+/// A box as its filter wants it.
+struct BoxFilter {
+    Vec3f centre;
+    Vec3f half;
+    float corner_norm1;  ///< |lower|_1 + |upper|_1: what rounding centre and half is relative to
+};
+
+TANDEM_HD BoxFilter make_box_filter(const Vec3f& lower, const Vec3f& upper) {
+    return {(lower + upper) * 0.5F, (upper - lower) * 0.5F, norm1(lower) + norm1(upper)};
+}
+
 /// May the line of the ray touch the box? Separating axes of a line and a box: direction x each axis.
 template <class Real>
-TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
-    const Vec3f half = (upper - lower) * 0.5F;
-    const Vec3<Real> offset = f.ray.origin - broadcast<Real>((lower + upper) * 0.5F);
+TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& box) {
+    const Vec3<Real> offset = f.ray.origin - broadcast<Real>(box.centre);
     const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
     const Vec3<Real> d = {absolute(f.ray.direction.x), absolute(f.ray.direction.y), absolute(f.ray.direction.z)};
-    const Real corner = Real(norm1(lower) + norm1(upper));
-    const Real slack = loose_multiply_add(Real(filter_margin) * (norm1(offset) + f.origin_norm1 + corner),
-                                          (d.x + d.y) + d.z, Real(1e-36F));
-    const auto limit = [&](float h0, const Real& d0, float h1, const Real& d1) {
+    const Real slack =
+        loose_multiply_add(Real(filter_margin) * (norm1(offset) + f.origin_norm1 + Real(box.corner_norm1)),
+                           (d.x + d.y) + d.z, Real(1e-36F));
+    const auto limit = [&](float h0, const Real& d0, float h1, const Real& d1) TANDEM_INLINE_LAMBDA {
         return loose_multiply_add(Real(h0), d0, loose_multiply_add(Real(h1), d1, slack));
     };
-    const Real limit_x = limit(half.y, d.z, half.z, d.y);
-    const Real limit_y = limit(half.z, d.x, half.x, d.z);
-    const Real limit_z = limit(half.x, d.y, half.y, d.x);
+    const Real limit_x = limit(box.half.y, d.z, box.half.z, d.y);
+    const Real limit_y = limit(box.half.z, d.x, box.half.x, d.z);
+    const Real limit_z = limit(box.half.x, d.y, box.half.y, d.x);
     return !(absolute(moment.x) > limit_x || absolute(moment.y) > limit_y || absolute(moment.z) > limit_z);
+}
+
+template <class Real>
+TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
+    return may_touch_box(f, make_box_filter(lower, upper));
 }
 
 }  // namespace tandem

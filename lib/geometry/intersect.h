@@ -7,16 +7,28 @@
 
 namespace tandem {
 
-/// Keeps the nearer of `best` and the first point of `meeting` (a Crossing or SphereRoots) in front of the origin, in
-/// the lanes of `active`.
-template <class Real, class Meeting>
-TANDEM_HD void offer(const Meeting& meeting, std::uint32_t primitive, const Mask<Real>& active, Closest<Real>& best) {
-    Double<Real> t;
+/// Keeps the nearer of `best` and a point at t, in the lanes of `hit`.
+template <class Real>
+TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, std::uint32_t primitive, Closest<Real>& best) {
     const UInt<Real> id(primitive);
-    const Mask<Real> hit = first_in_front<Real>(meeting, t) && active;
     const Mask<Real> closer = hit && is_closer(t, id, best);
     best.t = select(closer, t, best.t);
     best.primitive = select(closer, id, best.primitive);
+}
+
+/// Keeps the nearer of `best` and the first point in front of the ray's origin, in the lanes of `candidate`, which the
+/// filter let through.
+template <class Real>
+TANDEM_HD void decide(const Sphere& sphere, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
+                      Closest<Real>& best) {
+    Double<Real> t;
+    offer<Real>(first_in_front(sphere, ray, t) && candidate, t, id, best);
+}
+template <class Real>
+TANDEM_HD void decide(const Box& box, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
+                      Closest<Real>& best) {
+    Double<Real> t;
+    offer<Real>(first_in_front<Real>(cross_box(box, ray), t) && candidate, t, id, best);
 }
 
 // One primitive each: the float filter first, then the decision in double.
@@ -25,14 +37,14 @@ template <class Real>
 TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
                          Closest<Real>& best) {
     const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
-    if (any(candidate)) offer<Real>(sphere_roots(sphere, f.ray), id, candidate, best);
+    if (any(candidate)) decide(sphere, id, f.ray, candidate, best);
 }
 
 template <class Real>
 TANDEM_HD void intersect(const Box& box, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
                          Closest<Real>& best) {
     const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
-    if (any(candidate)) offer<Real>(cross_box(box, f.ray), id, candidate, best);
+    if (any(candidate)) decide(box, id, f.ray, candidate, best);
 }
 
 template <class Real>
@@ -40,7 +52,10 @@ TANDEM_HD void intersect_ellipsoid(const Placement& placement, std::uint32_t id,
                                    const Mask<Real>& active, Closest<Real>& best) {
     const Sphere& around = placement.bounding_sphere;
     const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) offer<Real>(ellipsoid_roots(placement, f.ray), id, candidate, best);
+    if (any(candidate)) {
+        Double<Real> t;
+        offer<Real>(first_in_front(ellipsoid_roots(placement, f.ray), t) && candidate, t, id, best);
+    }
 }
 
 template <class Real>
@@ -49,7 +64,9 @@ TANDEM_HD void intersect_parallelepiped(const Placement& placement, std::uint32_
     const Sphere& around = placement.bounding_sphere;
     const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
     if (any(candidate)) {
-        offer<Real>(cross_parallelepiped(to_object(placement, f.ray)), id, candidate, best);
+        Double<Real> t;
+        const BoxCrossing<Real> crossing = cross_parallelepiped(to_object(placement, f.ray));
+        offer<Real>(first_in_front<Real>(crossing, t) && candidate, t, id, best);
     }
 }
 
@@ -58,10 +75,10 @@ template <class Real>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const Mask<Real>& active, Closest<Real>& best) {
     visit_primitive(
-        scene, id, [&](const Sphere& sphere) { intersect(sphere, id, f, active, best); },
-        [&](const Box& box) { intersect(box, id, f, active, best); },
-        [&](const Placement& ellipsoid) { intersect_ellipsoid(ellipsoid, id, f, active, best); },
-        [&](const Placement& body) { intersect_parallelepiped(body, id, f, active, best); });
+        scene, id, [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { intersect(sphere, id, f, active, best); },
+        [&](const Box& box) TANDEM_INLINE_LAMBDA { intersect(box, id, f, active, best); },
+        [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { intersect_ellipsoid(ellipsoid, id, f, active, best); },
+        [&](const Placement& body) TANDEM_INLINE_LAMBDA { intersect_parallelepiped(body, id, f, active, best); });
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of

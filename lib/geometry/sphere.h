@@ -61,8 +61,37 @@ TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> ori
 template <class Real>
 struct SphereRoots {
     Mask<Real> crosses;
+    Mask<Real> doubtful;  ///< double did not suffice for these lanes
     Double<Real> a, b, c, q;
 };
+
+/// The roots in double alone, from offset = origin - centre, and where that may not do.
+template <class Real>
+TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
+                                                   const Vec3<Double<Real>>& direction, const Double<Real>& radius) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    const Vec3<D> moment = accurate_cross(offset, direction);
+    const D offset2 = dot(offset, offset);
+    const D radius2 = radius * radius;
+    SphereRoots<Real> roots;
+    roots.a = dot(direction, direction);
+    roots.b = -dot(offset, direction);
+    roots.c = offset2 - radius2;
+    const D discriminant = roots.a * radius2 - dot(moment, moment);
+    roots.crosses = discriminant >= zero;
+    const D root = square_root(absolute(discriminant));
+    roots.q = roots.b + select(roots.b < zero, -root, root);
+
+    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q;
+    // c errs by 2^-52 of its terms. In doubt where the sign or 2^-26 of a root could be at stake.
+    const D size2 = offset2 + radius2;
+    const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
+    const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
+                                absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
+    roots.doubtful = touching || absolute(roots.c) <= D(0x1p-25) * size2;
+    return roots;
+}
 
 /// Needs: direction of any length but zero, radius > 0; magnitudes within coordinate_limit.
 /// Gives: the right decision between hit and miss for float values, widened, unless the sphere is smaller than 2^-90
@@ -81,33 +110,14 @@ TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin, const
                                          const Vec3<Double<Real>>& direction, const Double<Real>& radius) {
     using D = Double<Real>;
     const D zero(0.0);
-    const Vec3<D> offset = origin - centre;
-    const Vec3<D> moment = accurate_cross(offset, direction);
-    const D offset2 = dot(offset, offset);
-    const D radius2 = radius * radius;
-    SphereRoots<Real> roots;
-    roots.a = dot(direction, direction);
-    roots.b = -dot(offset, direction);
-    roots.c = offset2 - radius2;
-    const D discriminant = roots.a * radius2 - dot(moment, moment);
-    roots.crosses = discriminant >= zero;
-    D root = square_root(absolute(discriminant));
-    roots.q = roots.b + select(roots.b < zero, -root, root);
-
-    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q;
-    // c errs by 2^-52 of its terms. In doubt where the sign or 2^-26 of a root could be at stake.
-    const D size2 = offset2 + radius2;
-    const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
-    const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
-                                absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
-    const Mask<Real> doubtful = touching || absolute(roots.c) <= D(0x1p-25) * size2;
-    if (any(doubtful)) [[unlikely]] {
+    SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius);
+    if (any(roots.doubtful)) [[unlikely]] {
         const auto exact = sphere_detail::quadratic_in_pairs<Real>(origin, centre, direction, radius);
-        roots.crosses = select(doubtful, exact.discriminant >= zero, roots.crosses);
-        root = select(doubtful, square_root(absolute(exact.discriminant)), root);
-        roots.b = select(doubtful, exact.b, roots.b);
-        roots.c = select(doubtful, exact.c, roots.c);
-        roots.q = roots.b + select(roots.b < zero, -root, root);
+        const D root = square_root(absolute(exact.discriminant));
+        roots.crosses = select(roots.doubtful, exact.discriminant >= zero, roots.crosses);
+        roots.b = select(roots.doubtful, exact.b, roots.b);
+        roots.c = select(roots.doubtful, exact.c, roots.c);
+        roots.q = select(roots.doubtful, exact.b + select(exact.b < zero, -root, root), roots.q);
     }
     return roots;
 }
@@ -145,6 +155,34 @@ TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& 
 template <class Real>
 TANDEM_HD Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray) {
     return to_crossing(sphere_roots(sphere, ray));
+}
+
+namespace sphere_detail {
+
+/// first_in_front() of the exact roots, infinite for a miss.
+template <class Real>
+TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
+    Double<Real> t;
+    const Mask<Real> hit = first_in_front(sphere_roots(sphere, ray), t);
+    return select(hit, t, Double<Real>(__builtin_huge_val()));
+}
+
+}  // namespace sphere_detail
+
+/// The nearest point of the sphere in front of the origin: first_in_front(sphere_roots(sphere, ray), t), with what is
+/// rare out of the way.
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t) {
+    using D = Double<Real>;
+    const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(widen(sphere.centre)),
+                                                                 widen(ray.direction), D(widen(sphere.radius)));
+    Mask<Real> hit = first_in_front(roots, t);
+    if (any(roots.doubtful)) [[unlikely]] {
+        const D exact = sphere_detail::exact_first_in_front(sphere, ray);
+        hit = select(roots.doubtful, exact < D(__builtin_huge_val()), hit);
+        t = select(roots.doubtful, exact, t);
+    }
+    return hit;
 }
 
 /// Unit outward normal at parameter t of the ray, which is on the sphere. Double; normalising the offset from the

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <span>
 
 #include "tandem/error/error.h"
+#include "tandem/file/whole_file.h"
+#include "tandem/gltf/printable.h"
 
 namespace tandem::gltf {
 
@@ -21,10 +22,10 @@ constexpr std::uint32_t glb_magic = 0x46546C67;   // "glTF"
 constexpr std::uint32_t json_chunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t bin_chunk = 0x004E4942;   // "BIN"
 
-using Bytes = std::span<const unsigned char>;
+using ByteView = std::span<const std::byte>;
 
 /// Little endian, as x86-64 is.
-std::uint32_t word_at(Bytes bytes, std::size_t offset) {
+std::uint32_t word_at(ByteView bytes, std::size_t offset) {
     std::uint32_t word = 0;
     std::memcpy(&word, bytes.data() + offset, sizeof(word));
     return word;
@@ -33,10 +34,10 @@ std::uint32_t word_at(Bytes bytes, std::size_t offset) {
 /// Takes the chunks of a .glb apart (glTF 2.0, 4.4).
 class GlbReader {
   public:
-    GlbReader(Document& document, Bytes bytes) : document_(document), bytes_(bytes) {}
+    GlbReader(Document& document, ByteView bytes) : document_(document), bytes_(bytes) {}
 
     /// The JSON text; the binary chunk goes into the document.
-    Bytes run() {
+    ByteView run() {
         if (bytes_.size() < 20) fail("is too short for a .glb file; it may be truncated");
         if (const auto version = word_at(bytes_, 4); version != 2) {
             fail(fmt::format("is a .glb file of version {}; Tandem reads version 2", version));
@@ -46,9 +47,9 @@ class GlbReader {
                              bytes_.size()));
         }
         std::size_t at = 12;
-        const Bytes json = take_chunk(at, json_chunk, "first");
+        const ByteView json = take_chunk(at, json_chunk, "first");
         if (at < bytes_.size() && bytes_.size() - at >= 8 && word_at(bytes_, at + 4) == bin_chunk) {
-            const Bytes chunk = take_chunk(at, bin_chunk, "second");
+            const ByteView chunk = take_chunk(at, bin_chunk, "second");
             document_.chunk.assign(chunk.begin(), chunk.end());
             document_.has_chunk = true;
         }
@@ -62,7 +63,7 @@ class GlbReader {
     }
 
     /// `type`: what it must be; 0 for any.
-    Bytes take_chunk(std::size_t& at, std::uint32_t type, const char* which) const {
+    ByteView take_chunk(std::size_t& at, std::uint32_t type, const char* which) const {
         if (bytes_.size() - at < 8) fail(fmt::format("ends within the header of its {} chunk", which));
         const std::size_t length = word_at(bytes_, at);
         if (type != 0 && word_at(bytes_, at + 4) != type) {
@@ -73,13 +74,13 @@ class GlbReader {
             fail(fmt::format("says that its {} chunk has {} bytes, but only {} follow; it may be truncated", which,
                              length, bytes_.size() - at));
         }
-        const Bytes chunk = bytes_.subspan(at, length);
+        const ByteView chunk = bytes_.subspan(at, length);
         at += length;
         return chunk;
     }
 
     Document& document_;
-    Bytes bytes_;
+    ByteView bytes_;
 };
 
 /// nlohmann's message without its bracketed identifier.
@@ -89,9 +90,9 @@ std::string plain_message(const std::exception& error) {
     return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-Json parse(const Document& document, Bytes text) {
+Json parse(const Document& document, ByteView text) {
     const auto fail = [&](const std::string& what) {
-        throw InputError(fmt::format("{}: {}", document.file.string(), what));
+        throw InputError(fmt::format("{}: {}", document.file.string(), printable(what)));
     };
     if (text.empty()) fail("is empty; a glTF file holds a JSON object");
     if (text.size() > longest_json) {
@@ -103,7 +104,8 @@ Json parse(const Document& document, Bytes text) {
     };
     Json json;
     try {
-        json = Json::parse(text.begin(), text.end(), guard);
+        const auto* characters = reinterpret_cast<const char*>(text.data());
+        json = Json::parse(characters, characters + text.size(), guard);
     } catch (const Json::exception& error) {
         fail("is not well-formed JSON: " + plain_message(error));
     }
@@ -114,7 +116,7 @@ Json parse(const Document& document, Bytes text) {
 }  // namespace
 
 void Document::fail(std::string_view json_path, std::string_view what) const {
-    throw InputError(fmt::format("{}: {}: {}", file.string(), json_path, what));
+    throw InputError(fmt::format("{}: {}", file.string(), printable(fmt::format("{}: {}", json_path, what))));
 }
 
 std::size_t Document::length(const std::string& array) const {
@@ -124,26 +126,12 @@ std::size_t Document::length(const std::string& array) const {
     return found.is_array() ? found.size() : 0;
 }
 
-std::vector<unsigned char> read_file(const std::filesystem::path& file, const std::string& where, std::size_t most) {
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) throw InputError(where + ": there is no such file");
-    if (!std::filesystem::is_regular_file(status)) throw InputError(where + ": is not a regular file");
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    std::ifstream stream(file, std::ios::binary);
-    if (error || !stream) throw InputError(where + ": cannot be opened; check its permissions");
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (static_cast<std::size_t>(stream.gcount()) != bytes.size()) throw InputError(where + ": cannot be read");
-    return bytes;
-}
-
 Document read_document(const std::filesystem::path& file) {
     Document document;
     document.file = file;
-    const std::vector<unsigned char> bytes = read_file(file, file.string());
+    const Bytes bytes = read_file(file.string());
     const bool is_glb = bytes.size() >= 4 && word_at(bytes, 0) == glb_magic;
-    const Bytes text = is_glb ? GlbReader(document, bytes).run() : Bytes(bytes);
+    const ByteView text = is_glb ? GlbReader(document, bytes).run() : ByteView(bytes);
     document.json = parse(document, text);
     return document;
 }

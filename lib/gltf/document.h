@@ -1,6 +1,7 @@
 /// The JSON of a glTF file, and how errors in it are said.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,7 +16,7 @@ using Json = nlohmann::json;
 struct Document {
     std::filesystem::path file;
     Json json;
-    std::vector<unsigned char> chunk;
+    std::vector<std::byte> chunk;
     bool has_chunk = false;
 
     /// Throws InputError: "FILE: JSON_PATH: what".
@@ -29,11 +30,6 @@ struct Document {
 /// Reads a .gltf or .glb file, told apart by their first bytes. Checks the container of a .glb, and that the JSON is
 /// an object, well-formed and not nested deeper than 64 levels. Throws InputError.
 [[nodiscard]] Document read_document(const std::filesystem::path& file);
-
-/// Bytes of a regular file, at most `most` of them. Throws InputError for anything else than a readable regular file;
-/// `where` leads the sentence.
-[[nodiscard]] std::vector<unsigned char> read_file(const std::filesystem::path& file, const std::string& where,
-                                                   std::size_t most = SIZE_MAX);
 
 /// The member of an object, or null.
 [[nodiscard]] const Json* find(const Json& object, const char* member);

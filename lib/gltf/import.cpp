@@ -1,7 +1,6 @@
 #include "tandem/gltf/import.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "tandem/gltf/geometry.h"
 #include "tandem/gltf/materials.h"
 #include "tandem/gltf/model.h"
+#include "tandem/gltf/printable.h"
 #include "tandem/gltf/schema.h"
 #include "tandem/gltf/structure.h"
 
@@ -216,7 +216,9 @@ ImportResult import_gltf(const std::filesystem::path& file) {
     gltf::note_ignored_features(document, result.report);
     const std::vector<std::string> problems = validate(result.scene);
     if (!problems.empty()) {
-        throw InputError(fmt::format("{}: the scene is not valid: {}", file.string(), fmt::join(problems, "; ")));
+        const std::string others = problems.size() == 1 ? "" : fmt::format("; and {} more", problems.size() - 1);
+        throw InputError(
+            fmt::format("{}: the scene is not valid: {}{}", file.string(), gltf::printable(problems[0]), others));
     }
     return result;
 }

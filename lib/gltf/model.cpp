@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "tandem/error/error.h"
+#include "tandem/file/whole_file.h"
+#include "tandem/gltf/printable.h"
 
 namespace tandem::gltf {
 
@@ -40,15 +42,18 @@ bool read_whole_file(std::vector<unsigned char>* out, std::string* error, const 
     auto& files = *static_cast<BufferFiles*>(user);
     const BufferSource* source = files.at(name);
     if (source == nullptr) return false;
+    const auto take = [&](const std::vector<std::byte>& bytes) {
+        const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+        out->assign(begin, begin + std::min(bytes.size(), source->bytes));
+    };
     if (source->place == BufferSource::Place::chunk) {
-        const auto begin = files.document.chunk.begin();
-        out->assign(begin, begin + static_cast<std::ptrdiff_t>(source->bytes));
+        take(files.document.chunk);
         return true;
     }
     try {
-        *out = read_file(source->file, files.document.file.string() + ": " + source->file.string(), source->bytes);
+        take(read_file(source->file.string()));
     } catch (const InputError& failure) {
-        files.failure = failure.what();
+        files.failure = fmt::format("{}: {}", files.document.file.string(), failure.what());
         if (error != nullptr) *error = files.failure;
         return false;
     }
@@ -64,10 +69,11 @@ bool write_whole_file(std::string*, const std::string&, const std::vector<unsign
     return true;
 }
 
-/// tinygltf 2.9 asks for sizes; older ones do not.
-template <class Callbacks>
-void set_file_size(Callbacks& callbacks) {
+/// tinygltf 2.9 asks for sizes, and has a limit of its own; older ones do not.
+template <class Reader, class Callbacks>
+void set_file_sizes(Reader& reader, Callbacks& callbacks) {
     if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = file_size;
+    if constexpr (requires { reader.SetMaxExternalFileSize(SIZE_MAX); }) reader.SetMaxExternalFileSize(SIZE_MAX);
 }
 
 /// Takes away what tinygltf need not see.
@@ -108,10 +114,10 @@ Source load_model(const Document& document, const std::vector<BufferSource>& buf
     callbacks.ReadWholeFile = read_whole_file;
     callbacks.WriteWholeFile = write_whole_file;
     callbacks.user_data = &files;
-    set_file_size(callbacks);
 
     Source source{document, {}};
     tinygltf::TinyGLTF reader;
+    set_file_sizes(reader, callbacks);
     reader.SetFsCallbacks(callbacks);
     std::string error;
     std::string warning;
@@ -120,8 +126,7 @@ Source load_model(const Document& document, const std::vector<BufferSource>& buf
     if (!files.failure.empty()) throw InputError(files.failure);
     if (!good || !error.empty()) {
         while (!error.empty() && error.back() == '\n') error.pop_back();
-        std::replace(error.begin(), error.end(), '\n', ';');
-        throw InputError(fmt::format("{}: tinygltf cannot read it: {}", document.file.string(), error));
+        throw InputError(fmt::format("{}: tinygltf cannot read it: {}", document.file.string(), printable(error)));
     }
     return source;
 }

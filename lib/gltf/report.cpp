@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
+
+#include "tandem/gltf/printable.h"
 
 namespace tandem {
 
@@ -20,13 +22,13 @@ std::string to_string(Treatment treatment) {
 
 void ImportReport::add(Treatment treatment, std::string_view feature, std::string_view json_path,
                        std::string_view reason) {
-    const auto same = std::find_if(notes_.begin(), notes_.end(), [&](const ImportNote& note) {
-        return note.treatment == treatment && note.feature == feature && note.reason == reason;
-    });
-    if (same != notes_.end()) {
-        ++same->uses;
+    ImportNote note{treatment, gltf::printable(std::string(feature)), gltf::printable(std::string(json_path)), 1,
+                    gltf::printable(std::string(reason))};
+    const auto [known, is_new] = index_.try_emplace({treatment, note.feature, note.reason}, notes_.size());
+    if (is_new) {
+        notes_.push_back(std::move(note));
     } else {
-        notes_.push_back({treatment, std::string(feature), std::string(json_path), 1, std::string(reason)});
+        ++notes_[known->second].uses;
     }
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace tandem {
@@ -32,6 +34,7 @@ class ImportReport {
 
   private:
     std::vector<ImportNote> notes_;
+    std::map<std::tuple<Treatment, std::string, std::string>, std::size_t> index_;  ///< by treatment, feature, reason
 };
 
 /// One line: "ignored: light range at extensions.KHR_lights_punctual.lights[0].range (2 uses): ...".

@@ -294,7 +294,8 @@ class Checker {
     /// What indices point into comes first, so that a wrong array is named and not the indices into it.
     void check_root() {
         Json& root = document_.json;
-        for (const Property* property : properties_of("root")) {
+        static const std::string root_kind = "root";
+        for (const Property* property : properties_of(root_kind)) {
             const auto member = root.find(property->name);
             if (member == root.end() || property->kind != Kind::objects) continue;
             require(member->is_array(), property->name, "an array of objects", *member);
@@ -333,7 +334,7 @@ class Checker {
         const std::string where = member_path(path, "extensions");
         require(extensions->is_object(), where, "an object", *extensions);
         for (const auto& [name, extension] : extensions->items()) {
-            require(extension.is_object(), where + "." + name, "an object", extension);
+            require(extension.is_object(), member_path(where, name), "an object", extension);
         }
         check_properties(*extensions, kind + " extensions", where);
     }
@@ -430,7 +431,7 @@ class Checker {
 
     void check_index_map(Json& value, const char* array, const std::string& path) {
         require(value.is_object(), path, "an object of indices", value);
-        for (auto& [name, element] : value.items()) check_index(element, array, path + "." + name);
+        for (auto& [name, element] : value.items()) check_index(element, array, member_path(path, name));
     }
 
     void check_choice(const std::string& found, const Property& property, const std::string& path,

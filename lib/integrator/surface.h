@@ -21,13 +21,16 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     using D = Double<Real>;
     const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
     Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black, black, Real(1.0F)};
-    for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
+    for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         Vec3<D> normal = surface.normal;
         visit_primitive(
-            scene, primitive, [&](const Sphere& sphere) { normal = sphere_normal(sphere, ray, hit.t); },
-            [&](const Box& box) { normal = face_normal<Real>(cross_box(box, ray), widen(ray.direction)); },
-            [&](const Placement& ellipsoid) { normal = ellipsoid_normal(ellipsoid, ray, hit.t); },
-            [&](const Placement& parallelepiped) { normal = parallelepiped_normal(parallelepiped, ray); });
+            scene, primitive,
+            [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { normal = sphere_normal(sphere, ray, hit.t); },
+            [&](const Box& box)
+                TANDEM_INLINE_LAMBDA { normal = face_normal<Real>(cross_box(box, ray), widen(ray.direction)); },
+            [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { normal = ellipsoid_normal(ellipsoid, ray, hit.t); },
+            [&](const Placement& parallelepiped)
+                TANDEM_INLINE_LAMBDA { normal = parallelepiped_normal(parallelepiped, ray); });
         const PhongMaterial& material = scene.materials[scene.material_of[primitive]];
         surface.normal = select(here, normal, surface.normal);
         surface.ambient = select(here, broadcast<Real>(material.ambient), surface.ambient);

@@ -7,6 +7,7 @@
 ///                         be the one that the linker keeps for a machine without it.
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
+/// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
 #pragma once
 
 #if defined(__CUDACC__)
@@ -24,7 +25,9 @@
 #if TANDEM_COMPILING_CUDA
 #define TANDEM_HD __host__ __device__ __forceinline__
 #define TANDEM_HD_RARE __host__ __device__ __noinline__
+#define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline
 #define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_INLINE_LAMBDA __attribute__((always_inline))
 #endif

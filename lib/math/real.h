@@ -74,9 +74,10 @@ TANDEM_HD float absolute(float a) { return fabsf(a); }
 TANDEM_HD double absolute(double a) { return ::fabs(a); }
 
 /// A product and a sum for decisions that need not be equal everywhere, because only the speed hangs on them (reject
-/// filters, boxes of a hierarchy): one rounding where the processor fuses them, else two.
+/// filters, boxes of a hierarchy): one rounding where the processor fuses them, else two. With TANDEM_NO_LOOSE_FMA
+/// always two: tests/lint compiles so, to see that the compiler fuses nothing by itself.
 TANDEM_HD float loose_multiply_add(float a, float b, float c) {
-#if TANDEM_ON_DEVICE || defined(__FMA__)
+#if (TANDEM_ON_DEVICE || defined(__FMA__)) && !defined(TANDEM_NO_LOOSE_FMA)
     return fmaf(a, b, c);
 #else
     return a * b + c;
@@ -115,6 +116,15 @@ TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
 template <class F>
 TANDEM_HD void for_each_value(std::uint32_t value, bool active, F f) {
     if (active) f(value, true);
+}
+
+/// Place of the lowest bit that is set; `bits` is not 0.
+TANDEM_HD int lowest_bit(std::uint32_t bits) {
+#if TANDEM_ON_DEVICE
+    return __ffs(static_cast<int>(bits)) - 1;
+#else
+    return __builtin_ctz(bits);
+#endif
 }
 
 /// Unit roundoff of float, 2^-24: one correctly rounded operation errs by at most this, relative.

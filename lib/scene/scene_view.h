@@ -45,7 +45,7 @@ TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, OnSpher
 /// World-space bounds of primitive `id`, not padded.
 TANDEM_HD Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
     Aabb result;
-    const auto take = [&](const auto& primitive) { result = bounds(primitive); };
+    const auto take = [&](const auto& primitive) TANDEM_INLINE_LAMBDA { result = bounds(primitive); };
     visit_primitive(scene, id, take, take, take, take);
     return result;
 }

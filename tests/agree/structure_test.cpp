@@ -8,6 +8,7 @@
 #include "support/hard_scenes.h"
 #include "tandem/bvh/bvh.h"
 #include "tandem/bvh/bvh_tracer.h"
+#include "tandem/geometry/few_tracer.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/scene/prepare.h"
 
@@ -99,6 +100,30 @@ TEST(Bvh, HoldsOnePrimitive) {
     const Structure structure(std::move(scene));
     EXPECT_EQ(structure.tracer().closest({{0, 0, -3}, {0, 0, 1}}, true).t, 2.0);
     EXPECT_EQ(structure.tracer().closest({{0, 3, -3}, {0, 0, 1}}, true).primitive, no_primitive);
+}
+
+TEST(FewTracer, GivesTheBitsOfTheLoop) {
+    for (const std::uint32_t boxes : {0U, 1U, 4U}) {
+        PreparedScene scene = test::make_scene({"few", 1, 0, 1, 32}, 7 + boxes);
+        scene.spheres.resize(8 - boxes);
+        scene.boxes.resize(boxes);
+        scene.ellipsoids.clear();
+        scene.parallelepipeds.clear();
+        scene.material_of.resize(scene.spheres.size() + scene.boxes.size());
+        const SceneView scene_view = view(scene);
+        ASSERT_TRUE(fits_few_tracer(scene_view));
+        const FewTracer few = make_few_tracer(scene_view, scene_view);
+        const LoopTracer one_by_one = {scene_view};
+        for (const Ray<float>& ray : test::make_rays(scene, 50'000, 8)) {
+            if (!is_traceable(ray)) continue;
+            const Closest<float> a = few.closest(ray, true);
+            const Closest<float> b = one_by_one.closest(ray, true);
+            ASSERT_EQ(a.primitive, b.primitive);
+            ASSERT_EQ(bits_of(a.t), bits_of(b.t));
+        }
+    }
+    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("spheres/9")))));
+    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("mixed/4")))));
 }
 
 TEST(BvhDefects, AreFound) {

@@ -8,6 +8,7 @@
 
 #include "loop_backend.h"
 #include "paper_figures.h"
+#include "support/temporary_folder.h"
 #include "tandem/error/error.h"
 #include "tandem/report/html_writer.h"
 #include "tandem/report/json_writer.h"
@@ -19,14 +20,13 @@ namespace {
 class Paper : public testing::Test {
   protected:
     Paper() {
-        options_.out = testing::TempDir() + "tandem_paper";
+        options_.out = folder_.file("paper");
         options_.frames = {0, 8};
         options_.size = {40, 36};
         options_.samples = 2;
         options_.slow_frames = 1;
         options_.threads = 2;
     }
-    ~Paper() override { std::filesystem::remove_all(options_.out); }
 
     const BenchmarkRow* row(const std::string& part) const {
         const auto found = std::find_if(report_.rows.begin(), report_.rows.end(), [&](const BenchmarkRow& one) {
@@ -35,6 +35,7 @@ class Paper : public testing::Test {
         return found == report_.rows.end() ? nullptr : &*found;
     }
 
+    test::TemporaryFolder folder_;  // of its own: cases run side by side
     PaperOptions options_;
     Report report_;
 };

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 
 #include "loop_backend.h"
+#include "support/temporary_folder.h"
 #include "tandem/error/error.h"
 #include "tandem/film/compare.h"
 #include "tandem/film/image_io.h"
@@ -17,13 +19,8 @@ namespace {
 
 class Sequence : public testing::Test {
   protected:
-    Sequence() {
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    ~Sequence() override { std::filesystem::remove_all(folder_); }
-
-    std::string folder_ = testing::TempDir() + "tandem_sequence";
+    test::TemporaryFolder place_;  // of its own: cases run side by side
+    std::string folder_ = place_.file("");
     LoopBackend backend_{"cpu", false, true};
     Scene scene_ = named_scene("paper");
     RenderJob job_{20, 18, 2, 3, 0, Tier::strict};

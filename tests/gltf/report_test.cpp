@@ -23,6 +23,12 @@ TEST(ImportReport, JoinsUsesOfOneFeature) {
               "ignored: image at images[0] (2 uses): no textures\nrendered: image at images[1]: no textures\n");
 }
 
+TEST(ImportReport, KeepsControlCharactersFromTheTerminal) {
+    ImportReport report;
+    report.add(Treatment::ignored, "bell\a\x1b[31m", "nodes[0].extensions.a\nb", "straße");
+    EXPECT_EQ(sentences(report), "ignored: bell??[31m at nodes[0].extensions.a?b: straße\n");
+}
+
 class Report : public test::GltfFiles {
   protected:
     void expect(const TestFile& file, const std::string& sentence) const {

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Compiles the device code to PTX and looks for approximations.
 
-Fails on .approx, .full and .ftz, and on any single-precision fma: the source writes fma in double only, and with
---fmad=false the compiler adds none. Needs nvcc, no GPU.
+Fails on .approx, .full and .ftz, and on any single-precision fma: the source writes fma in double, and in single
+precision only in loose_multiply_add(), which is switched off here; with --fmad=false the compiler adds none. Needs
+nvcc, no GPU.
 
-usage: ptx.py ROOT BUILD NVCC
+usage: ptx.py ROOT BUILD NVCC GLM_INCLUDE
 """
 
 import collections
@@ -21,14 +22,17 @@ FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|
 
 
 def main():
-    root, build, nvcc = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
+    root, build, nvcc, glm = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
+    # naming the system's own folder would hide the C library from the C++ one
+    where = [] if glm == "/usr/include" else [f"-isystem={glm}"]
     report = Report()
     sources = sorted((root / "cuda").glob("*.cu")) + [root / "tests/lint/device_probe.cu"]
     for source in sources:
         with tempfile.TemporaryDirectory() as folder:
             ptx = pathlib.Path(folder, "out.ptx")
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "--fmad=false", "--ftz=false", "--prec-div=true",
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "--fmad=false", "-DTANDEM_NO_LOOSE_FMA", *where,
+                 "--ftz=false", "--prec-div=true",
                  "--prec-sqrt=true", "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
             name = source.relative_to(root).as_posix()

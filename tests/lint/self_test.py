@@ -60,8 +60,8 @@ class Patterns(unittest.TestCase):
         self.assertTrue(self.modules["objects"].NEWER.search("kernels_v3.cpp.o"))
         self.assertFalse(self.modules["objects"].NEWER.search("kernels_v2.cpp.o"))
         forbidden = self.modules["ptx"].FORBIDDEN
-        for line in ("\tsqrt.approx.f32 %f1, %f2;", "\tmul.ftz.f32 %f1, %f2, %f3;", "@%p1 fma.rn.f32 %f1, %f2, %f3, %f4;",
-                     "\tdiv.full.f32 %f1, %f2, %f3;"):
+        for line in ("\tsqrt.approx.f32 %f1, %f2;", "\tmul.ftz.f32 %f1, %f2, %f3;", "\tdiv.full.f32 %f1, %f2, %f3;",
+                     "\t@%p1 fma.rn.ftz.f32 %f1, %f2, %f3, %f4;"):
             self.assertTrue(forbidden.search(line), line)
         for line in ("\tfma.rn.f64 %fd1, %fd2, %fd3, %fd4;", "\tdiv.rn.f32 %f1, %f2, %f3;", "\tsqrt.rn.f64 %fd1, %fd2;"):
             self.assertFalse(forbidden.search(line), line)

@@ -4,23 +4,39 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_rays.h"
 #include "unit/geometry/exact_geometry.h"
+#include "unit/math/lane_operations.h"
 
 namespace tandem {
 namespace {
 
 using test::Random;
+static_assert(sizeof(Sphere) == 16 && sizeof(Ray<float>) == 24, "passed as floats");
 
 constexpr std::uint64_t rays_per_kind = 80000;
+
+/// The filters as packets run them, on every instruction set that this processor has: some fuse their products.
+const std::vector<test::LaneOperations>& packets() {
+    static const auto list = [] {
+        std::vector<test::LaneOperations> found = {test::lane_operations_v2()};
+        if (test::has_v3()) found.push_back(test::lane_operations_v3());
+        if (test::has_v4()) found.push_back(test::lane_operations_v4());
+        return found;
+    }();
+    return list;
+}
 
 void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
     if (!is_traceable(ray)) return;
     double t = 0;
-    const bool passes = may_touch_sphere(make_filter_ray(ray), sphere.centre, sphere.radius);
+    bool passes = may_touch_sphere(make_filter_ray(ray), sphere.centre, sphere.radius);
     if (!passes) ++rejected;
-    if (!first_in_front(cross_sphere(sphere, ray), t)) return;
+    if (!first_in_front(sphere, ray, t)) return;
+    for (const auto& packet : packets()) passes = passes && packet.may_touch_sphere(&sphere.centre.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
 }
@@ -28,9 +44,10 @@ void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where
 void check(const Box& box, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
     if (!is_traceable(ray)) return;
     double t = 0;
-    const bool passes = may_touch_box(make_filter_ray(ray), box.lower, box.upper);
+    bool passes = may_touch_box(make_filter_ray(ray), box.lower, box.upper);
     if (!passes) ++rejected;
     if (!first_in_front<float>(cross_box(box, ray), t)) return;
+    for (const auto& packet : packets()) passes = passes && packet.may_touch_box(&box.lower.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
 }

@@ -33,7 +33,15 @@ TEST_P(SphereAgainstOracle, DecidesRightAndIsWithinOneUlp) {
         const SphereCase c = test::sphere_case(kind, number);
         if (!is_traceable(c.ray)) continue;
         double t = 0;
-        const bool hit = first_in_front(cross_sphere(c.sphere, c.ray), t);
+        const bool hit = first_in_front(c.sphere, c.ray, t);
+        // the roots and both crossings say the same as this short cut
+        double t_of_roots = 0, t_of_both = 0;
+        ASSERT_EQ(first_in_front(sphere_roots(c.sphere, c.ray), t_of_roots), hit) << describe(kind, number, c);
+        ASSERT_EQ(first_in_front(cross_sphere(c.sphere, c.ray), t_of_both), hit) << describe(kind, number, c);
+        if (hit) {
+            ASSERT_EQ(t_of_roots, t) << describe(kind, number, c);
+            ASSERT_EQ(t_of_both, t) << describe(kind, number, c);
+        }
         const auto exact = test::hit_ball(test::big(c.ray.origin) - test::big(c.sphere.centre),
                                           test::big(c.ray.direction), Big(c.sphere.radius));
         if (hit != exact.has_value()) {
@@ -94,7 +102,7 @@ TEST(Sphere, NanAndInfinityMiss) {
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             EXPECT_FALSE(is_traceable(ray));
             double t = 0;
-            EXPECT_FALSE(first_in_front(cross_sphere(unit, ray), t)) << "component " << i << " is " << bad;
+            EXPECT_FALSE(first_in_front(unit, ray, t)) << "component " << i << " is " << bad;
         }
         double t = 0;
         EXPECT_FALSE(first_in_front(cross_sphere(Sphere{{nan, 0, 0}, 1}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));

@@ -45,9 +45,9 @@ class CorrectRounding {
 
     float operator()(float x, float y = 0) {
         const double value = function_.fast(x, y);
-        const double margin = value * 0x1p-50;
-        const auto below = static_cast<float>(value - margin);
-        if (below == static_cast<float>(value + margin) && below != 0.0F) return below;
+        const auto below = static_cast<float>(value * (1 - 0x1p-50));
+        const auto above = static_cast<float>(value * (1 + 0x1p-50));
+        if (below == above || std::isnan(value)) return below;
         return from_mpfr(x, y);
     }
 

@@ -17,7 +17,15 @@ struct LaneOperations {
     const LaneOperation* operations;
     int count;
     int lanes;
+    /// The reject filters; their decisions may differ between instruction sets. A sphere is centre and radius, a box
+    /// its lower and upper corner, a ray its origin and direction; true if every lane passes the filter.
+    bool (*may_touch_sphere)(const float* sphere, const float* ray);
+    bool (*may_touch_box)(const float* box, const float* ray);
 };
+
+/// Does this processor run the functions for x86-64-v3 and v4?
+inline bool has_v3() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+inline bool has_v4() { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"); }
 
 LaneOperations lane_operations_v2();
 LaneOperations lane_operations_v3();

@@ -80,12 +80,18 @@ TANDEM_HD UInt<Real> low_word(const UInt<Real>& a, const UInt<Real>& b) {
     return low;
 }
 
-/// The sphere and the box between them use most of what geometry does; both components of the answer count.
-template <class Real>
-TANDEM_HD Double<Real> crossing_value(const Crossing<Real>& crossing) {
+/// The sphere and the box between them use most of what geometry does.
+template <class Real, class Meeting>
+TANDEM_HD Double<Real> first_parameter(const Meeting& meeting) {
     Double<Real> t;
-    const auto hit = first_in_front(crossing, t);
-    return select(hit, t + crossing.t_near * Double<Real>(0.5), Double<Real>(-1.0));
+    const auto hit = first_in_front<Real>(meeting, t);
+    return select(hit, t, Double<Real>(-1.0));
+}
+template <class Real>
+TANDEM_HD Double<Real> first_parameter(const Sphere& sphere, const Ray<Real>& ray) {
+    Double<Real> t;
+    const auto hit = first_in_front(sphere, ray, t);
+    return select(hit, t, Double<Real>(-1.0));
 }
 template <class Real>
 TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
@@ -93,87 +99,102 @@ TANDEM_HD Ray<Real> ray_of(const Real& a, const Real& b, const Real& c) {
     return {{b, c - two, a}, {c - a, two - b, a + b}};
 }
 
-#define TANDEM_LANE_OPERATIONS(OPERATION)                                                                   \
-    OPERATION(F, add, a + b)                                                                                \
-    OPERATION(F, subtract, a - b)                                                                           \
-    OPERATION(F, multiply, a* b)                                                                            \
-    OPERATION(F, divide, a / b)                                                                             \
-    OPERATION(F, negate, -a)                                                                                \
-    OPERATION(F, absolute, absolute(a))                                                                     \
-    OPERATION(F, square_root, square_root(a))                                                               \
-    OPERATION(F, lesser, lesser(a, b))                                                                      \
-    OPERATION(F, greater, greater(a, b))                                                                    \
-    OPERATION(F, less, a < b)                                                                               \
-    OPERATION(F, less_equal, a <= b)                                                                        \
-    OPERATION(F, more, a > b)                                                                               \
-    OPERATION(F, more_equal, a >= b)                                                                        \
-    OPERATION(F, equal, a == b)                                                                             \
-    OPERATION(F, not_equal, a != b)                                                                         \
-    OPERATION(F, select, select(a < b, b, c))                                                               \
-    OPERATION(F, widen, widen(a))                                                                           \
-    OPERATION(F, bits_of, bits_of(a))                                                                       \
-    OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                         \
-    OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))       \
-    OPERATION(D, add, a + b)                                                                                \
-    OPERATION(D, subtract, a - b)                                                                           \
-    OPERATION(D, multiply, a* b)                                                                            \
-    OPERATION(D, divide, a / b)                                                                             \
-    OPERATION(D, negate, -a)                                                                                \
-    OPERATION(D, absolute, absolute(a))                                                                     \
-    OPERATION(D, square_root, square_root(a))                                                               \
-    OPERATION(D, lesser, lesser(a, b))                                                                      \
-    OPERATION(D, greater, greater(a, b))                                                                    \
-    OPERATION(D, less, a < b)                                                                               \
-    OPERATION(D, less_equal, a <= b)                                                                        \
-    OPERATION(D, more, a > b)                                                                               \
-    OPERATION(D, more_equal, a >= b)                                                                        \
-    OPERATION(D, equal, a == b)                                                                             \
-    OPERATION(D, not_equal, a != b)                                                                         \
-    OPERATION(D, select, select(a < b, b, c))                                                               \
-    OPERATION(D, narrow, narrow(a))                                                                         \
-    OPERATION(D, bits_of, bits_of(a))                                                                       \
-    OPERATION(D, multiply_add, multiply_add(a, b, c))                                                       \
-    OPERATION(D, round_to_int, round_to_int(a))                                                             \
-    OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))        \
-    OPERATION(D, exp_wide, exp_wide<Real>(a))                                                               \
-    OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b))) \
-    OPERATION(U, add, a + b)                                                                                \
-    OPERATION(U, subtract, a - b)                                                                           \
-    OPERATION(U, multiply, a* b)                                                                            \
-    OPERATION(U, bit_and, a& b)                                                                             \
-    OPERATION(U, bit_or, a | b)                                                                             \
-    OPERATION(U, bit_xor, a ^ b)                                                                            \
-    OPERATION(U, left, a << 7)                                                                              \
-    OPERATION(U, right, a >> 9)                                                                             \
-    OPERATION(U, less, a < b)                                                                               \
-    OPERATION(U, equal, (a & U(3U)) == (b & U(3U)))                                                         \
-    OPERATION(U, select, select(a < b, b, c))                                                               \
-    OPERATION(U, float_of, float_of(a))                                                                     \
-    OPERATION(U, to_float, to_float(a >> 1))                                                                \
-    OPERATION(U, high_word, high_word<Real>(a, b))                                                          \
-    OPERATION(U, low_word, low_word<Real>(a, b))                                                            \
-    OPERATION(U, philox, (philox4x32<U>({{a, b, c, a}}, 17U, 23U).word[2]))                                 \
-    OPERATION(U, unit_interval, to_unit_interval<Real>(a))                                                  \
-    OPERATION(I, add, a + b)                                                                                \
-    OPERATION(I, subtract, a - b)                                                                           \
-    OPERATION(I, bit_and, a& b)                                                                             \
-    OPERATION(I, bit_or, a | b)                                                                             \
-    OPERATION(I, bit_xor, a ^ b)                                                                            \
-    OPERATION(I, left, a << 13)                                                                             \
-    OPERATION(I, right, a >> 11)                                                                            \
-    OPERATION(I, right_logical, shift_right_logical(a, 52))                                                 \
-    OPERATION(I, equal, (a & I(3)) == (b & I(3)))                                                           \
-    OPERATION(I, select, select(a == (b & I(-2)), b, c))                                                    \
-    OPERATION(I, double_of, double_of(a))                                                                   \
-    OPERATION(F, exact_sin, exact_sin(a))                                                                   \
-    OPERATION(F, exact_cos, exact_cos(a))                                                                   \
-    OPERATION(F, exact_exp, exact_exp(a))                                                                   \
-    OPERATION(F, exact_log, exact_log(a))                                                                   \
-    OPERATION(F, exact_pow, exact_pow(a, b))                                                                \
-    OPERATION(F, sphere, crossing_value<Real>(cross_sphere(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c))))        \
-    OPERATION(F, box, crossing_value<Real>(cross_box(Box{{-1, 0, 1}, {1, 1, 1}}, ray_of(a, b, c))))         \
-    OPERATION(F, sphere_filter, may_touch_sphere(make_filter_ray(ray_of(a, b, c)), {1, 2, -1}, 3))          \
-    OPERATION(F, box_filter, may_touch_box(make_filter_ray(ray_of(a, b, c)), {-1, 0, 1}, {1, 1, 1}))
+template <class Real>
+TANDEM_HD FilterRay<Real> filter_ray(const float* ray) {
+    return make_filter_ray(
+        Ray<Real>{{Real(ray[0]), Real(ray[1]), Real(ray[2])}, {Real(ray[3]), Real(ray[4]), Real(ray[5])}});
+}
+template <class Real>
+bool lanes_may_touch_sphere(const float* sphere, const float* ray) {
+    return all(may_touch_sphere(filter_ray<Real>(ray), {sphere[0], sphere[1], sphere[2]}, sphere[3]));
+}
+template <class Real>
+bool lanes_may_touch_box(const float* box, const float* ray) {
+    return all(may_touch_box(filter_ray<Real>(ray), {box[0], box[1], box[2]}, {box[3], box[4], box[5]}));
+}
+
+#define TANDEM_LANE_OPERATIONS(OPERATION)                                                                            \
+    OPERATION(F, add, a + b)                                                                                         \
+    OPERATION(F, subtract, a - b)                                                                                    \
+    OPERATION(F, multiply, a* b)                                                                                     \
+    OPERATION(F, divide, a / b)                                                                                      \
+    OPERATION(F, negate, -a)                                                                                         \
+    OPERATION(F, absolute, absolute(a))                                                                              \
+    OPERATION(F, square_root, square_root(a))                                                                        \
+    OPERATION(F, lesser, lesser(a, b))                                                                               \
+    OPERATION(F, greater, greater(a, b))                                                                             \
+    OPERATION(F, less, a < b)                                                                                        \
+    OPERATION(F, less_equal, a <= b)                                                                                 \
+    OPERATION(F, more, a > b)                                                                                        \
+    OPERATION(F, more_equal, a >= b)                                                                                 \
+    OPERATION(F, equal, a == b)                                                                                      \
+    OPERATION(F, not_equal, a != b)                                                                                  \
+    OPERATION(F, select, select(a < b, b, c))                                                                        \
+    OPERATION(F, widen, widen(a))                                                                                    \
+    OPERATION(F, bits_of, bits_of(a))                                                                                \
+    OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                                  \
+    OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))                \
+    OPERATION(D, add, a + b)                                                                                         \
+    OPERATION(D, subtract, a - b)                                                                                    \
+    OPERATION(D, multiply, a* b)                                                                                     \
+    OPERATION(D, divide, a / b)                                                                                      \
+    OPERATION(D, negate, -a)                                                                                         \
+    OPERATION(D, absolute, absolute(a))                                                                              \
+    OPERATION(D, square_root, square_root(a))                                                                        \
+    OPERATION(D, lesser, lesser(a, b))                                                                               \
+    OPERATION(D, greater, greater(a, b))                                                                             \
+    OPERATION(D, less, a < b)                                                                                        \
+    OPERATION(D, less_equal, a <= b)                                                                                 \
+    OPERATION(D, more, a > b)                                                                                        \
+    OPERATION(D, more_equal, a >= b)                                                                                 \
+    OPERATION(D, equal, a == b)                                                                                      \
+    OPERATION(D, not_equal, a != b)                                                                                  \
+    OPERATION(D, select, select(a < b, b, c))                                                                        \
+    OPERATION(D, narrow, narrow(a))                                                                                  \
+    OPERATION(D, bits_of, bits_of(a))                                                                                \
+    OPERATION(D, multiply_add, multiply_add(a, b, c))                                                                \
+    OPERATION(D, round_to_int, round_to_int(a))                                                                      \
+    OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))                 \
+    OPERATION(D, exp_wide, exp_wide<Real>(a))                                                                        \
+    OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b)))          \
+    OPERATION(U, add, a + b)                                                                                         \
+    OPERATION(U, subtract, a - b)                                                                                    \
+    OPERATION(U, multiply, a* b)                                                                                     \
+    OPERATION(U, bit_and, a& b)                                                                                      \
+    OPERATION(U, bit_or, a | b)                                                                                      \
+    OPERATION(U, bit_xor, a ^ b)                                                                                     \
+    OPERATION(U, left, a << 7)                                                                                       \
+    OPERATION(U, right, a >> 9)                                                                                      \
+    OPERATION(U, less, a < b)                                                                                        \
+    OPERATION(U, equal, (a & U(3U)) == (b & U(3U)))                                                                  \
+    OPERATION(U, select, select(a < b, b, c))                                                                        \
+    OPERATION(U, float_of, float_of(a))                                                                              \
+    OPERATION(U, to_float, to_float(a >> 1))                                                                         \
+    OPERATION(U, high_word, high_word<Real>(a, b))                                                                   \
+    OPERATION(U, low_word, low_word<Real>(a, b))                                                                     \
+    OPERATION(U, philox, (philox4x32<U>({{a, b, c, a}}, 17U, 23U).word[2]))                                          \
+    OPERATION(U, unit_interval, to_unit_interval<Real>(a))                                                           \
+    OPERATION(I, add, a + b)                                                                                         \
+    OPERATION(I, subtract, a - b)                                                                                    \
+    OPERATION(I, bit_and, a& b)                                                                                      \
+    OPERATION(I, bit_or, a | b)                                                                                      \
+    OPERATION(I, bit_xor, a ^ b)                                                                                     \
+    OPERATION(I, left, a << 13)                                                                                      \
+    OPERATION(I, right, a >> 11)                                                                                     \
+    OPERATION(I, right_logical, shift_right_logical(a, 52))                                                          \
+    OPERATION(I, equal, (a & I(3)) == (b & I(3)))                                                                    \
+    OPERATION(I, select, select(a == (b & I(-2)), b, c))                                                             \
+    OPERATION(I, double_of, double_of(a))                                                                            \
+    OPERATION(F, exact_sin, exact_sin(a))                                                                            \
+    OPERATION(F, exact_cos, exact_cos(a))                                                                            \
+    OPERATION(F, exact_exp, exact_exp(a))                                                                            \
+    OPERATION(F, exact_log, exact_log(a))                                                                            \
+    OPERATION(F, exact_pow, exact_pow(a, b))                                                                         \
+    OPERATION(F, sphere, first_parameter<Real>(sphere_roots(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c))))                \
+    OPERATION(F, sphere_hit, first_parameter<Real>(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c)))                          \
+    OPERATION(F, box, first_parameter<Real>(cross_box(Box{{-1, 0, 1}, {1, 1, 1}}, ray_of(a, b, c))))                 \
+    OPERATION(D, inverse_square_root, inverse_square_root(select(absolute(a) >= D(0x1p-1022), absolute(a), D(2.0)))) \
+    OPERATION(D, difference_of_products, difference_of_products(a, b, c, a))
 
 #define TANDEM_DEFINE_OPERATION(Type, name, expression)                                           \
     template <class Real>                                                                         \
@@ -197,7 +218,8 @@ LaneOperations all_operations() {
 #define TANDEM_LIST_OPERATION(Type, name, expression) {#Type " " #name, &Type##_##name<Real>},
     static constexpr LaneOperation table[] = {TANDEM_LANE_OPERATIONS(TANDEM_LIST_OPERATION)};
 #undef TANDEM_LIST_OPERATION
-    return {table, sizeof(table) / sizeof(table[0]), RealTraits<Real>::lanes};
+    return {table, sizeof(table) / sizeof(table[0]), RealTraits<Real>::lanes, &lanes_may_touch_sphere<Real>,
+            &lanes_may_touch_box<Real>};
 }
 
 }  // namespace

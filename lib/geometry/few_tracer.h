@@ -1,0 +1,67 @@
+/// Tracing among a handful of spheres and boxes, for a GPU: what the filters read lies in the kernel's parameters, at
+/// addresses known to the compiler, so that no filter loads anything.
+#pragma once
+
+#include "tandem/geometry/intersect.h"
+
+namespace tandem {
+
+/// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
+struct FewTracer {
+    static constexpr std::uint32_t max_spheres = 8;
+    static constexpr std::uint32_t max_boxes = 4;
+
+    SceneView scene;
+    Sphere spheres[max_spheres];
+    BoxFilter boxes[max_boxes];
+
+    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
+        Closest<float> best = no_hit<float>();
+        if (!active) return best;
+        const FilterRay<float> f = make_filter_ray(ray);
+        std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+        for (std::uint32_t i = 0; i < max_spheres; ++i) {
+            if (i == scene.sphere_count) break;
+            if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
+        }
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+        for (std::uint32_t i = 0; i < max_boxes; ++i) {
+            if (i == scene.box_count) break;
+            if (may_touch_box(f, boxes[i])) candidates |= 1U << (max_spheres + i);
+        }
+        for (; candidates != 0; candidates &= candidates - 1) {
+            const auto slot = static_cast<std::uint32_t>(lowest_bit(candidates));
+            if (slot < max_spheres) {
+                decide(scene.spheres[slot], slot, ray, true, best);
+            } else {
+                const std::uint32_t box = slot - max_spheres;
+                decide(scene.boxes[box], scene.sphere_count + box, ray, true, best);
+            }
+        }
+        return best;
+    }
+};
+
+/// Has the scene so few primitives, and of such kinds?
+TANDEM_HD bool fits_few_tracer(const SceneView& scene) {
+    return scene.sphere_count <= FewTracer::max_spheres && scene.box_count <= FewTracer::max_boxes &&
+           scene.ellipsoid_count == 0 && scene.parallelepiped_count == 0;
+}
+
+/// `on_host`: the scene in host memory, to copy from; `scene`: where the tracer will read it.
+[[nodiscard]] inline FewTracer make_few_tracer(const SceneView& on_host, const SceneView& scene) {
+    FewTracer tracer{};
+    tracer.scene = scene;
+    for (std::uint32_t i = 0; i < on_host.sphere_count; ++i) tracer.spheres[i] = on_host.spheres[i];
+    for (std::uint32_t i = 0; i < on_host.box_count; ++i) {
+        tracer.boxes[i] = make_box_filter(on_host.boxes[i].lower, on_host.boxes[i].upper);
+    }
+    return tracer;
+}
+
+}  // namespace tandem
