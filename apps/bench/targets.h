@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments.h"
 #include "backend_source.h"
+#include "common/arguments.h"
 #include "tandem/report/report.h"
 
 namespace tandem::bench {

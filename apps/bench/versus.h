@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/arguments.h"
 #include "backend_source.h"
+#include "common/arguments.h"
 #include "ray_sets.h"
 #include "tandem/report/report.h"
 
