@@ -291,7 +291,7 @@ inline BoxCase box_case(int kind, std::uint64_t number) {
         case 10: {
             const double size = std::exp2(random.uniform(-60.0, 50.0));
             Box box;
-            Vec3d inside;
+            Vec3d inside = {0, 0, 0};
             for (int i = 0; i < 3; ++i) {
                 const double a = random.uniform(-1.0, 1.0) * size;
                 const double b = a + std::exp2(random.uniform(-20.0, 1.0)) * size;

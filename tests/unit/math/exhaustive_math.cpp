@@ -1,5 +1,5 @@
 // The long test of exact_math.h: sin, cos, exp and log for all 2^32 floats, pow for 2^26 random pairs, against
-// correct rounding. Usage: exhaustive_math [FUNCTION...]; ten minutes on two cores. Status 1 if a value is wrong.
+// correct rounding. Usage: exhaustive_math [FUNCTION...], sin, cos, exp, log or pow. Status 1 if a value is wrong.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
