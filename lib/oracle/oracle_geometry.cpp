@@ -1,5 +1,6 @@
 #include "tandem/oracle/oracle_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

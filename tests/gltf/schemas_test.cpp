@@ -1,6 +1,7 @@
 /// The JSON schemas of our extensions say the same as the importer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "gltf/files.h"

@@ -2,6 +2,7 @@
 /// from (kind, number) alone, so that these two reproduce it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
