@@ -89,12 +89,12 @@ TANDEM_HD Pair<D> divide(const Pair<D>& a, double n) {
 template <class Real>
 TANDEM_HD Float<Real> round_once(const Double<Real>& high, const Double<Real>& low) {
     using D = Double<Real>;
-    using I = Int64<Real>;
+    using I = UInt64<Real>;
     const Pair<D> sum = fast_two_sum(high, low);
     const I bits = bits_of(sum.high);
     const I if_even = (bits & I(1)) - I(1);
     // the double farther from zero has the higher bits: +1 where the signs of the parts agree, else -1
-    const I step = I(1) - (shift_right_logical(bits ^ bits_of(sum.low), 63) << 1);
+    const I step = I(1) - (((bits ^ bits_of(sum.low)) >> 63) << 1);
     return narrow(double_of(bits + select(sum.low == D(0.0), I(0), step & if_even)));
 }
 

@@ -45,11 +45,11 @@ TANDEM_HD Float<Real> quiet_nan() {
 template <class Real>
 TANDEM_HD void reduce_log(const Double<Real>& x, Double<Real>& f, Double<Real>& exponent) {
     using D = Double<Real>;
-    using I = Int64<Real>;
+    using I = UInt64<Real>;
     const I sqrt_half(0x3FE6A09E667F3BCD);
     const I biased = bits_of(x) + (I(0x3FF0000000000000) - sqrt_half);  // exponent + 1023, then the bits of 1 + f
     f = double_of((biased & I(0x000FFFFFFFFFFFFF)) + sqrt_half) - D(1.0);
-    exponent = double_of(shift_right_logical(biased, 52) | I(0x4330000000000000)) - D(0x1p52 + 1023);
+    exponent = double_of((biased >> 52) | I(0x4330000000000000)) - D(0x1p52 + 1023);
 }
 
 /// log(1 + f) = f - f^2/2 + this, within 2^-57: with s = f / (2 + f) it is s (f^2/2 + 2 atanh(s)/s - 2).
@@ -95,7 +95,7 @@ TANDEM_HD D exp_odd_tail(const D& z) {
 /// x 2/pi is formed modulo 4 from slices of 2/pi: 24 by 29 bits make an exact product, and slices that give multiples
 /// of 4 vanish, so that no table is indexed by x (M. Payne, R. Hanek, 1983, without the indexing); error below 2^-90.
 template <class Real>
-TANDEM_HD void reduce_trig(const Double<Real>& x, Int64<Real>& quadrant, Double<Real>& r, Double<Real>& r_low) {
+TANDEM_HD void reduce_trig(const Double<Real>& x, UInt64<Real>& quadrant, Double<Real>& r, Double<Real>& r_low) {
     using D = Double<Real>;
     const D shift(to_low_bits);
     const D near = multiply_add(x, D(two_over_pi), shift);
@@ -150,9 +150,9 @@ TANDEM_HD Pair<D> cosine(const D& r, const D& r_low) {
 
 /// sin(x + turns pi/2); infinity gives NaN.
 template <class Real>
-TANDEM_HD Real sine_of_turned(const Real& x, const Int64<Real>& sign_of_x, std::int64_t turns) {
+TANDEM_HD Real sine_of_turned(const Real& x, const UInt64<Real>& sign_of_x, std::uint64_t turns) {
     using D = Double<Real>;
-    using I = Int64<Real>;
+    using I = UInt64<Real>;
     D r, r_low;
     I quadrant;
     reduce_trig<Real>(absolute(widen(x)), quadrant, r, r_low);
@@ -274,14 +274,14 @@ TANDEM_HD Real exact_log(const Real& x) {
 /// sin(x) for every float; NaN for infinities.
 template <class Real>
 TANDEM_HD Real exact_sin(const Real& x) {
-    using I = Int64<Real>;
+    using I = UInt64<Real>;
     return exact_detail::sine_of_turned(x, bits_of(widen(x)) & (I(1) << 63), 0);
 }
 
 /// cos(x) for every float; NaN for infinities.
 template <class Real>
 TANDEM_HD Real exact_cos(const Real& x) {
-    return exact_detail::sine_of_turned(x, Int64<Real>(0), 1);
+    return exact_detail::sine_of_turned(x, UInt64<Real>(0), 1);
 }
 
 /// x^y for all pairs of floats, with the special values of IEEE 754's pow: 1 for y = 0 and for x = 1, even with NaN;

@@ -12,9 +12,9 @@ namespace tandem {
 /// relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Held by tests/unit/math/inverse_square_root_test.cpp.
 template <class D>
 TANDEM_HD D inverse_square_root(const D& x) {
-    using I = Int64<D>;
+    using I = UInt64<D>;
     const D half = D(0.5) * x;
-    D y = double_of(I(0x5FE6EB50C7B537A9) - shift_right_logical(bits_of(x), 1));
+    D y = double_of(I(0x5FE6EB50C7B537A9) - (bits_of(x) >> 1));
     for (int step = 0; step < 4; ++step) y = multiply_add(y, multiply_add(-(half * y), y, D(0.5)), y);
     return y;
 }

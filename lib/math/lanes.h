@@ -350,7 +350,7 @@ struct RealTraits<Lanes<T, I>> {
     using Float = Lanes<float, I>;
     using Double = Lanes<double, I>;
     using UInt = Lanes<std::uint32_t, I>;
-    using Int64 = Lanes<std::int64_t, I>;
+    using UInt64 = Lanes<std::uint64_t, I>;
     static constexpr int lanes = Lanes<T, I>::size;
 };
 
@@ -465,11 +465,11 @@ TANDEM_HD Lanes<To, I> reinterpret_lanes(const Lanes<From, I>& a) {
 }
 
 template <class I>
-TANDEM_HD Lanes<std::int64_t, I> bits_of(const Lanes<double, I>& a) {
-    return reinterpret_lanes<std::int64_t>(a);
+TANDEM_HD Lanes<std::uint64_t, I> bits_of(const Lanes<double, I>& a) {
+    return reinterpret_lanes<std::uint64_t>(a);
 }
 template <class I>
-TANDEM_HD Lanes<double, I> double_of(const Lanes<std::int64_t, I>& a) {
+TANDEM_HD Lanes<double, I> double_of(const Lanes<std::uint64_t, I>& a) {
     return reinterpret_lanes<double>(a);
 }
 template <class I>
@@ -482,23 +482,12 @@ TANDEM_HD Lanes<float, I> float_of(const Lanes<std::uint32_t, I>& a) {
 }
 
 template <class I>
-TANDEM_HD Lanes<std::int64_t, I> shift_right_logical(const Lanes<std::int64_t, I>& a, int count) {
-    using Unsigned = typename lanes_detail::Native<std::uint64_t, I::bytes>::type;
-    using Signed = typename Lanes<std::int64_t, I>::Vector;
-    Lanes<std::int64_t, I> result;
-    for (int k = 0; k < 2; ++k) {
-        result.part[k] = reinterpret_cast<Signed>(reinterpret_cast<Unsigned>(a.part[k]) >> count);
-    }
-    return result;
-}
-
-template <class I>
 TANDEM_HD Lanes<float, I> absolute(const Lanes<float, I>& a) {
     return float_of(bits_of(a) & Lanes<std::uint32_t, I>(0x7FFFFFFFU));
 }
 template <class I>
 TANDEM_HD Lanes<double, I> absolute(const Lanes<double, I>& a) {
-    return double_of(bits_of(a) & Lanes<std::int64_t, I>(0x7FFFFFFFFFFFFFFF));
+    return double_of(bits_of(a) & Lanes<std::uint64_t, I>(0x7FFFFFFFFFFFFFFF));
 }
 
 template <class I>

@@ -23,7 +23,7 @@ struct RealTraits<float> {
     using Float = float;
     using Double = double;
     using UInt = std::uint32_t;
-    using Int64 = std::int64_t;
+    using UInt64 = std::uint64_t;
     static constexpr int lanes = 1;
 };
 
@@ -39,7 +39,7 @@ using Float = typename RealTraits<Real>::Float;
 template <class Real>
 using UInt = typename RealTraits<Real>::UInt;
 template <class Real>
-using Int64 = typename RealTraits<Real>::Int64;
+using UInt64 = typename RealTraits<Real>::UInt64;
 
 TANDEM_HD bool any(bool mask) { return mask; }
 TANDEM_HD bool all(bool mask) { return mask; }
@@ -84,10 +84,6 @@ TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 #endif
 }
 
-/// Shift that fills with zeros. (On signed 64-bit lanes >> fills with the sign, which AVX2 has no instruction for.)
-TANDEM_HD std::int64_t shift_right_logical(std::int64_t a, int count) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) >> count);
-}
 /// Exact for values below 2^31.
 TANDEM_HD float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
 
@@ -100,8 +96,8 @@ TANDEM_HD To bit_cast(const From& from) {
     return to;
 }
 
-TANDEM_HD std::int64_t bits_of(double a) { return bit_cast<std::int64_t>(a); }
-TANDEM_HD double double_of(std::int64_t a) { return bit_cast<double>(a); }
+TANDEM_HD std::uint64_t bits_of(double a) { return bit_cast<std::uint64_t>(a); }
+TANDEM_HD double double_of(std::uint64_t a) { return bit_cast<double>(a); }
 TANDEM_HD std::uint32_t bits_of(float a) { return bit_cast<std::uint32_t>(a); }
 TANDEM_HD float float_of(std::uint32_t a) { return bit_cast<float>(a); }
 

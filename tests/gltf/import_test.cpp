@@ -200,7 +200,8 @@ TEST_F(Import, SparseAccessorsReplaceElements) {
             {"values", {{"bufferView", view_of(what)}}}};
         if (!has_view) file.json["accessors"][places].erase("bufferView");
         file.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}};
-        const auto& instances = import(file).scene.nodes[2].geometry[0].instances;
+        const Scene scene = import(file).scene;
+        const auto& instances = scene.nodes[2].geometry[0].instances;
         ASSERT_EQ(instances.size(), 3U);
         EXPECT_EQ(instances[1].translation, Vec3d(7, 8, 9));
         EXPECT_EQ(instances[2].translation, has_view ? Vec3d(3, 3, 3) : Vec3d(0, 0, 0));

@@ -298,6 +298,20 @@ TEST_F(Malformed, DeepNesting) {
     }
 }
 
+/// Brackets in strings, also behind escaped quotes, are no nesting; 64 levels are allowed.
+TEST_F(Malformed, NestingCountsBracketsOutsideOfStrings) {
+    TestFile file = small_file();
+    file.json["extras"] = "\\\"" + std::string(100, '[') + "\"\\";
+    file.json["nodes"][1]["name"] = std::string(100, '{');
+    EXPECT_EQ(import(file).scene.nodes[1].name, std::string(100, '{'));
+    const auto nested = [&](std::size_t levels) {
+        return small_file().text().insert(1,
+                                          "\"extras\": " + std::string(levels, '[') + std::string(levels, ']') + ",");
+    };
+    EXPECT_EQ(import_gltf(write("scene.gltf", nested(63))).scene.nodes.size(), 2U);
+    EXPECT_TRUE(contains(error_of_bytes(nested(64)), "deeper than 64 levels"));
+}
+
 TEST_F(Malformed, EveryTruncationOfATextAndABinaryFile) {
     const std::string text = rich_file().text();
     for (std::size_t length = 0; length + 1 < text.size(); length += 7) error_of_bytes(text.substr(0, length));

@@ -15,7 +15,7 @@ struct Slots {
     using F = Float<Real>;
     using D = Double<Real>;
     using U = UInt<Real>;
-    using I = Int64<Real>;
+    using I = UInt64<Real>;
     using M = Mask<Real>;
     static constexpr int lanes = RealTraits<Real>::lanes;
 
@@ -43,22 +43,22 @@ struct Slots {
         v = fill<F, float>([&](int i) { return float_of(static_cast<std::uint32_t>(p[i])); });
     }
     TANDEM_HD static void load(const std::uint64_t* p, D& v) {
-        v = fill<D, double>([&](int i) { return double_of(static_cast<std::int64_t>(p[i])); });
+        v = fill<D, double>([&](int i) { return double_of(p[i]); });
     }
     TANDEM_HD static void load(const std::uint64_t* p, U& v) {
         v = fill<U, std::uint32_t>([&](int i) { return static_cast<std::uint32_t>(p[i]); });
     }
     TANDEM_HD static void load(const std::uint64_t* p, I& v) {
-        v = fill<I, std::int64_t>([&](int i) { return static_cast<std::int64_t>(p[i]); });
+        v = fill<I, std::uint64_t>([&](int i) { return p[i]; });
     }
 
     // The bits of a NaN are nobody's promise.
     TANDEM_HD static std::uint64_t bits(float v) { return v != v ? 0x7FC00000U : bits_of(v); }
     TANDEM_HD static std::uint64_t bits(double v) {
-        return v != v ? 0x7FF8000000000000U : static_cast<std::uint64_t>(bits_of(v));
+        return v != v ? 0x7FF8000000000000U : bits_of(v);
     }
     TANDEM_HD static std::uint64_t bits(std::uint32_t v) { return v; }
-    TANDEM_HD static std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }
+    TANDEM_HD static std::uint64_t bits(std::uint64_t v) { return v; }
     TANDEM_HD static std::uint64_t bits(bool v) { return v ? 1U : 0U; }
 
     template <class T>
@@ -180,10 +180,9 @@ bool lanes_may_touch_box(const float* box, const float* ray) {
     OPERATION(I, bit_or, a | b)                                                                                      \
     OPERATION(I, bit_xor, a ^ b)                                                                                     \
     OPERATION(I, left, a << 13)                                                                                      \
-    OPERATION(I, right, a >> 11)                                                                                     \
-    OPERATION(I, right_logical, shift_right_logical(a, 52))                                                          \
+    OPERATION(I, right, a >> 52)                                                                                     \
     OPERATION(I, equal, (a & I(3)) == (b & I(3)))                                                                    \
-    OPERATION(I, select, select(a == (b & I(-2)), b, c))                                                             \
+    OPERATION(I, select, select(a == (b & I(~1ULL)), b, c))                                                             \
     OPERATION(I, double_of, double_of(a))                                                                            \
     OPERATION(F, exact_sin, exact_sin(a))                                                                            \
     OPERATION(F, exact_cos, exact_cos(a))                                                                            \

@@ -57,8 +57,7 @@ TEST(Real, LesserAndGreaterKeepTheFirstArgument) {
     EXPECT_EQ(greater(1.0, 2.0), 2.0);
 }
 
-TEST(Real, ShiftsAndRounding) {
-    EXPECT_EQ(shift_right_logical(-1, 52), 0xFFF);
+TEST(Real, RoundToIntTakesTheEvenOfTwo) {
     EXPECT_EQ(round_to_int(2.5), 2.0);
     EXPECT_EQ(round_to_int(-3.5), -4.0);
 }
