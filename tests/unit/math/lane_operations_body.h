@@ -54,9 +54,7 @@ struct Slots {
 
     // The bits of a NaN are nobody's promise.
     TANDEM_HD static std::uint64_t bits(float v) { return v != v ? 0x7FC00000U : bits_of(v); }
-    TANDEM_HD static std::uint64_t bits(double v) {
-        return v != v ? 0x7FF8000000000000U : bits_of(v);
-    }
+    TANDEM_HD static std::uint64_t bits(double v) { return v != v ? 0x7FF8000000000000U : bits_of(v); }
     TANDEM_HD static std::uint64_t bits(std::uint32_t v) { return v; }
     TANDEM_HD static std::uint64_t bits(std::uint64_t v) { return v; }
     TANDEM_HD static std::uint64_t bits(bool v) { return v ? 1U : 0U; }
@@ -182,7 +180,7 @@ bool lanes_may_touch_box(const float* box, const float* ray) {
     OPERATION(I, left, a << 13)                                                                                      \
     OPERATION(I, right, a >> 52)                                                                                     \
     OPERATION(I, equal, (a & I(3)) == (b & I(3)))                                                                    \
-    OPERATION(I, select, select(a == (b & I(~1ULL)), b, c))                                                             \
+    OPERATION(I, select, select(a == (b & I(~1ULL)), b, c))                                                          \
     OPERATION(I, double_of, double_of(a))                                                                            \
     OPERATION(F, exact_sin, exact_sin(a))                                                                            \
     OPERATION(F, exact_cos, exact_cos(a))                                                                            \
