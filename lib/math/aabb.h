@@ -40,7 +40,8 @@ TANDEM_HD float round_sum_down(double a, double b) {
     const Pair<double> sum = two_sum(a, b);
     if (!(sum.low < 0.0)) return round_down(sum.high);
     // the double below, so that a float at the rounded sum is not taken
-    return round_down(double_of(bits_of(sum.high) + (sum.high > 0.0 ? -1 : 1)));
+    const std::uint64_t bits = bits_of(sum.high);
+    return round_down(double_of(sum.high > 0.0 ? bits - 1 : bits + 1));
 }
 TANDEM_HD float round_sum_up(double a, double b) { return -round_sum_down(-a, -b); }
 
