@@ -58,7 +58,8 @@ void check_embree(RTCDevice device, const char* doing) {
 
 class CpuScene final : public ResidentScene {
   public:
-    CpuScene(const PreparedScene& scene, RTCDevice device, const CpuKernels& kernels) : scene_(scene) {
+    CpuScene(const PreparedScene& scene, Tier tier, RTCDevice device, const CpuKernels& kernels)
+        : ResidentScene(tier), scene_(scene) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
         view_ = {tandem::view(scene_), {}, nullptr};
@@ -135,20 +136,20 @@ class CpuBackend final : public Backend {
                 .exact = true};
     }
 
-    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         std::shared_ptr<CpuScene> result;
-        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, device_.get(), set_.kernels()); });
+        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels()); });
         return result;
     }
 
-    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
-        if (rays.size() != hits.size()) throw InputError("trace: the numbers of rays and hits differ");
+    double trace(ResidentScene& scene, const TraceJob& job) override {
+        check(job);
         const CpuSceneView& view = dynamic_cast<const CpuScene&>(scene).view();
         const Stopwatch watch;
         arena_.execute([&] {
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), 1024), [&](const auto& range) {
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.rays.size(), 1024), [&](const auto& range) {
                 const DefaultFpEnvironment guard;
-                set_.kernels().trace(view, rays.data() + range.begin(), hits.data() + range.begin(), range.size());
+                set_.kernels().trace(view, part(job, range.begin(), range.size()));
             });
         });
         return watch.seconds();
@@ -156,7 +157,7 @@ class CpuBackend final : public Backend {
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
-        check(job);
+        check(job, scene->tier());
         const auto& resident = dynamic_cast<const CpuScene&>(*scene);
         const CpuKernels& kernels = set_.kernels();
         const PixelJob pixel_job = make_pixel_job(resident.prepared(), job);

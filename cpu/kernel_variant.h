@@ -51,9 +51,15 @@ TANDEM_HD bool is_coherent(const Ray<Lanes<float, Isa>>& rays) {
 }
 
 template <class Isa, class Tracer>
-void trace_rays(const Tracer& tracer, bool always_packets, const Ray<float>* rays, Hit* hits, std::size_t count) {
+void trace_rays(const Tracer& tracer, bool always_packets, const TraceJob& job) {
     using Real = Lanes<float, Isa>;
     constexpr std::size_t width = Real::size;
+    const std::size_t count = job.rays.size();
+    const Ray<float>* rays = job.rays.data();
+    const auto write = [&](std::size_t i, const Closest<float>& closest) {
+        job.hits[i] = to_hit(closest);
+        if (!job.wide_t.empty()) job.wide_t[i] = closest.primitive == no_primitive ? 0 : closest.t;
+    };
     for (std::size_t first = 0; first < count; first += width) {
         const std::size_t used = count - first < width ? count - first : width;
         const auto load = [&](auto component) {
@@ -72,20 +78,20 @@ void trace_rays(const Tracer& tracer, bool always_packets, const Ray<float>* ray
             const Closest<Real> closest = tracer.closest(packet, is_traceable(packet));
             for (std::size_t i = 0; i < used; ++i) {
                 const int lane = static_cast<int>(i);
-                hits[first + i] = to_hit({closest.t[lane], closest.primitive[lane]});
+                write(first + i, {closest.t[lane], closest.primitive[lane]});
             }
         } else {
             for (std::size_t i = first; i < first + used; ++i) {
-                hits[i] = is_traceable(rays[i]) ? to_hit(tracer.closest(rays[i], true)) : Hit{};
+                write(i, is_traceable(rays[i]) ? tracer.closest(rays[i], true) : no_hit<float>());
             }
         }
     }
 }
 
 template <class Isa>
-void trace(const CpuSceneView& view, const Ray<float>* rays, Hit* hits, std::size_t count) {
-    if (view.embree != nullptr) return trace_rays<Isa>(EmbreeTracer{view}, false, rays, hits, count);
-    trace_rays<Isa>(LoopTracer{view.scene}, true, rays, hits, count);
+void trace(const CpuSceneView& view, const TraceJob& job) {
+    if (view.embree != nullptr) return trace_rays<Isa>(EmbreeTracer{view}, false, job);
+    trace_rays<Isa>(LoopTracer{view.scene}, true, job);
 }
 
 template <class Isa>

@@ -8,6 +8,7 @@
 #include "tandem/bvh/proposal.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
+#include "tandem/render/trace_job.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -28,7 +29,7 @@ struct CpuKernels {
     const char* instruction_set;
     /// Writes the sums of the tile's pixels into the film (rows of job.width); returns how many samples were invalid.
     std::uint64_t (*render_tile)(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
-    void (*trace)(const CpuSceneView& scene, const Ray<float>* rays, Hit* hits, std::size_t count);
+    void (*trace)(const CpuSceneView& scene, const TraceJob& job);
     /// Embree's callback for primitives. The geometry's user pointer is a CpuSceneView.
     RTCIntersectFunctionN intersect;
 };

@@ -78,31 +78,35 @@ class CudaBackend final : public Backend {
                 .exact = true};
     }
 
-    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
-        return std::make_shared<DeviceScene>(scene, scenes_->lease(), upload_);
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_);
     }
 
-    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
-        if (rays.size() != hits.size()) throw InputError("trace: the numbers of rays and hits differ");
+    double trace(ResidentScene& scene, const TraceJob& job) override {
+        check(job);
         const auto& resident = dynamic_cast<const DeviceScene&>(scene);
-        rays_.reserve(rays.size_bytes());
-        hits_.reserve(hits.size_bytes());
+        rays_.reserve(job.rays.size_bytes());
+        hits_.reserve(job.hits.size_bytes());
+        wide_t_.reserve(job.wide_t.size_bytes());
+        const DeviceRays rays = {
+            reinterpret_cast<const Ray<float>*>(rays_.data()), reinterpret_cast<Hit*>(hits_.data()),
+            job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()), job.rays.size()};
         compute_.wait_for(resident.uploaded());
-        check(cudaMemcpyAsync(rays_.data(), rays.data(), rays.size_bytes(), cudaMemcpyHostToDevice, compute_.get()),
+        check(cudaMemcpyAsync(rays_.data(), job.rays.data(), job.rays.size_bytes(), cudaMemcpyHostToDevice,
+                              compute_.get()),
               "uploading rays");
         trace_start_.record(compute_.get());
-        launch_trace(resident.view(), reinterpret_cast<const Ray<float>*>(rays_.data()),
-                     reinterpret_cast<Hit*>(hits_.data()), rays.size(), compute_.get());
+        launch_trace(resident.view(), rays, compute_.get());
         trace_end_.record(compute_.get());
-        check(cudaMemcpyAsync(hits.data(), hits_.data(), hits.size_bytes(), cudaMemcpyDeviceToHost, compute_.get()),
-              "downloading hits");
+        download(job.hits, hits_);
+        download(job.wide_t, wide_t_);
         check(cudaStreamSynchronize(compute_.get()), "tracing rays");
         return seconds_between(trace_start_, trace_end_);
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
-        check(job);
+        check(job, scene->tier());
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
@@ -147,14 +151,23 @@ class CudaBackend final : public Backend {
 
   private:
     static void check(cudaError_t code, const char* doing) { cuda::check(code, doing); }
-    static void check(const RenderJob& job) { tandem::check(job); }
+    static void check(const TraceJob& job) { tandem::check(job); }
+    static void check(const RenderJob& job, Tier loaded_for) { tandem::check(job, loaded_for); }
+
+    /// Starts a copy to the host.
+    template <class T>
+    void download(std::span<T> to, const Buffer<DeviceMemory>& from) {
+        if (to.empty()) return;
+        check(cudaMemcpyAsync(to.data(), from.data(), to.size_bytes(), cudaMemcpyDeviceToHost, compute_.get()),
+              "downloading hits");
+    }
 
     cudaDeviceProp properties_{};
     Stream upload_, compute_, download_;
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
     std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
     std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
-    Buffer<DeviceMemory> rays_, hits_;
+    Buffer<DeviceMemory> rays_, hits_, wide_t_;
     Event trace_start_, trace_end_;
 };
 

@@ -49,8 +49,8 @@ Aabb scene_bounds(const SceneView& scene) {
 
 }  // namespace
 
-DeviceScene::DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory> memory, Stream& stream)
-    : memory_(std::move(memory)) {
+DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
+    : ResidentScene(tier), memory_(std::move(memory)) {
     camera_.world_from_camera = scene.world_from_camera;
     camera_.orthographic = scene.orthographic;
     camera_.half_height = scene.half_height;

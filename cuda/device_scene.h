@@ -21,7 +21,7 @@ struct SceneMemory {
 class DeviceScene final : public ResidentScene {
   public:
     /// Starts the upload on `stream`. A scene of many primitives gets a hierarchy, built here on the host.
-    DeviceScene(const PreparedScene& scene, std::shared_ptr<SceneMemory> memory, Stream& stream);
+    DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream);
 
     /// Waits for the upload to know its time.
     [[nodiscard]] PhaseTimes load_times() const override;

@@ -34,10 +34,13 @@ __global__ void __launch_bounds__(block_threads, resident_blocks)
 
 template <class Tracer>
 __global__ void __launch_bounds__(block_threads, resident_blocks)
-    trace_kernel(const __grid_constant__ Tracer tracer, const Ray<float>* __restrict__ rays, Hit* __restrict__ hits,
-                 std::size_t count) {
+    trace_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
-    if (i < count) hits[i] = to_hit(tracer.closest(rays[i], is_traceable(rays[i])));
+    if (i >= job.count) return;
+    const Ray<float> ray = job.rays[i];
+    const Closest<float> closest = tracer.closest(ray, is_traceable(ray));
+    job.hits[i] = to_hit(closest);
+    if (job.wide_t != nullptr) job.wide_t[i] = closest.primitive == no_primitive ? 0.0 : closest.t;
 }
 
 /// Calls f with the tracer that fits the scene.
@@ -68,12 +71,11 @@ void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint3
     });
 }
 
-void launch_trace(const DeviceSceneView& scene, const Ray<float>* rays, Hit* hits, std::size_t count,
-                  cudaStream_t stream) {
-    if (count == 0) return;
+void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
+    if (rays.count == 0) return;
     with_tracer(scene, [&]<class Tracer>(const Tracer& tracer) {
-        launch("tracing rays", trace_kernel<Tracer>, blocks_for(count, block_threads), block_threads, stream, tracer,
-               rays, hits, count);
+        launch("tracing rays", trace_kernel<Tracer>, blocks_for(rays.count, block_threads), block_threads, stream,
+               tracer, rays);
     });
 }
 

@@ -37,9 +37,16 @@ struct KernelFacts {
 void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
                    unsigned long long* invalid, cudaStream_t stream);
 
-/// Starts the nearest hits of `count` rays in device memory.
-void launch_trace(const DeviceSceneView& scene, const Ray<float>* rays, Hit* hits, std::size_t count,
-                  cudaStream_t stream);
+/// Rays and room for their hits, in device memory. `wide_t` may be null.
+struct DeviceRays {
+    const Ray<float>* rays;
+    Hit* hits;
+    double* wide_t;
+    std::size_t count;
+};
+
+/// Starts the nearest hits of the rays.
+void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 
 /// Of the render kernel that a scene gets.
 [[nodiscard]] KernelFacts render_kernel_facts(const DeviceSceneView& scene);

@@ -10,7 +10,7 @@ TimedFrame render_timed(Backend& backend, const Scene& scene, const RenderJob& j
     const Stopwatch everything;
     const PreparedScene prepared = prepare(scene, {static_cast<std::int32_t>(job.frame), {}});
     timed.prepare = everything.seconds();
-    const std::shared_ptr<ResidentScene> resident = backend.load(prepared);
+    const std::shared_ptr<ResidentScene> resident = backend.load(prepared, job.tier);
     const Stopwatch frame;
     RenderResult result = backend.render(resident, job);
     timed.frame = frame.seconds();

@@ -129,7 +129,7 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
     for (std::int32_t frame = options.frames.first; frame <= options.frames.last; ++frame) {
         if (flying.size() >= static_cast<std::size_t>(options.in_flight)) take_oldest();
         const Stopwatch host;
-        const std::shared_ptr<ResidentScene> resident = backend.load(prepare(scene, {frame, {}}));
+        const std::shared_ptr<ResidentScene> resident = backend.load(prepare(scene, {frame, {}}), job.tier);
         RenderJob this_job = job;
         this_job.frame = static_cast<std::uint32_t>(frame);
         times.host += host.seconds();

@@ -134,7 +134,7 @@ class Sequence {
             }
         }
         while (with_backend_ >= most_with_backend) pass_to_writer();
-        make_resident(prepared, record);
+        make_resident(prepared, job.tier, record);
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
         started_.push_back({std::move(record), std::move(pending)});
@@ -154,9 +154,9 @@ class Sequence {
     }
 
     /// Loads the scene unless it is the one that is there: in a still scene only the random numbers change.
-    void make_resident(const PreparedScene& prepared, FrameRecord& record) {
+    void make_resident(const PreparedScene& prepared, Tier tier, FrameRecord& record) {
         if (resident_ && resident_hash_ == record.metadata.scene_hash) return;
-        resident_ = backend_.load(prepared);
+        resident_ = backend_.load(prepared, tier);
         resident_hash_ = record.metadata.scene_hash;
         record.seconds.backend = resident_->load_times();
     }

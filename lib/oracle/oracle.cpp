@@ -69,7 +69,7 @@ Vector shade(const SceneView& scene, const Ray<float>& ray, const NearestSurface
 
 class OracleScene final : public ResidentScene {
   public:
-    explicit OracleScene(const PreparedScene& scene) : prepared(scene) {}
+    OracleScene(const PreparedScene& scene, Tier tier) : ResidentScene(tier), prepared(scene) {}
     [[nodiscard]] PhaseTimes load_times() const override { return {}; }
     PreparedScene prepared;
 };
@@ -87,24 +87,25 @@ class OracleBackend final : public Backend {
                 .description = "brute force, 64-bit significands",
                 .exact = false};
     }
-    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
-        return std::make_shared<OracleScene>(scene);
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        return std::make_shared<OracleScene>(scene, tier);
     }
 
-    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
-        if (rays.size() != hits.size()) throw InputError("trace: the numbers of rays and hits differ");
+    double trace(ResidentScene& scene, const TraceJob& job) override {
+        check(job);
         const PreparedScene& prepared = dynamic_cast<const OracleScene&>(scene).prepared;
         const Stopwatch watch;
-        for_each_block(rays.size(), 256, [&](std::size_t i) {
-            const OracleHit hit = oracle_trace(prepared, rays[i]);
-            hits[i] = {static_cast<float>(hit.t), hit.primitive};
+        for_each_block(job.rays.size(), 256, [&](std::size_t i) {
+            const OracleHit hit = oracle_trace(prepared, job.rays[i]);
+            job.hits[i] = {static_cast<float>(hit.t), hit.primitive};
+            if (!job.wide_t.empty()) job.wide_t[i] = static_cast<double>(hit.t);
         });
         return watch.seconds();
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
-        check(job);
+        check(job, scene->tier());
         const PreparedScene& prepared = dynamic_cast<const OracleScene&>(*scene).prepared;
         const PixelJob pixel_job = make_pixel_job(prepared, job);
         const SceneView scene_view = view(prepared);

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "tandem/accuracy/tier.h"
 #include "tandem/film/film.h"
-#include "tandem/geometry/hit.h"
-#include "tandem/math/ray.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/stats.h"
+#include "tandem/render/trace_job.h"
 #include "tandem/scene/prepared_scene.h"
 
 namespace tandem {
@@ -21,12 +21,18 @@ struct Capabilities {
     bool exact = true;        ///< promises the bits of the strict tier
 };
 
-/// A scene in the memory of a backend. Belongs to the backend that loaded it and must not outlive it.
+/// A scene in the memory of a backend, made ready for a tier. Belongs to the backend that loaded it and must not
+/// outlive it.
 class ResidentScene {
   public:
+    explicit ResidentScene(Tier tier) : tier_(tier) {}
     virtual ~ResidentScene() = default;
+    [[nodiscard]] Tier tier() const { return tier_; }
     /// What load() cost.
     [[nodiscard]] virtual PhaseTimes load_times() const = 0;
+
+  private:
+    Tier tier_;
 };
 
 struct RenderResult {
@@ -50,11 +56,14 @@ class Backend {
     [[nodiscard]] virtual Capabilities capabilities() const = 0;
 
     /// Takes the scene into the backend's memory. Buffers of scenes that were let go are used again.
-    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene) = 0;
+    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
-    /// Nearest hits of rays in front of their origins (t > 0); sizes must be equal. Rays that are not traceable
-    /// (math/ray.h) miss. Returns the seconds that the tracing itself took, without copies.
-    virtual double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) = 0;
+    /// Nearest hits of rays in front of their origins (t > 0). Rays that are not traceable (math/ray.h) miss. Returns
+    /// the seconds that the tracing itself took, without copies.
+    virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;
+    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) {
+        return trace(scene, TraceJob{.rays = rays, .hits = hits});
+    }
 
     /// Starts a frame. A backend may run several at a time; get() returns them in any order.
     [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,

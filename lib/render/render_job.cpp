@@ -22,4 +22,13 @@ void check(const RenderJob& job) {
     }
 }
 
+void check(const RenderJob& job, Tier loaded_for) {
+    check(job);
+    if (job.tier != loaded_for) {
+        throw InputError(
+            fmt::format("the job asks for the tier '{0}', but its scene was loaded for '{1}'; load it for '{0}'",
+                        to_string(job.tier), to_string(loaded_for)));
+    }
+}
+
 }  // namespace tandem

@@ -12,11 +12,14 @@ struct RenderJob {
     int height = 900;   ///< pixels, 1 to 65536
     int samples = 100;  ///< per pixel, 1 to 2^24
     std::uint64_t seed = 0;
-    std::uint32_t frame = 0;  ///< random numbers differ from frame to frame
-    Tier tier = Tier::strict;
+    std::uint32_t frame = 0;   ///< random numbers differ from frame to frame
+    Tier tier = Tier::strict;  ///< the one that the scene was loaded for
 };
 
 /// Throws InputError that names the field.
 void check(const RenderJob& job);
+
+/// Also that the job asks for the tier that its scene was loaded for.
+void check(const RenderJob& job, Tier loaded_for);
 
 }  // namespace tandem

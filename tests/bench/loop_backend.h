@@ -16,7 +16,7 @@ namespace tandem::bench {
 
 class LoopScene final : public ResidentScene {
   public:
-    explicit LoopScene(PreparedScene scene) : prepared(std::move(scene)) {}
+    LoopScene(PreparedScene scene, Tier tier) : ResidentScene(tier), prepared(std::move(scene)) {}
     [[nodiscard]] PhaseTimes load_times() const override { return {.build = 1e-4, .upload = 2e-4}; }
 
     PreparedScene prepared;
@@ -29,15 +29,15 @@ class LoopBackend final : public Backend {
 
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Capabilities capabilities() const override { return {"a loop", "for tests", exact_}; }
-    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) override {
-        return std::make_shared<LoopScene>(scene);
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        return std::make_shared<LoopScene>(scene, tier);
     }
 
-    double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) override {
+    double trace(ResidentScene& scene, const TraceJob& job) override {
         const Stopwatch watch;
         const LoopTracer tracer{view(dynamic_cast<LoopScene&>(scene).prepared)};
-        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = to_hit(tracer.closest(rays[i], true));
-        if (spoiled_) hits[0].t += 1;
+        for (std::size_t i = 0; i < job.rays.size(); ++i) job.hits[i] = to_hit(tracer.closest(job.rays[i], true));
+        if (spoiled_) job.hits[0].t += 1;
         return watch.seconds();
     }
 

@@ -41,15 +41,16 @@ class GradientBackend : public Backend {
     [[nodiscard]] std::string name() const override { return name_; }
     [[nodiscard]] Capabilities capabilities() const override { return {"no device", "for tests", true}; }
 
-    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene&) override {
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene&, Tier tier) override {
         struct Loaded : ResidentScene {
+            using ResidentScene::ResidentScene;
             [[nodiscard]] PhaseTimes load_times() const override { return {.build = 0.25, .upload = 0.125}; }
         };
         ++loads;
-        return std::make_shared<Loaded>();
+        return std::make_shared<Loaded>(tier);
     }
 
-    double trace(ResidentScene&, std::span<const Ray<float>>, std::span<Hit>) override { return 0; }
+    double trace(ResidentScene&, const TraceJob&) override { return 0; }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene>, const RenderJob& job) override {
         struct Pending : PendingFrame {
