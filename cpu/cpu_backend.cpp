@@ -91,6 +91,7 @@ class CpuScene final : public ResidentScene {
         rtcSetGeometryUserData(geometry.get(), &view_);
         rtcSetGeometryBoundsFunction(geometry.get(), padded_bounds, nullptr);
         rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
+        rtcSetGeometryOccludedFunction(geometry.get(), kernels.occluded);
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometry(embree_.get(), geometry.get());
         rtcCommitScene(embree_.get());
@@ -145,14 +146,17 @@ class CpuBackend final : public Backend {
     double trace(ResidentScene& scene, const TraceJob& job) override {
         check(job);
         const CpuSceneView& view = dynamic_cast<const CpuScene&>(scene).view();
+        std::atomic<std::uint64_t> rejected = 0;
         const Stopwatch watch;
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.rays.size(), 1024), [&](const auto& range) {
                 const DefaultFpEnvironment guard;
-                set_.kernels().trace(view, part(job, range.begin(), range.size()));
+                rejected += set_.kernels().trace(view, part(job, range.begin(), range.size()));
             });
         });
-        return watch.seconds();
+        const double seconds = watch.seconds();
+        if (job.counters != nullptr) job.counters->rejected_rays += rejected;
+        return seconds;
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
@@ -177,6 +181,7 @@ class CpuBackend final : public Backend {
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.counters.invalid_samples = invalid;
+        result.stats.counters.dropped_primitives = resident.prepared().dropped_primitives;
         result.stats.rays = static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
         result.stats.variant = fmt::format("{}, {}", set_.name, resident.view().embree != nullptr ? "embree" : "loop");
         return std::make_unique<ReadyFrame>(std::move(result));

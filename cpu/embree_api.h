@@ -45,17 +45,43 @@ inline void intersect1(RTCScene scene, QueryContext& context, RTCRayHit& ray) {
 #endif
 }
 
+#if TANDEM_EMBREE_MAJOR == 4
+inline RTCOccludedArguments occluded_arguments(QueryContext& context, bool coherent) {
+    RTCOccludedArguments result;
+    rtcInitOccludedArguments(&result);
+    result.context = &context;
+    result.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    return result;
+}
+#endif
+
+inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
+#if TANDEM_EMBREE_MAJOR == 4
+    RTCOccludedArguments args = occluded_arguments(context, false);
+    rtcOccluded1(scene, &ray, &args);
+#else
+    rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
 /// Packets of 4, 8 and 16 by the type of the ray. `valid`: -1 for lanes that take part, aligned as the packet.
 #if TANDEM_EMBREE_MAJOR == 4
 #define TANDEM_EMBREE_PACKET(n)                                                                         \
     inline void intersect(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit##n& ray) { \
         RTCIntersectArguments args = arguments(context, true);                                          \
         rtcIntersect##n(valid, scene, &ray, &args);                                                     \
+    }                                                                                                   \
+    inline void occluded(const int* valid, RTCScene scene, QueryContext& context, RTCRay##n& ray) {     \
+        RTCOccludedArguments args = occluded_arguments(context, true);                                  \
+        rtcOccluded##n(valid, scene, &ray, &args);                                                      \
     }
 #else
 #define TANDEM_EMBREE_PACKET(n)                                                                         \
     inline void intersect(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit##n& ray) { \
         rtcIntersect##n(valid, scene, &context, &ray);                                                  \
+    }                                                                                                   \
+    inline void occluded(const int* valid, RTCScene scene, QueryContext& context, RTCRay##n& ray) {     \
+        rtcOccluded##n(valid, scene, &context, &ray);                                                   \
     }
 #endif
 TANDEM_EMBREE_PACKET(4)
@@ -67,14 +93,17 @@ template <int lanes>
 struct Packet;
 template <>
 struct Packet<4> {
+    using Ray = RTCRay4;
     using RayHit = RTCRayHit4;
 };
 template <>
 struct Packet<8> {
+    using Ray = RTCRay8;
     using RayHit = RTCRayHit8;
 };
 template <>
 struct Packet<16> {
+    using Ray = RTCRay16;
     using RayHit = RTCRayHit16;
 };
 

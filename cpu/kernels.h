@@ -29,9 +29,11 @@ struct CpuKernels {
     const char* instruction_set;
     /// Writes the sums of the tile's pixels into the film (rows of job.width); returns how many samples were invalid.
     std::uint64_t (*render_tile)(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
-    void (*trace)(const CpuSceneView& scene, const TraceJob& job);
-    /// Embree's callback for primitives. The geometry's user pointer is a CpuSceneView.
+    /// Returns how many rays were not traceable.
+    std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
+    /// Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.
     RTCIntersectFunctionN intersect;
+    RTCOccludedFunctionN occluded;
 };
 
 const CpuKernels& cpu_kernels_v2();

@@ -15,8 +15,8 @@ using namespace cuda;
 /// Memory and marks of one frame in flight.
 struct FrameMemory {
     Buffer<DeviceMemory> film;
-    Buffer<DeviceMemory> invalid;  ///< one counter
-    Buffer<PinnedMemory> invalid_on_host;
+    Buffer<DeviceMemory> counters;
+    Buffer<PinnedMemory> counters_on_host;
     Event render_start, render_end, download_start, download_end;
 };
 
@@ -28,6 +28,16 @@ std::shared_ptr<Vec3d> film_memory(FilmPool& pool, std::size_t bytes) {
     buffer->reserve(bytes);
     auto* sums = reinterpret_cast<Vec3d*>(buffer->data());
     return {std::move(buffer), sums};
+}
+
+RenderCounters read_counters(const Buffer<PinnedMemory>& buffer) {
+    DeviceCounters counters;
+    std::memcpy(&counters, buffer.data(), sizeof(counters));
+    RenderCounters result;
+    result.invalid_samples = counters.invalid_samples;
+    result.rejected_rays = counters.rejected_rays;
+    result.stack_overflows = counters.stack_overflows;
+    return result;
 }
 
 class CudaFrame final : public PendingFrame {
@@ -42,9 +52,7 @@ class CudaFrame final : public PendingFrame {
         memory_->download_end.wait();
         result_.stats.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
         result_.stats.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
-        unsigned long long invalid = 0;
-        std::memcpy(&invalid, memory_->invalid_on_host.data(), sizeof(invalid));
-        result_.stats.counters.invalid_samples = invalid;
+        result_.stats.counters += read_counters(memory_->counters_on_host);
         return std::move(result_);
     }
 
@@ -85,22 +93,29 @@ class CudaBackend final : public Backend {
     double trace(ResidentScene& scene, const TraceJob& job) override {
         check(job);
         const auto& resident = dynamic_cast<const DeviceScene&>(scene);
-        rays_.reserve(job.rays.size_bytes());
         hits_.reserve(job.hits.size_bytes());
         wide_t_.reserve(job.wide_t.size_bytes());
-        const DeviceRays rays = {
-            reinterpret_cast<const Ray<float>*>(rays_.data()), reinterpret_cast<Hit*>(hits_.data()),
-            job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()), job.rays.size()};
+        counters_.reserve(sizeof(DeviceCounters));
+        counters_on_host_.reserve(sizeof(DeviceCounters));
         compute_.wait_for(resident.uploaded());
-        check(cudaMemcpyAsync(rays_.data(), job.rays.data(), job.rays.size_bytes(), cudaMemcpyHostToDevice,
-                              compute_.get()),
-              "uploading rays");
+        const DeviceRays rays = {.rays = upload(job.rays, rays_),
+                                 .sources = upload(job.sources, sources_),
+                                 .ends = upload(job.ends, ends_),
+                                 .hits = reinterpret_cast<Hit*>(hits_.data()),
+                                 .wide_t = job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()),
+                                 .counters = reinterpret_cast<DeviceCounters*>(counters_.data()),
+                                 .count = job.rays.size()};
+        check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
         trace_start_.record(compute_.get());
         launch_trace(resident.view(), rays, compute_.get());
         trace_end_.record(compute_.get());
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);
+        check(cudaMemcpyAsync(counters_on_host_.data(), counters_.data(), sizeof(DeviceCounters),
+                              cudaMemcpyDeviceToHost, compute_.get()),
+              "downloading counters");
         check(cudaStreamSynchronize(compute_.get()), "tracing rays");
+        if (job.counters != nullptr) *job.counters += read_counters(counters_on_host_);
         return seconds_between(trace_start_, trace_end_);
     }
 
@@ -111,35 +126,36 @@ class CudaBackend final : public Backend {
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
         const std::size_t bytes = pixels * sizeof(Vec3d);
-        constexpr std::size_t counter_bytes = sizeof(unsigned long long);
+        constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
 
         auto memory = frames_->lease();
         memory->film.reserve(bytes);
-        memory->invalid.reserve(counter_bytes);
-        memory->invalid_on_host.reserve(counter_bytes);
+        memory->counters.reserve(counter_bytes);
+        memory->counters_on_host.reserve(counter_bytes);
         std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
 
         compute_.wait_for(resident.uploaded());
         memory->render_start.record(compute_.get());
-        check(cudaMemsetAsync(memory->invalid.data(), 0, counter_bytes, compute_.get()), "clearing a counter");
+        check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
         launch_render(resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
                       reinterpret_cast<Vec3d*>(memory->film.data()),
-                      reinterpret_cast<unsigned long long*>(memory->invalid.data()), compute_.get());
+                      reinterpret_cast<DeviceCounters*>(memory->counters.data()), compute_.get());
         memory->render_end.record(compute_.get());
 
         download_.wait_for(memory->render_end);
         memory->download_start.record(download_.get());
         check(cudaMemcpyAsync(sums.get(), memory->film.data(), bytes, cudaMemcpyDeviceToHost, download_.get()),
               "downloading the film");
-        check(cudaMemcpyAsync(memory->invalid_on_host.data(), memory->invalid.data(), counter_bytes,
+        check(cudaMemcpyAsync(memory->counters_on_host.data(), memory->counters.data(), counter_bytes,
                               cudaMemcpyDeviceToHost, download_.get()),
-              "downloading a counter");
+              "downloading counters");
         memory->download_end.record(download_.get());
 
         const KernelFacts facts = render_kernel_facts(resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         result.stats.rays = pixels * pixel_job.samples;
+        result.stats.counters.dropped_primitives = resident.camera().dropped_primitives;
         result.stats.device_bytes = resident.bytes() + bytes;
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;
@@ -154,6 +170,16 @@ class CudaBackend final : public Backend {
     static void check(const TraceJob& job) { tandem::check(job); }
     static void check(const RenderJob& job, Tier loaded_for) { tandem::check(job, loaded_for); }
 
+    /// Starts a copy to the device, and says where it goes; null for nothing.
+    template <class T>
+    const T* upload(std::span<const T> from, Buffer<DeviceMemory>& to) {
+        if (from.empty()) return nullptr;
+        to.reserve(from.size_bytes());
+        check(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, compute_.get()),
+              "uploading rays");
+        return reinterpret_cast<const T*>(to.data());
+    }
+
     /// Starts a copy to the host.
     template <class T>
     void download(std::span<T> to, const Buffer<DeviceMemory>& from) {
@@ -167,7 +193,8 @@ class CudaBackend final : public Backend {
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
     std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
     std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
-    Buffer<DeviceMemory> rays_, hits_, wide_t_;
+    Buffer<DeviceMemory> rays_, sources_, ends_, hits_, wide_t_, counters_;
+    Buffer<PinnedMemory> counters_on_host_;
     Event trace_start_, trace_end_;
 };
 

@@ -54,6 +54,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     camera_.world_from_camera = scene.world_from_camera;
     camera_.orthographic = scene.orthographic;
     camera_.half_height = scene.half_height;
+    camera_.dropped_primitives = scene.dropped_primitives;
 
     const SceneView host = tandem::view(scene);
     Bvh bvh;

@@ -27,7 +27,7 @@ class DeviceScene final : public ResidentScene {
     [[nodiscard]] PhaseTimes load_times() const override;
     [[nodiscard]] const DeviceSceneView& view() const { return view_; }
     [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }
-    /// For the camera; arrays are not kept.
+    /// For the camera and the count of dropped primitives; arrays are not kept.
     [[nodiscard]] const PreparedScene& camera() const { return camera_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 

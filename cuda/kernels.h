@@ -9,6 +9,7 @@
 #include "tandem/geometry/few_tracer.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
+#include "tandem/render/trace_job.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem::cuda {
@@ -33,15 +34,25 @@ struct KernelFacts {
     double occupancy;  ///< resident warps over the most there can be
 };
 
-/// Starts the sums of all pixels; `invalid` counts dropped samples. Both in device memory.
-void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                   unsigned long long* invalid, cudaStream_t stream);
+/// What kernels count, in device memory.
+struct DeviceCounters {
+    unsigned long long invalid_samples;
+    unsigned long long rejected_rays;
+    unsigned long long stack_overflows;
+};
 
-/// Rays and room for their hits, in device memory. `wide_t` may be null.
+/// Starts the sums of all pixels. Both in device memory.
+void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
+                   DeviceCounters* counters, cudaStream_t stream);
+
+/// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.
 struct DeviceRays {
     const Ray<float>* rays;
+    const RaySource* sources;
+    const RayEnd* ends;
     Hit* hits;
     double* wide_t;
+    DeviceCounters* counters;
     std::size_t count;
 };
 

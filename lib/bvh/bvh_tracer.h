@@ -15,6 +15,7 @@ struct BvhView {
     const Sphere* entry_spheres;
     const std::uint32_t* entry_ids;
     StructureFrame frame;
+    unsigned long long* stack_overflows;  ///< counts rays whose traversal stack was full; may be null
 };
 
 namespace bvh_detail {
@@ -35,20 +36,64 @@ TANDEM_HD Quad load_quad(const void* address) {
 #endif
 }
 
+TANDEM_HD void count(unsigned long long* counter) {
+    if (counter == nullptr) return;
+#if TANDEM_ON_DEVICE
+    atomicAdd(counter, 1ULL);
+#else
+    ++*counter;
+#endif
+}
+
 }  // namespace bvh_detail
 
 struct BvhTracer {
     SceneView scene;
     BvhView bvh;
 
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
+    /// As LoopTracer::closest().
+    template <class From>
+    TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
         Closest<float> best = no_hit<float>();
-        if (!active) return best;
+        if (active && !find<Search::nearest>(ray, source, best)) {
+            bvh_detail::count(bvh.stack_overflows);
+            return closest_one_by_one(*this, ray, source);
+        }
+        return best;
+    }
+
+    /// As LoopTracer::occluded().
+    TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
+                            bool active) const {
+        Closest<float> best = before<float>(t_max);
+        if (active && !find<Search::any>(ray, source, best)) {
+            bvh_detail::count(bvh.stack_overflows);
+            return occluded_one_by_one(*this, ray, t_max, source);
+        }
+        return best.t < t_max;
+    }
+
+  private:
+    // A hierarchy from build_bvh() is never too deep for the stack. One from elsewhere may be: then the ray asks every
+    // primitive, which is slow and right.
+    template <class From>
+    TANDEM_HD_RARE static Closest<float> closest_one_by_one(const BvhTracer& tracer, Ray<float> ray, From source) {
+        return LoopTracer{tracer.scene}.closest(ray, source, true);
+    }
+    TANDEM_HD_RARE static bool occluded_one_by_one(const BvhTracer& tracer, Ray<float> ray, double t_max,
+                                                   ShadowSource<float> source) {
+        return LoopTracer{tracer.scene}.occluded(ray, t_max, source, true);
+    }
+
+    /// False if the stack was full, and `best` is not to be used.
+    template <Search search, class From>
+    TANDEM_HD bool find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
         const Proposal<float> proposal = propose(ray, bvh.frame, true);
-        if (!proposal.active) return best;
+        if (!proposal.active) return true;
         const FilterRay<float> filter = make_filter_ray(ray);
         const SlabRay slab = make_slab_ray(proposal.ray.origin, proposal.ray.direction);
-        float limit = 3e38F;
+        const double t_max = best.t;
+        float limit = search == Search::any ? proposal.limit(t_max) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
         std::int32_t at = 0;
@@ -67,6 +112,7 @@ struct BvhTracer {
                 const auto child1 = static_cast<std::int32_t>(bits_of(children.b));
                 if (enter0 && enter1) {
                     const bool second_first = entry1 < entry0;
+                    if (depth == max_bvh_depth) [[unlikely]] return false;
                     stack[depth++] = second_first ? child0 : child1;
                     at = second_first ? child1 : child0;
                     continue;
@@ -76,16 +122,19 @@ struct BvhTracer {
                     continue;
                 }
             } else {
-                try_leaf(at, filter, proposal, best, limit);
+                try_leaf(at, filter, source, proposal, best, limit);
+                if constexpr (search == Search::any) {
+                    if (best.t < t_max) return true;
+                }
             }
-            if (depth == 0) return best;
+            if (depth == 0) return true;
             at = stack[--depth];
         }
     }
 
-  private:
-    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const Proposal<float>& proposal,
-                            Closest<float>& best, float& limit) const {
+    template <class From>
+    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const From& source,
+                            const Proposal<float>& proposal, Closest<float>& best, float& limit) const {
         const std::uint32_t first = leaf_first(leaf);
         const std::uint32_t end = first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
@@ -93,13 +142,13 @@ struct BvhTracer {
             const Sphere around = {{q.a, q.b, q.c}, q.d};
             if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
             const std::uint32_t id = bvh.entry_ids[i];
-            const double before = best.t;
+            const double t_before = best.t;
             if (id < scene.sphere_count) {
-                decide(around, id, filter.ray, true, best);
+                decide(around, id, filter.ray, source, true, best);
             } else {
-                intersect_primitive<float>(scene, id, filter, true, best);
+                intersect_primitive<float>(scene, id, filter, source, true, best);
             }
-            if (best.t < before) limit = proposal.limit(best.t);
+            if (best.t < t_before) limit = proposal.limit(best.t);
         }
     }
 };

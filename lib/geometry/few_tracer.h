@@ -15,10 +15,27 @@ struct FewTracer {
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
 
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
+    /// As LoopTracer::closest().
+    template <class From>
+    TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
         Closest<float> best = no_hit<float>();
-        if (!active) return best;
+        if (active) find<Search::nearest>(ray, source, best);
+        return best;
+    }
+
+    /// As LoopTracer::occluded().
+    TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
+                            bool active) const {
+        Closest<float> best = before<float>(t_max);
+        if (active) find<Search::any>(ray, source, best);
+        return best.t < t_max;
+    }
+
+  private:
+    template <Search search, class From>
+    TANDEM_HD void find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
         const FilterRay<float> f = make_filter_ray(ray);
+        const double t_max = best.t;
         std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
 #if TANDEM_ON_DEVICE
 #pragma unroll
@@ -37,13 +54,15 @@ struct FewTracer {
         for (; candidates != 0; candidates &= candidates - 1) {
             const auto slot = static_cast<std::uint32_t>(lowest_bit(candidates));
             if (slot < max_spheres) {
-                decide(scene.spheres[slot], slot, ray, true, best);
+                decide(scene.spheres[slot], slot, ray, source, true, best);
             } else {
                 const std::uint32_t box = slot - max_spheres;
-                decide(scene.boxes[box], scene.sphere_count + box, ray, true, best);
+                decide(scene.boxes[box], scene.sphere_count + box, ray, source, true, best);
+            }
+            if constexpr (search == Search::any) {
+                if (best.t < t_max) return;
             }
         }
-        return best;
     }
 };
 

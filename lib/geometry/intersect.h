@@ -3,6 +3,7 @@
 
 #include "tandem/geometry/filter.h"
 #include "tandem/geometry/hit.h"
+#include "tandem/geometry/ray_source.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -16,69 +17,62 @@ TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, std::uint32_t
     best.primitive = select(closer, id, best.primitive);
 }
 
-/// Keeps the nearer of `best` and the first point in front of the ray's origin, in the lanes of `candidate`, which the
-/// filter let through.
-template <class Real>
-TANDEM_HD void decide(const Sphere& sphere, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
-                      Closest<Real>& best) {
+/// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
+/// `candidate`, which the filter let through. `From` is NoSource, Source<Real> or ShadowSource<Real>.
+template <class Real, class From, class Primitive>
+TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
+                      const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t;
-    offer<Real>(first_in_front(sphere, ray, t) && candidate, t, id, best);
-}
-template <class Real>
-TANDEM_HD void decide(const Box& box, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
-                      Closest<Real>& best) {
-    Double<Real> t;
-    offer<Real>(first_in_front<Real>(cross_box(box, ray), t) && candidate, t, id, best);
+    const Mask<Real> hit = first_from(source, primitive, id, ray, t);
+    offer<Real>(hit && candidate, t, id, best);
 }
 
-// One primitive each: the float filter first, then the decision in double.
-
+// The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than
+// the filter allows.
 template <class Real>
-TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
-                         Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
-    if (any(candidate)) decide(sphere, id, f.ray, candidate, best);
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
+    return may_touch_sphere(f, sphere.centre, sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
+    return may_touch_box(f, box.lower, box.upper);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Ellipsoid& body) {
+    return may_touch(f, body.placement.bounding_sphere);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Parallelepiped& body) {
+    return may_touch(f, body.placement.bounding_sphere);
 }
 
-template <class Real>
-TANDEM_HD void intersect(const Box& box, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
-                         Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
-    if (any(candidate)) decide(box, id, f.ray, candidate, best);
-}
-
-template <class Real>
-TANDEM_HD void intersect_ellipsoid(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
-                                   const Mask<Real>& active, Closest<Real>& best) {
-    const Sphere& around = placement.bounding_sphere;
-    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) {
-        Double<Real> t;
-        offer<Real>(first_in_front(ellipsoid_roots(placement, f.ray), t) && candidate, t, id, best);
-    }
-}
-
-template <class Real>
-TANDEM_HD void intersect_parallelepiped(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
-                                        const Mask<Real>& active, Closest<Real>& best) {
-    const Sphere& around = placement.bounding_sphere;
-    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) {
-        Double<Real> t;
-        const BoxCrossing<Real> crossing = cross_parallelepiped(to_object(placement, f.ray));
-        offer<Real>(first_in_front<Real>(crossing, t) && candidate, t, id, best);
-    }
+/// One primitive: the float filter first, then the decision in double.
+template <class Real, class From, class Primitive>
+TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
+                         const Mask<Real>& active, Closest<Real>& best) {
+    const Mask<Real> candidate = active && may_touch(f, primitive);
+    if (any(candidate)) decide(primitive, id, f.ray, source, candidate, best);
 }
 
 /// Any primitive by its id.
-template <class Real>
+template <class Real, class From>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
-                                   const Mask<Real>& active, Closest<Real>& best) {
+                                   const From& source, const Mask<Real>& active, Closest<Real>& best) {
+    const auto as_itself = [&](const auto& primitive)
+                               TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, source, active, best); };
     visit_primitive(
-        scene, id, [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { intersect(sphere, id, f, active, best); },
-        [&](const Box& box) TANDEM_INLINE_LAMBDA { intersect(box, id, f, active, best); },
-        [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { intersect_ellipsoid(ellipsoid, id, f, active, best); },
-        [&](const Placement& body) TANDEM_INLINE_LAMBDA { intersect_parallelepiped(body, id, f, active, best); });
+        scene, id, as_itself, as_itself,
+        [&](const Placement& placement) TANDEM_INLINE_LAMBDA { as_itself(Ellipsoid{placement}); },
+        [&](const Placement& placement) TANDEM_INLINE_LAMBDA { as_itself(Parallelepiped{placement}); });
+}
+
+/// What a tracer looks for: the nearest hit, or any one nearer than where the search starts.
+enum class Search { nearest, any };
+
+/// Where a search for any hit with t < t_max starts: nothing at t_max counts, whatever its id.
+template <class Real>
+TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
+    return {t_max, UInt<Real>(0U)};
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
@@ -86,20 +80,45 @@ TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, con
 struct LoopTracer {
     SceneView scene;
 
-    template <class Real>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const Mask<Real>& active) const {
+    /// The nearest hit of a ray that comes from `source` (NoSource or Source<Real>).
+    template <class Real, class From>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
         Closest<Real> best = no_hit<Real>();
-        const FilterRay<Real> f = make_filter_ray(ray);
-        std::uint32_t id = 0;
-        for (std::uint32_t i = 0; i < scene.sphere_count; ++i, ++id) intersect(scene.spheres[i], id, f, active, best);
-        for (std::uint32_t i = 0; i < scene.box_count; ++i, ++id) intersect(scene.boxes[i], id, f, active, best);
-        for (std::uint32_t i = 0; i < scene.ellipsoid_count; ++i, ++id) {
-            intersect_ellipsoid(scene.ellipsoids[i], id, f, active, best);
-        }
-        for (std::uint32_t i = 0; i < scene.parallelepiped_count; ++i, ++id) {
-            intersect_parallelepiped(scene.parallelepipeds[i], id, f, active, best);
-        }
+        find<Search::nearest>(ray, source, active, best);
         return best;
+    }
+
+    /// Is anything hit at some t < t_max? The comparison is exact, in double.
+    template <class Real>
+    TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+                                  const Mask<Real>& active) const {
+        Closest<Real> best = before<Real>(t_max);
+        find<Search::any>(ray, source, active, best);
+        return active && best.t < t_max;
+    }
+
+  private:
+    template <Search search, class Real, class From>
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Mask<Real> active, Closest<Real>& best) const {
+        const FilterRay<Real> f = make_filter_ray(ray);
+        const Double<Real> t_max = best.t;
+        std::uint32_t id = 0;
+        const auto try_all = [&](const auto* primitives, std::uint32_t count, auto as_kind) TANDEM_INLINE_LAMBDA {
+            for (std::uint32_t i = 0; i < count; ++i, ++id) {
+                if constexpr (search == Search::any) {
+                    active = active && !(best.t < t_max);
+                    if (!any(active)) return;
+                }
+                intersect(as_kind(primitives[i]), id, f, source, active, best);
+            }
+        };
+        const auto itself = [](const auto& primitive) TANDEM_INLINE_LAMBDA -> const auto& { return primitive; };
+        try_all(scene.spheres, scene.sphere_count, itself);
+        try_all(scene.boxes, scene.box_count, itself);
+        try_all(scene.ellipsoids, scene.ellipsoid_count,
+                [](const Placement& p) TANDEM_INLINE_LAMBDA { return Ellipsoid{p}; });
+        try_all(scene.parallelepipeds, scene.parallelepiped_count,
+                [](const Placement& p) TANDEM_INLINE_LAMBDA { return Parallelepiped{p}; });
     }
 };
 

@@ -1,20 +1,20 @@
 /// The path loop: what comes back along a camera ray. So far a path has one vertex, shaded by Phong's model.
 #pragma once
 
-#include "tandem/geometry/hit.h"
+#include "tandem/geometry/ray_source.h"
 #include "tandem/integrator/surface.h"
 #include "tandem/material/phong.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
 
-/// Radiance along `ray`, RGB, linear. `Tracer` has `Closest<Real> closest(const Ray<Real>&, Mask<Real> active)`.
+/// Radiance along `ray`, RGB, linear. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions.
 /// Lanes outside `active` return anything.
 template <class Real, class Tracer>
 TANDEM_HD Vec3<Real> radiance(const Tracer& tracer, const SceneView& scene, const Ray<Real>& ray,
                               const Mask<Real>& active) {
     using D = Double<Real>;
-    const Closest<Real> hit = tracer.closest(ray, active);
+    const Closest<Real> hit = tracer.closest(ray, NoSource{}, active);
     const Mask<Real> found = active && hit.primitive != UInt<Real>(no_primitive);
     Vec3<Real> result = {Real(0.0F), Real(0.0F), Real(0.0F)};
     if (!all(found)) result = background(scene.environment, ray.direction);

@@ -19,6 +19,7 @@ namespace {
 
 using oracle::Line;
 using oracle::Real;
+using oracle::Start;
 using oracle::SurfaceHit;
 using oracle::Vector;
 
@@ -27,12 +28,17 @@ struct NearestSurface {
     std::uint32_t primitive = no_primitive;
 };
 
-NearestSurface nearest_surface(const SceneView& scene, const Ray<float>& ray) {
+NearestSurface nearest_surface(const SceneView& scene, const Ray<float>& ray, const RaySource& source,
+                               std::uint32_t except = no_primitive) {
     NearestSurface nearest;
     if (!is_traceable(ray)) return nearest;
     const Line line = {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
-        const auto hit = oracle::hit_primitive(scene, id, line);
+        if (id == except) continue;
+        const Start start = id != source.primitive ? Start::anywhere
+                            : source.inside        ? Start::leaving_inward
+                                                   : Start::leaving_outward;
+        const auto hit = oracle::hit_primitive(scene, id, line, start);
         // ids ascend, so a tie keeps the lower one
         if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
     }
@@ -43,6 +49,9 @@ Vector background_towards(const Environment& environment, const Vector& directio
     const Real m = (oracle::unit(direction).y + 1) / 2;
     return oracle::to_vector(environment.bottom) * (1 - m) + oracle::to_vector(environment.top) * m;
 }
+
+/// Is there a finite float for it?
+bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
 
 Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
@@ -93,13 +102,24 @@ class OracleBackend final : public Backend {
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
         check(job);
-        const PreparedScene& prepared = dynamic_cast<const OracleScene&>(scene).prepared;
+        const SceneView scene_view = view(dynamic_cast<const OracleScene&>(scene).prepared);
         const Stopwatch watch;
+        std::atomic<std::uint64_t> rejected = 0;
         for_each_block(job.rays.size(), 256, [&](std::size_t i) {
-            const OracleHit hit = oracle_trace(prepared, job.rays[i]);
-            job.hits[i] = {static_cast<float>(hit.t), hit.primitive};
-            if (!job.wide_t.empty()) job.wide_t[i] = static_cast<double>(hit.t);
+            if (!is_traceable(job.rays[i])) ++rejected;
+            const RaySource source = job.sources.empty() ? RaySource{} : job.sources[i];
+            const NearestSurface nearest =
+                nearest_surface(scene_view, job.rays[i], source, job.ends.empty() ? no_primitive : job.ends[i].light);
+            const Real t = nearest.surface.t;
+            if (!job.ends.empty()) {
+                const bool occluded = nearest.primitive != no_primitive && t < Real{job.ends[i].t};
+                job.hits[i] = {0, occluded ? some_primitive : no_primitive};
+            } else {
+                job.hits[i] = {static_cast<float>(t), nearest.primitive};
+            }
+            if (!job.wide_t.empty()) job.wide_t[i] = job.ends.empty() ? static_cast<double>(t) : 0;
         });
+        if (job.counters != nullptr) job.counters->rejected_rays += rejected;
         return watch.seconds();
     }
 
@@ -111,28 +131,37 @@ class OracleBackend final : public Backend {
         const SceneView scene_view = view(prepared);
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples);
+        std::atomic<std::uint64_t> invalid = 0;
         const Stopwatch watch;
         for_each_block(result.film.pixel_count(), 64, [&](std::size_t pixel) {
-            result.film.sums()[pixel] = render(scene_view, pixel_job, static_cast<std::uint32_t>(pixel));
+            result.film.sums()[pixel] = render(scene_view, pixel_job, static_cast<std::uint32_t>(pixel), invalid);
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.rays = result.film.pixel_count() * pixel_job.samples;
+        result.stats.counters.invalid_samples = invalid;
+        result.stats.counters.dropped_primitives = prepared.dropped_primitives;
         result.stats.variant = "brute force";
         return std::make_unique<ReadyFrame>(std::move(result));
     }
 
   private:
-    static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel) {
+    static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel,
+                        std::atomic<std::uint64_t>& invalid) {
         Vector sum{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
             const auto random = random_block<float>(job.seed, job.frame, pixel, sample, Dimension::film);
             const Ray<float> ray =
                 camera_ray<float>(job.camera, pixel % job.width, pixel / job.width,
                                   to_unit_interval<float>(random.word[0]), to_unit_interval<float>(random.word[1]));
-            const NearestSurface nearest = nearest_surface(scene, ray);
-            sum = sum + (nearest.primitive == no_primitive
-                             ? background_towards(scene.environment, oracle::to_vector(ray.direction))
-                             : shade(scene, ray, nearest));
+            const NearestSurface nearest = nearest_surface(scene, ray, {});
+            const Vector value = nearest.primitive == no_primitive
+                                     ? background_towards(scene.environment, oracle::to_vector(ray.direction))
+                                     : shade(scene, ray, nearest);
+            if (is_float(value.x) && is_float(value.y) && is_float(value.z)) {
+                sum = sum + value;
+            } else {
+                ++invalid;
+            }
         }
         return {static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)};
     }
@@ -156,8 +185,8 @@ class OracleBackend final : public Backend {
 
 }  // namespace
 
-OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray) {
-    const NearestSurface nearest = nearest_surface(view(scene), ray);
+OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source) {
+    const NearestSurface nearest = nearest_surface(view(scene), ray, source);
     return {nearest.surface.t, nearest.primitive};
 }
 

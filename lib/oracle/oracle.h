@@ -15,8 +15,9 @@ struct OracleHit {
     std::uint32_t primitive = no_primitive;
 };
 
-/// Nearest hit in front of the origin; ties go to the lower id. Not traceable rays miss.
-[[nodiscard]] OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray);
+/// Nearest hit in front of the origin of a ray that comes from `source`; ties go to the lower id. Not traceable rays
+/// miss.
+[[nodiscard]] OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source = {});
 
 [[nodiscard]] std::unique_ptr<Backend> make_oracle_backend(const BackendOptions& options);
 

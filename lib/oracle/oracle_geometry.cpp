@@ -8,7 +8,15 @@ namespace tandem::oracle {
 
 Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
 
-std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line) {
+namespace {
+
+/// t of the far side for a ray that is inside by its own account: in front, whatever rounding did to the origin.
+Real ahead(Real t) { return std::max<Real>(t, 0x1p-1022L); }
+
+}  // namespace
+
+std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line, Start start) {
+    if (start == Start::leaving_outward) return std::nullopt;
     // go to the foot of the perpendicular from the centre, then half a chord back or forth
     const Real speed = std::sqrt(inner(line.direction, line.direction));
     const Vector along = line.direction * (1 / speed);
@@ -16,7 +24,10 @@ std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Li
     const Real to_foot = -inner(from_centre, along);
     const Vector foot = from_centre + along * to_foot;
     const Real height2 = radius * radius - inner(foot, foot);
-    if (!(height2 >= 0)) return std::nullopt;
+    if (!(height2 >= 0)) {
+        if (start == Start::anywhere) return std::nullopt;
+        return SurfaceHit{ahead(to_foot / speed), unit(foot)};  // it goes by, a rounding error outside
+    }
     const Real half_chord = std::sqrt(height2);
     // the root that does not cancel, and the other by the power of the point
     const Real far_root = to_foot >= 0 ? to_foot + half_chord : to_foot - half_chord;
@@ -25,12 +36,14 @@ std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Li
     const Real other = far_root == 0 ? 0 : power / far_root;
     const Real entry = std::min(far_root, other);
     const Real exit = std::max(far_root, other);
+    if (start == Start::leaving_inward) return SurfaceHit{ahead(exit / speed), unit(from_centre + along * exit)};
     const Real s = entry > 0 ? entry : exit;
     if (!(s > 0)) return std::nullopt;
     return SurfaceHit{s / speed, unit(from_centre + along * s)};
 }
 
-std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line) {
+std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line, Start start) {
+    if (start == Start::leaving_outward) return std::nullopt;
     Real entry = -HUGE_VALL;
     Real exit = HUGE_VALL;
     Vector entry_normal{0, 0, 0};
@@ -51,16 +64,18 @@ std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, cons
         }
         return true;
     };
-    const bool crosses = clip(lower.x, upper.x, line.origin.x, line.direction.x, {1, 0, 0}) &&
-                         clip(lower.y, upper.y, line.origin.y, line.direction.y, {0, 1, 0}) &&
-                         clip(lower.z, upper.z, line.origin.z, line.direction.z, {0, 0, 1}) && entry <= exit;
+    const bool in_x = clip(lower.x, upper.x, line.origin.x, line.direction.x, {1, 0, 0});
+    const bool in_y = clip(lower.y, upper.y, line.origin.y, line.direction.y, {0, 1, 0});
+    const bool in_z = clip(lower.z, upper.z, line.origin.z, line.direction.z, {0, 0, 1});
+    if (start == Start::leaving_inward) return SurfaceHit{ahead(exit), exit_normal};
+    const bool crosses = in_x && in_y && in_z && entry <= exit;
     if (!crosses) return std::nullopt;
     if (entry > 0) return SurfaceHit{entry, entry_normal};
     if (exit > 0) return SurfaceHit{exit, exit_normal};
     return std::nullopt;
 }
 
-std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line) {
+std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line, Start start) {
     const Vector rows[3] = {to_vector(placement.object_from_world.row[0]),
                             to_vector(placement.object_from_world.row[1]),
                             to_vector(placement.object_from_world.row[2])};
@@ -68,7 +83,8 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
         return Vector{inner(rows[0], v), inner(rows[1], v), inner(rows[2], v)};
     };
     const Line local = {to_object(line.origin - to_vector(placement.centre)), to_object(line.direction)};
-    std::optional<SurfaceHit> hit = is_box ? hit_box({-1, -1, -1}, {1, 1, 1}, local) : hit_sphere({0, 0, 0}, 1, local);
+    std::optional<SurfaceHit> hit =
+        is_box ? hit_box({-1, -1, -1}, {1, 1, 1}, local, start) : hit_sphere({0, 0, 0}, 1, local, start);
     if (hit) {
         const Vector n = hit->normal;
         hit->normal = unit(rows[0] * n.x + rows[1] * n.y + rows[2] * n.z);
@@ -76,13 +92,14 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
     return hit;
 }
 
-std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line) {
+std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
+                                        Start start) {
     std::optional<SurfaceHit> hit;
     visit_primitive(
-        scene, id, [&](const Sphere& s) { hit = hit_sphere(to_vector(s.centre), s.radius, line); },
-        [&](const Box& b) { hit = hit_box(to_vector(b.lower), to_vector(b.upper), line); },
-        [&](const Placement& p) { hit = hit_placed(p, false, line); },
-        [&](const Placement& p) { hit = hit_placed(p, true, line); });
+        scene, id, [&](const Sphere& s) { hit = hit_sphere(to_vector(s.centre), s.radius, line, start); },
+        [&](const Box& b) { hit = hit_box(to_vector(b.lower), to_vector(b.upper), line, start); },
+        [&](const Placement& p) { hit = hit_placed(p, false, line, start); },
+        [&](const Placement& p) { hit = hit_placed(p, true, line, start); });
     return hit;
 }
 

@@ -25,17 +25,25 @@ struct Line {
     Vector origin, direction;
 };
 
-/// What lies at the nearest crossing in front of the origin.
+/// What lies at a crossing.
 struct SurfaceHit {
     Real t;
     Vector normal;  ///< unit, outward
 };
 
-[[nodiscard]] std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line);
-[[nodiscard]] std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line);
+/// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.
+enum class Start { anywhere, leaving_outward, leaving_inward };
+
+/// The nearest crossing in front of the origin. One that leaves the body outward has none; one that leaves it inward
+/// has its far side, at the smallest t there is if rounding has put the origin behind that.
+[[nodiscard]] std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line, Start start);
+[[nodiscard]] std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line,
+                                                Start start);
 /// `is_box`: the cube [-1, 1]^3 under the placement, else the unit sphere.
-[[nodiscard]] std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line);
+[[nodiscard]] std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line,
+                                                   Start start);
 /// Any primitive of a scene.
-[[nodiscard]] std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line);
+[[nodiscard]] std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
+                                                      Start start);
 
 }  // namespace tandem::oracle

@@ -15,9 +15,20 @@ struct PhaseTimes {
     double download = 0;  ///< device to host
 };
 
-/// Things that must not happen but are survived: counted, never hidden.
+/// Things that must not happen but are survived: counted, never hidden. By the same names in every report
+/// (render/counters.def).
 struct RenderCounters {
-    std::uint64_t invalid_samples = 0;  ///< NaN or infinite, dropped from the sum
+#define TANDEM_COUNTER(name, words) std::uint64_t name = 0;
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
+
+    RenderCounters& operator+=(const RenderCounters& other) {
+#define TANDEM_COUNTER(name, words) name += other.name;
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
+        return *this;
+    }
+    friend bool operator==(const RenderCounters&, const RenderCounters&) = default;
 };
 
 struct RenderStats {

@@ -7,13 +7,16 @@
 namespace tandem {
 
 void check(const TraceJob& job) {
-    if (job.hits.size() != job.rays.size()) {
-        throw InputError(fmt::format("trace: {} rays, but room for {} hits", job.rays.size(), job.hits.size()));
+    const std::size_t rays = job.rays.size();
+    if (job.hits.size() != rays) {
+        throw InputError(fmt::format("trace: {} rays, but room for {} hits", rays, job.hits.size()));
     }
-    if (!job.wide_t.empty() && job.wide_t.size() != job.rays.size()) {
-        throw InputError(
-            fmt::format("trace: {} rays, but room for {} values of t in double", job.rays.size(), job.wide_t.size()));
-    }
+    const auto fits = [rays](std::size_t size, const char* what) {
+        if (size != 0 && size != rays) throw InputError(fmt::format("trace: {} rays, but {} {}", rays, size, what));
+    };
+    fits(job.sources.size(), "sources");
+    fits(job.ends.size(), "ends");
+    fits(job.wide_t.size(), "places for t in double");
 }
 
 }  // namespace tandem

@@ -3,25 +3,44 @@
 
 #include <span>
 
-#include "tandem/geometry/hit.h"
+#include "tandem/geometry/ray_source.h"
 #include "tandem/math/ray.h"
+#include "tandem/render/stats.h"
 
 namespace tandem {
 
-struct TraceJob {
-    std::span<const Ray<float>> rays;
-    std::span<Hit> hits;         ///< as many as rays
-    std::span<double> wide_t{};  ///< empty or as many: t before its rounding to float; 0 for a miss
+/// Where a shadow ray ends: only hits at t < `t` count, compared in double, and none on `light`, the primitive that the
+/// ray runs to.
+struct RayEnd {
+    double t = 0;
+    std::uint32_t light = no_primitive;
+    std::uint32_t unused = 0;
 };
 
-/// The rays [first, first + count) of a job.
+/// Id that says "occluded": by which primitive, a shadow ray does not ask.
+inline constexpr std::uint32_t some_primitive = 0xFFFFFFFEU;
+
+/// All spans but rays and hits are empty or as long as those.
+struct TraceJob {
+    std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)
+    std::span<Hit> hits;
+    std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (geometry/spawn_ray.h makes both)
+    std::span<const RayEnd> ends{};        ///< not empty: shadow rays. A hit is {0, some_primitive}
+    std::span<double> wide_t{};            ///< t before its rounding to float; 0 for a miss and for shadow rays
+    RenderCounters* counters = nullptr;    ///< added to, if there is one: rejected rays, stack overflows
+};
+
+/// The rays [first, first + count) of a job, without its counters: parts may run at the same time.
 [[nodiscard]] inline TraceJob part(const TraceJob& job, std::size_t first, std::size_t count) {
-    return {.rays = job.rays.subspan(first, count),
-            .hits = job.hits.subspan(first, count),
-            .wide_t = job.wide_t.empty() ? job.wide_t : job.wide_t.subspan(first, count)};
+    const auto cut = [&](auto span) { return span.empty() ? span : span.subspan(first, count); };
+    return {.rays = cut(job.rays),
+            .hits = cut(job.hits),
+            .sources = cut(job.sources),
+            .ends = cut(job.ends),
+            .wide_t = cut(job.wide_t)};
 }
 
-/// Throws InputError if the sizes do not fit.
+/// Throws InputError if sizes differ.
 void check(const TraceJob& job);
 
 }  // namespace tandem

@@ -26,6 +26,7 @@ struct PreparedScene {
     std::vector<PhongMaterial> materials;
     std::vector<PointLight> lights;
     Environment environment;
+    std::uint64_t dropped_primitives = 0;  ///< of the Scene: they have no extent and cannot be hit
 
     /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
     Transform world_from_camera;

@@ -27,7 +27,7 @@ struct Structure {
         bvh = build_bvh(scene_view, frame.margin);
     }
     [[nodiscard]] BvhTracer tracer() const {
-        return {view(scene), {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), frame}};
+        return {view(scene), {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), frame, nullptr}};
     }
     PreparedScene scene;
     StructureFrame frame;
@@ -39,8 +39,8 @@ void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float
     const LoopTracer one_by_one = {view(structure.scene)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!is_traceable(rays[i])) continue;
-        const Closest<float> a = through_bvh.closest(rays[i], true);
-        const Closest<float> b = one_by_one.closest(rays[i], true);
+        const Closest<float> a = through_bvh.closest(rays[i], NoSource{}, true);
+        const Closest<float> b = one_by_one.closest(rays[i], NoSource{}, true);
         ASSERT_EQ(a.primitive, b.primitive) << name << ", ray " << i;
         ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << name << ", ray " << i;
     }
@@ -76,7 +76,7 @@ TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
     EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
-    const Closest<float> hit = structure.tracer().closest({{1, 2, 0}, {0, 0, 1}}, true);
+    const Closest<float> hit = structure.tracer().closest({{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
     EXPECT_EQ(hit.primitive, 0U);
     EXPECT_EQ(hit.t, 2.5);
 }
@@ -98,8 +98,8 @@ TEST(Bvh, HoldsOnePrimitive) {
     scene.material_of.push_back(0);
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
-    EXPECT_EQ(structure.tracer().closest({{0, 0, -3}, {0, 0, 1}}, true).t, 2.0);
-    EXPECT_EQ(structure.tracer().closest({{0, 3, -3}, {0, 0, 1}}, true).primitive, no_primitive);
+    EXPECT_EQ(structure.tracer().closest({{0, 0, -3}, {0, 0, 1}}, NoSource{}, true).t, 2.0);
+    EXPECT_EQ(structure.tracer().closest({{0, 3, -3}, {0, 0, 1}}, NoSource{}, true).primitive, no_primitive);
 }
 
 TEST(FewTracer, GivesTheBitsOfTheLoop) {
@@ -116,8 +116,8 @@ TEST(FewTracer, GivesTheBitsOfTheLoop) {
         const LoopTracer one_by_one = {scene_view};
         for (const Ray<float>& ray : test::make_rays(scene, 50'000, 8)) {
             if (!is_traceable(ray)) continue;
-            const Closest<float> a = few.closest(ray, true);
-            const Closest<float> b = one_by_one.closest(ray, true);
+            const Closest<float> a = few.closest(ray, NoSource{}, true);
+            const Closest<float> b = one_by_one.closest(ray, NoSource{}, true);
             ASSERT_EQ(a.primitive, b.primitive);
             ASSERT_EQ(bits_of(a.t), bits_of(b.t));
         }

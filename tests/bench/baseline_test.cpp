@@ -81,7 +81,7 @@ TEST(Baseline, RaysThroughPixelCentresMeetWhatTandemSays) {
         for (int y = 0; y < job.height; ++y) {
             for (int x = 0; x < job.width; ++x) {
                 const Ray<float> ray = camera_ray<float>(camera, x, y, 0.5F, 0.5F);
-                const Hit hit = to_hit(tracer.closest(ray, true));
+                const Hit hit = to_hit(tracer.closest(ray, NoSource{}, true));
                 // Ids: three spheres, then the box; as the naive renderer counts them.
                 const int expected = hit.primitive == no_primitive ? -1 : static_cast<int>(hit.primitive);
                 const int object = naive_o3.object_at_centre(job, moving, x, y);

@@ -24,7 +24,7 @@ TEST(EmbreeNative, MeetsTheSpheresThatTandemMeets) {
             EXPECT_GT(native.trace(rays, hits), 0);
             int ids = 0, met = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                const Hit expected = to_hit(tracer.closest(rays[i], true));
+                const Hit expected = to_hit(tracer.closest(rays[i], NoSource{}, true));
                 met += expected.primitive != no_primitive ? 1 : 0;
                 if (expected.primitive != hits[i].primitive) {
                     ++ids;
