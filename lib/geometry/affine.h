@@ -89,9 +89,10 @@ TANDEM_HD Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const 
 }
 
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const Ray<Real>& ray) {
+TANDEM_HD Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const Ray<Real>& ray,
+                                                   const Mask<Real>& exits = Mask<Real>(false)) {
     const ObjectRay<Real> local = to_object(placement, ray);
-    return to_world_normal<Real>(placement, face_normal<Real>(cross_parallelepiped(local), local.direction));
+    return to_world_normal<Real>(placement, face_normal<Real>(cross_parallelepiped(local), local.direction, exits));
 }
 
 }  // namespace tandem

@@ -121,12 +121,14 @@ TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double
     return first_in_front<Real>(cross_box(box, ray), t);
 }
 
-/// Unit outward normal of the face that the ray hits first in front of its origin. Axis-aligned, hence exact.
+/// Unit outward normal of the face that the ray hits first in front of its origin, or of the one that it leaves by
+/// where `exits` says that it comes from within. Axis-aligned, hence exact.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
+                                         const Mask<Real>& exits) {
     using D = Double<Real>;
     const D zero(0.0);
-    const Mask<Real> entering = c.t_near > zero;
+    const Mask<Real> entering = c.t_near > zero && !exits;
     const UInt<Real> axis = select(entering, c.near_axis, c.far_axis);
     // an entered face looks against the ray, a left one along it
     const auto component = [&](const D& d, std::uint32_t a) {
@@ -134,6 +136,10 @@ TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<
         return select(axis == UInt<Real>(a), select(entering, -along, along), zero);
     };
     return {component(direction.x, 0U), component(direction.y, 1U), component(direction.z, 2U)};
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction) {
+    return face_normal<Real>(c, direction, Mask<Real>(false));
 }
 
 }  // namespace tandem

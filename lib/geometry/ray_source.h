@@ -77,6 +77,16 @@ TANDEM_HD Mask<Real> leave_inward(const Parallelepiped& body, const Ray<Real>& r
     return Mask<Real>(true);
 }
 
+/// Where is a hit on primitive `id` the far side of what the ray left inward?
+template <class Real>
+TANDEM_HD Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
+    return source.inside && source.primitive == UInt<Real>(id);
+}
+template <class Real>
+TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
+    return Mask<Real>(false);
+}
+
 /// The first point of primitive `id` in front of a ray that comes from `source`.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,

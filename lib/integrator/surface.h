@@ -1,7 +1,7 @@
 /// What a hit says of the surface: normal and material, by kind of primitive.
 #pragma once
 
-#include "tandem/geometry/hit.h"
+#include "tandem/geometry/spawn_ray.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -22,15 +22,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
     Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black, black, Real(1.0F)};
     for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        Vec3<D> normal = surface.normal;
-        visit_primitive(
-            scene, primitive,
-            [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { normal = sphere_normal(sphere, ray, hit.t); },
-            [&](const Box& box)
-                TANDEM_INLINE_LAMBDA { normal = face_normal<Real>(cross_box(box, ray), widen(ray.direction)); },
-            [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { normal = ellipsoid_normal(ellipsoid, ray, hit.t); },
-            [&](const Placement& parallelepiped)
-                TANDEM_INLINE_LAMBDA { normal = parallelepiped_normal(parallelepiped, ray); });
+        const Vec3<D> normal = surface_point_of(scene, primitive, ray, NoSource{}, hit.t).normal;
         const PhongMaterial& material = scene.materials[scene.material_of[primitive]];
         surface.normal = select(here, normal, surface.normal);
         surface.ambient = select(here, broadcast<Real>(material.ambient), surface.ambient);
