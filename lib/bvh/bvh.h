@@ -25,7 +25,7 @@ static_assert(sizeof(BvhNode) == 64);
 /// A leaf holds entries [first, first + count): code = first * 8 + (count - 1).
 inline constexpr int max_leaf_size = 8;
 inline constexpr std::uint32_t max_bvh_primitives = 1U << 28;
-TANDEM_HD std::int32_t leaf_child(std::uint32_t first, std::uint32_t count) {
+TANDEM_HD constexpr std::int32_t leaf_child(std::uint32_t first, std::uint32_t count) {
     return ~static_cast<std::int32_t>(first * 8 + (count - 1));
 }
 TANDEM_HD std::uint32_t leaf_first(std::int32_t child) { return static_cast<std::uint32_t>(~child) >> 3; }

@@ -55,10 +55,7 @@ struct BvhTracer {
     template <class From>
     TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
         Closest<float> best = no_hit<float>();
-        if (active && !find<Search::nearest>(ray, source, best)) {
-            bvh_detail::count(bvh.stack_overflows);
-            return closest_one_by_one(*this, ray, source);
-        }
+        if (active) find<Search::nearest>(ray, source, best);
         return best;
     }
 
@@ -66,30 +63,19 @@ struct BvhTracer {
     TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
                             bool active) const {
         Closest<float> best = before<float>(t_max);
-        if (active && !find<Search::any>(ray, source, best)) {
-            bvh_detail::count(bvh.stack_overflows);
-            return occluded_one_by_one(*this, ray, t_max, source);
-        }
+        if (active) find<Search::any>(ray, source, best);
         return best.t < t_max;
     }
 
   private:
-    // A hierarchy from build_bvh() is never too deep for the stack. One from elsewhere may be: then the ray asks every
-    // primitive, which is slow and right.
-    template <class From>
-    TANDEM_HD_RARE static Closest<float> closest_one_by_one(const BvhTracer& tracer, Ray<float> ray, From source) {
-        return LoopTracer{tracer.scene}.closest(ray, source, true);
-    }
-    TANDEM_HD_RARE static bool occluded_one_by_one(const BvhTracer& tracer, Ray<float> ray, double t_max,
-                                                   ShadowSource<float> source) {
-        return LoopTracer{tracer.scene}.occluded(ray, t_max, source, true);
-    }
+    /// A leaf of all primitives. A hierarchy from build_bvh() is never too deep for the stack; of one from elsewhere, a
+    /// ray that finds the stack full tries every primitive, which is slow and right.
+    static constexpr std::int32_t leaf_of_all = leaf_child(max_bvh_primitives - 1, max_leaf_size);
 
-    /// False if the stack was full, and `best` is not to be used.
     template <Search search, class From>
-    TANDEM_HD bool find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
+    TANDEM_HD void find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
         const Proposal<float> proposal = propose(ray, bvh.frame, true);
-        if (!proposal.active) return true;
+        if (!proposal.active) return;
         const FilterRay<float> filter = make_filter_ray(ray);
         const SlabRay slab = make_slab_ray(proposal.ray.origin, proposal.ray.direction);
         const double t_max = best.t;
@@ -112,7 +98,12 @@ struct BvhTracer {
                 const auto child1 = static_cast<std::int32_t>(bits_of(children.b));
                 if (enter0 && enter1) {
                     const bool second_first = entry1 < entry0;
-                    if (depth == max_bvh_depth) [[unlikely]] return false;
+                    if (depth == max_bvh_depth) [[unlikely]] {
+                        bvh_detail::count(bvh.stack_overflows);
+                        depth = 0;
+                        at = leaf_of_all;
+                        continue;
+                    }
                     stack[depth++] = second_first ? child0 : child1;
                     at = second_first ? child1 : child0;
                     continue;
@@ -124,10 +115,10 @@ struct BvhTracer {
             } else {
                 try_leaf(at, filter, source, proposal, best, limit);
                 if constexpr (search == Search::any) {
-                    if (best.t < t_max) return true;
+                    if (best.t < t_max) return;
                 }
             }
-            if (depth == 0) return true;
+            if (depth == 0) return;
             at = stack[--depth];
         }
     }
@@ -135,8 +126,8 @@ struct BvhTracer {
     template <class From>
     TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const From& source,
                             const Proposal<float>& proposal, Closest<float>& best, float& limit) const {
-        const std::uint32_t first = leaf_first(leaf);
-        const std::uint32_t end = first + leaf_count(leaf);
+        const std::uint32_t first = leaf == leaf_of_all ? 0 : leaf_first(leaf);
+        const std::uint32_t end = leaf == leaf_of_all ? primitive_count(scene) : first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Quad q = bvh_detail::load_quad(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
