@@ -51,7 +51,7 @@ Aabb scene_bounds(const SceneView& scene) {
 
 DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
     : ResidentScene(tier), memory_(std::move(memory)) {
-    camera_.world_from_camera = scene.world_from_camera;
+    camera_.render_from_camera = scene.render_from_camera;
     camera_.orthographic = scene.orthographic;
     camera_.half_height = scene.half_height;
     camera_.dropped_primitives = scene.dropped_primitives;

@@ -60,7 +60,7 @@ void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>
 RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>& backends, const BackendSource& source,
                     Report& report) {
     log_progress(fmt::format("{}: {} rays", options.scene, to_string(*options.rays)));
-    const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}});
+    const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}, Vec3d{0, 0, 0}});  // rays are in world space
     const std::vector<Ray<float>> rays = make_rays(*options.rays, options.ray_edge);
 
     // Owners before what traces with them.

@@ -9,9 +9,7 @@ namespace tandem {
 std::string frame_line(const FrameRecord& record) {
     std::string line = fmt::format("frame {}  {}  {}", record.metadata.frame, record.metadata.film_sha256, record.file);
     if (record.skipped) line += "  kept";
-    if (record.invalid_samples > 0) {
-        line += fmt::format("  {} samples were NaN or infinite and left out", record.invalid_samples);
-    }
+    for (const std::string& clause : in_words(record.counters)) line += "  " + clause;
     if (record.nan_values > 0) line += fmt::format("  {} values are NaN, written as 0", record.nan_values);
     return line;
 }
@@ -33,7 +31,9 @@ nlohmann::ordered_json frame_json(const FrameRecord& record) {
                        {"hash", seconds.hash},
                        {"encode", seconds.encode},
                        {"write", seconds.write}};
-    json["invalid_samples"] = record.invalid_samples;
+#define TANDEM_COUNTER(name, words) json[#name] = record.counters.name;
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
     json["nan_values"] = record.nan_values;
     return json;
 }

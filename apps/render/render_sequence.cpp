@@ -178,7 +178,7 @@ class Sequence {
         seconds.upload += result.stats.seconds.upload;
         seconds.render = result.stats.seconds.render;
         seconds.download = result.stats.seconds.download;
-        record.invalid_samples = result.stats.counters.invalid_samples;
+        record.counters = result.stats.counters;
         record.variant = result.stats.variant;
         while (writing_.size() >= most_writing_) report_first();
         writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),

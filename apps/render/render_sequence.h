@@ -37,7 +37,7 @@ struct FrameRecord {
     std::string file;
     bool skipped = false;  ///< the file was there already; the metadata are the file's
     FrameSeconds seconds;
-    std::uint64_t invalid_samples = 0;  ///< RenderCounters
+    RenderCounters counters;
     std::size_t nan_values = 0;         ///< EncodedImage
     std::string variant;                ///< RenderStats
 };

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tandem {
 
@@ -30,6 +31,9 @@ struct RenderCounters {
     }
     friend bool operator==(const RenderCounters&, const RenderCounters&) = default;
 };
+
+/// What was counted, in words: one clause per counter that is not zero; empty if all are.
+[[nodiscard]] std::vector<std::string> in_words(const RenderCounters& counters);
 
 struct RenderStats {
     PhaseTimes seconds;

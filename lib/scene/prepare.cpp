@@ -8,6 +8,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/render_origin.h"
 
 namespace tandem {
 
@@ -35,12 +36,12 @@ bool is_diagonal(const Matrix3& m) {
            m.row[2].y == 0;
 }
 
-/// A unit body under world_from_object.
-Placement place(const Transform& world_from_object, bool is_box) {
-    const Matrix3& m = world_from_object.linear;
+/// A unit body under render_from_unit, whose linear part has the inverse unit_from_render.
+Placement place(const Transform& render_from_unit, const Matrix3& unit_from_render, bool is_box) {
+    const Matrix3& m = render_from_unit.linear;
     Placement placement;
-    placement.object_from_world = inverse(m);
-    placement.centre = world_from_object.translation;
+    placement.object_from_world = unit_from_render;
+    placement.centre = render_from_unit.translation;
     const auto extent = [&](const Vec3d& row) {
         // support of the body along a world axis: l1 norm for the cube, l2 for the ball
         const double support = is_box ? norm1(row) : std::sqrt(dot(row, row));
@@ -81,9 +82,10 @@ class Preparer {
             throw InputError(
                 fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
         }
-        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
-        join_kinds();
         choose_camera();
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
+        move_to_origin();
+        join_kinds();
         return std::move(result_);
     }
 
@@ -121,9 +123,9 @@ class Preparer {
             }
         }
         if (node.light) {
-            const PointLight light = {narrow(world_from_node.translation), node.light->colour * node.light->intensity};
-            check_reach(Aabb{light.position, light.position}, index);
-            result_.lights.push_back(light);
+            const Vec3d& position = world_from_node.translation;
+            check_reach(position, {0, 0, 0}, index);
+            lights_.push_back({position, node.light->colour * node.light->intensity});
         }
     }
 
@@ -139,10 +141,10 @@ class Preparer {
                     std::size_t node) {
         const double scale = uniform_scale(world_from_object.linear);
         if (scale > 0) {
-            const Sphere sphere = {narrow(world_from_object.translation), narrow(scale * shape.radius)};
-            if (!(sphere.radius > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
-            check_reach(bounds(sphere), node);
-            result_.spheres.push_back(sphere);
+            const double radius = scale * shape.radius;
+            if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
+            check_reach(world_from_object.translation, {radius, radius, radius}, node);
+            spheres_.bodies.push_back({world_from_object.translation, radius});
             spheres_.add(material, node);
             return;
         }
@@ -156,10 +158,8 @@ class Preparer {
         if (is_diagonal(m)) {
             const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
                                   std::abs(m.row[2].z) * half.z};
-            const Vec3d& c = world_from_object.translation;
-            const Box box = {narrow(c - extent), narrow(c + extent)};
-            check_reach(bounds(box), node);
-            result_.boxes.push_back(box);
+            check_reach(world_from_object.translation, extent, node);
+            boxes_.bodies.push_back({world_from_object.translation, extent});
             boxes_.add(material, node);
             return;
         }
@@ -179,14 +179,19 @@ class Preparer {
             fail(node, is_box ? "a rotated or sheared box that is flat; give it thickness"
                               : "a sphere that its transform flattens");
         }
-        const Placement placement = place(world_from_unit, is_box);
-        check_reach(bounds(placement), node);
-        (is_box ? result_.parallelepipeds : result_.ellipsoids).push_back(placement);
-        (is_box ? parallelepipeds_ : ellipsoids_).add(material, node);
+        check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);
+        Kind<Placed>& kind = is_box ? parallelepipeds_ : ellipsoids_;
+        kind.bodies.push_back({world_from_unit, inverse(m)});
+        kind.add(material, node);
     }
 
-    void check_reach(const Aabb& box, std::size_t node) const {
-        if (!(reach(box) <= coordinate_limit)) fail(node, "something farther than 1e18 from the origin");
+    /// World space.
+    void check_reach(const Vec3d& centre, const Vec3d& half_extent, std::size_t node) const {
+        for (int i = 0; i < 3; ++i) {
+            if (!(std::abs(centre[i]) + half_extent[i] <= double{coordinate_limit})) {
+                fail(node, "something farther than 1e18 from the origin");
+            }
+        }
     }
 
     [[noreturn]] void fail(std::size_t node, const std::string& what) const {
@@ -194,11 +199,57 @@ class Preparer {
         throw InputError(fmt::format("node {}{} has {}", node, name.empty() ? "" : " '" + name + "'", what));
     }
 
-    void join_kinds() {
-        for (const Origin* origin : {&spheres_, &boxes_, &ellipsoids_, &parallelepipeds_}) {
-            result_.material_of.insert(result_.material_of.end(), origin->material.begin(), origin->material.end());
-            result_.node_of.insert(result_.node_of.end(), origin->node.begin(), origin->node.end());
+    /// Chooses the origin of render space and rounds everything there to float.
+    void move_to_origin() {
+        const Vec3d origin = options_.origin ? *options_.origin : precise_origin();
+        result_.origin = origin;
+        result_.render_from_camera.translation -= origin;
+        for (const Light& light : lights_) result_.lights.push_back({narrow(light.position - origin), light.intensity});
+        result_.spheres.reserve(spheres_.bodies.size());
+        for (const Ball& ball : spheres_.bodies) {
+            result_.spheres.push_back({narrow(ball.centre - origin), narrow(ball.radius)});
         }
+        result_.boxes.reserve(boxes_.bodies.size());
+        for (const Block& block : boxes_.bodies) {
+            const Vec3d centre = block.centre - origin;
+            result_.boxes.push_back({narrow(centre - block.extent), narrow(centre + block.extent)});
+        }
+        const auto place_all = [&](const Kind<Placed>& kind, bool is_box, std::vector<Placement>& placements) {
+            placements.reserve(kind.bodies.size());
+            for (Placed body : kind.bodies) {
+                body.world_from_unit.translation -= origin;
+                placements.push_back(place(body.world_from_unit, body.unit_from_world, is_box));
+            }
+        };
+        place_all(ellipsoids_, false, result_.ellipsoids);
+        place_all(parallelepipeds_, true, result_.parallelepipeds);
+    }
+
+    Vec3d precise_origin() const {
+        RenderOrigin origin(result_.render_from_camera.translation);
+        for (const Ball& ball : spheres_.bodies) origin.add_sphere(ball.centre, ball.radius);
+        for (const Block& block : boxes_.bodies) {
+            origin.add_box(block.centre - block.extent, block.centre + block.extent);
+        }
+        for (const Placed& body : ellipsoids_.bodies) {
+            origin.add_placed(body.world_from_unit, body.unit_from_world, false);
+        }
+        for (const Placed& body : parallelepipeds_.bodies) {
+            origin.add_placed(body.world_from_unit, body.unit_from_world, true);
+        }
+        for (const Light& light : lights_) origin.add_point(light.position);
+        return origin.get();
+    }
+
+    void join_kinds() {
+        const auto join = [&](const auto& kind) {
+            result_.material_of.insert(result_.material_of.end(), kind.material.begin(), kind.material.end());
+            result_.node_of.insert(result_.node_of.end(), kind.node.begin(), kind.node.end());
+        };
+        join(spheres_);
+        join(boxes_);
+        join(ellipsoids_);
+        join(parallelepipeds_);
     }
 
     void choose_camera() {
@@ -226,9 +277,9 @@ class Preparer {
         const Vec3d backward = normalize(axes.row[2]);
         const Vec3d right = normalize(cross(axes.row[1], backward)) * (handedness < 0 ? -1.0 : 1.0);
         const Vec3d up = normalize(cross(backward, right)) * (handedness < 0 ? -1.0 : 1.0);
-        const Vec3f eye = narrow(world_from_node.translation);
-        check_reach(Aabb{eye, eye}, node);
-        result_.world_from_camera = {transpose({{right, up, backward}}), world_from_node.translation};
+        check_reach(world_from_node.translation, {0, 0, 0}, node);
+        // in world space until the origin is chosen
+        result_.render_from_camera = {transpose({{right, up, backward}}), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
             result_.half_height = std::tan(perspective->yfov / 2);
         } else {
@@ -237,8 +288,28 @@ class Preparer {
         }
     }
 
-    /// Material and node of the primitives of one kind.
-    struct Origin {
+    // The bodies in world space, double.
+    struct Ball {
+        Vec3d centre;
+        double radius;
+    };
+    struct Block {
+        Vec3d centre;
+        Vec3d extent;  ///< half of the edges
+    };
+    struct Placed {
+        Transform world_from_unit;
+        Matrix3 unit_from_world;
+    };
+    struct Light {
+        Vec3d position;
+        Vec3f intensity;
+    };
+
+    /// The primitives of one kind, with material and node.
+    template <class Body>
+    struct Kind {
+        std::vector<Body> bodies;
         std::vector<std::uint32_t> material;
         std::vector<std::uint32_t> node;
         void add(std::uint32_t m, std::size_t n) {
@@ -250,7 +321,10 @@ class Preparer {
     const Scene& scene_;
     const PrepareOptions& options_;
     std::vector<Transform> world_from_node_;
-    Origin spheres_, boxes_, ellipsoids_, parallelepipeds_;
+    Kind<Ball> spheres_;
+    Kind<Block> boxes_;
+    Kind<Placed> ellipsoids_, parallelepipeds_;
+    std::vector<Light> lights_;
     PreparedScene result_;
 };
 

@@ -1,6 +1,7 @@
 /// From the author's scene to flat arrays at one frame.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tandem/scene/prepared_scene.h"
@@ -10,10 +11,12 @@ namespace tandem {
 
 struct PrepareOptions {
     std::int32_t frame = 0;
-    std::string camera;  ///< name of the camera's node; empty means the first camera of the scene
+    std::string camera{};  ///< name of the camera's node; empty means the first camera of the scene
+    std::optional<Vec3d> origin{};  ///< of render space, in world space; empty: chosen for precision (RenderOrigin)
 };
 
-/// Deterministic: the same scene gives the same bytes. Transforms are composed in double and rounded once.
+/// Deterministic: the same scene gives the same bytes. Transforms are composed in double, moved to the origin of render
+/// space in double, and rounded once.
 /// Spheres under rotation and uniform scale stay spheres, boxes under diagonal transforms stay boxes; the others
 /// become ellipsoids and parallelepipeds. Throws InputError with the list of validate() if that is not empty, and if
 /// the camera is missing.

@@ -28,12 +28,12 @@ SceneView view(const PreparedScene& scene) {
 CameraView camera_view(const PreparedScene& scene, int width, int height) {
     // one pixel on the plane at distance 1, or in metres for an orthographic camera
     const double pixel = 2 * scene.half_height / height;
-    const Matrix3 axes = transpose(scene.world_from_camera.linear);
+    const Matrix3 axes = transpose(scene.render_from_camera.linear);
     const Vec3d right = axes.row[0] * pixel;
     const Vec3d down = axes.row[1] * -pixel;
     const Vec3d to_corner = right * (-0.5 * width) + down * (-0.5 * height);
     const Vec3d forward = -axes.row[2];
-    const Vec3d eye = scene.world_from_camera.translation;
+    const Vec3d eye = scene.render_from_camera.translation;
     const Vec3d zero{0, 0, 0};
     if (scene.orthographic) {
         const Vec3f corner = narrow(eye + to_corner);
@@ -61,7 +61,7 @@ std::string scene_hash(const PreparedScene& scene) {
     add(scene.materials);
     add(scene.lights);
     hash.update_value(scene.environment);
-    hash.update_value(scene.world_from_camera);
+    hash.update_value(scene.render_from_camera);
     hash.update_value(std::uint8_t{scene.orthographic});
     hash.update_value(scene.half_height);
     return hash.hex();

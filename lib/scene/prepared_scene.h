@@ -14,6 +14,9 @@
 
 namespace tandem {
 
+/// All coordinates are in render space: world space moved by `origin`, so that float is precise where the camera looks
+/// (scene/render_origin.h). The axes are those of the world.
+///
 /// Primitive ids run over the arrays in this order: spheres, boxes, ellipsoids, parallelepipeds. Within a kind they
 /// follow the order of nodes, geometries and instances in the Scene.
 struct PreparedScene {
@@ -28,13 +31,23 @@ struct PreparedScene {
     Environment environment;
     std::uint64_t dropped_primitives = 0;  ///< of the Scene: they have no extent and cannot be hit
 
+    Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
+
     /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
-    Transform world_from_camera;
+    Transform render_from_camera;
     bool orthographic = false;
     double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
 };
 
 [[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
+
+/// Points between the two spaces; directions, normals and t are the same in both.
+[[nodiscard]] inline Vec3d render_from_world(const PreparedScene& scene, const Vec3d& world) {
+    return world - scene.origin;
+}
+[[nodiscard]] inline Vec3d world_from_render(const PreparedScene& scene, const Vec3d& render) {
+    return render + scene.origin;
+}
 
 /// The window of the kernels onto the arrays of `scene`, which must outlive it.
 [[nodiscard]] SceneView view(const PreparedScene& scene);
@@ -43,8 +56,8 @@ struct PreparedScene {
 /// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
-/// SHA-256 over everything above except node_of, which serves messages only, in hexadecimal: equal hashes mean equal
-/// pictures.
+/// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
+/// node_of, which serves messages, dropped_primitives and origin.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

@@ -149,7 +149,7 @@ TEST(Prepare, FindsTheCameraByItsName) {
     const auto other = prepare(scene, {0, "other"});
     EXPECT_TRUE(other.orthographic);
     EXPECT_EQ(other.half_height, 2.5);
-    EXPECT_EQ(other.world_from_camera.translation, Vec3d(0, 0, 8));
+    EXPECT_EQ(other.render_from_camera.translation, Vec3d(0, 0, 8));
     EXPECT_TRUE(contains(input_error([&] {
                              (void)prepare(scene, {0, "third"});
                          }),
@@ -168,7 +168,7 @@ TEST(Prepare, ScaleDoesNotChangeWhatACameraSees) {
     const auto scaled = prepare(scene);
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
-            EXPECT_NEAR(plain.world_from_camera.linear.row[i][k], scaled.world_from_camera.linear.row[i][k], 1e-15);
+            EXPECT_NEAR(plain.render_from_camera.linear.row[i][k], scaled.render_from_camera.linear.row[i][k], 1e-15);
         }
     }
     scene.nodes[0].trs.scale = {1, 0, 1};

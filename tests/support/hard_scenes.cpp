@@ -72,7 +72,7 @@ PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
         node.geometry.push_back(geometry);
         scene.nodes.push_back(node);
     }
-    return prepare(scene);
+    return prepare(scene, {.origin = Vec3d{0, 0, 0}});  // as hard as it says, far from the origin
 }
 
 std::vector<Ray<float>> make_rays(const PreparedScene& scene, std::size_t count, std::uint64_t seed) {

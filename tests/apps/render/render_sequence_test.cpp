@@ -62,7 +62,7 @@ TEST_F(RenderSequence, WritesEveryFrameAndReportsInOrder) {
         EXPECT_EQ(record.metadata.scene_hash, scene_hash(prepare(scene, {static_cast<std::int32_t>(3 + i), ""})));
         EXPECT_EQ(record.metadata.backend, "gradient");
         EXPECT_FALSE(record.skipped);
-        EXPECT_EQ(record.invalid_samples, 3 + i);
+        EXPECT_EQ(record.counters.invalid_samples, 3 + i);
         EXPECT_EQ(record.seconds.backend.build, 0.25);
         EXPECT_EQ(record.seconds.backend.render, 0.5);
         const DecodedImage file = read_image(record.file);

@@ -33,7 +33,7 @@ Placement any_placement(Random& random, bool is_box) {
     Node eye;
     eye.camera = PerspectiveCamera{};
     scene.nodes = {body, eye};
-    const PreparedScene prepared = prepare(scene);
+    const PreparedScene prepared = prepare(scene, {.origin = Vec3d{0, 0, 0}});
     return is_box ? prepared.parallelepipeds.at(0) : prepared.ellipsoids.at(0);
 }
 
