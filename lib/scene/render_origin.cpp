@@ -71,7 +71,7 @@ Vec3d RenderOrigin::get() const {
     const double extent = largest(upper_ - lower_);
     if (!(distance_ < __builtin_huge_val())) return {0, 0, 0};
     Vec3d origin = nearest_;
-    const double length = 8 * (extent > 0 ? std::min(distance_, extent) : distance_);
+    const double length = 16 * (extent > 0 ? std::min(distance_, extent) : distance_);
     if (length > 0) {
         const double step = std::ldexp(1.0, std::ilogb(length));
         origin = {snap(origin.x, step), snap(origin.y, step), snap(origin.z, step)};
