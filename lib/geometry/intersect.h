@@ -36,15 +36,23 @@ TANDEM_HD void decide(const Box& box, std::uint32_t id, const Ray<Real>& ray, co
 template <class Real>
 TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
                          Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
-    if (any(candidate)) decide(sphere, id, f.ray, candidate, best);
+    if constexpr (is_fast<Real>) {
+        decide(sphere, id, f.ray, active, best);  // hardly more work than the filter
+    } else {
+        const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
+        if (any(candidate)) decide(sphere, id, f.ray, candidate, best);
+    }
 }
 
 template <class Real>
 TANDEM_HD void intersect(const Box& box, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
                          Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
-    if (any(candidate)) decide(box, id, f.ray, candidate, best);
+    if constexpr (is_fast<Real>) {
+        decide(box, id, f.ray, active, best);
+    } else {
+        const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
+        if (any(candidate)) decide(box, id, f.ray, candidate, best);
+    }
 }
 
 template <class Real>
