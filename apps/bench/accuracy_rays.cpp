@@ -105,9 +105,9 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
             if (stage.entries[j].name.tier != stage.entries[i].name.tier) continue;
             if (same_bits(outcomes[j].answers, o.answers)) continue;
             right = false;
-            report.blocks.emplace_back(Callout{
-                Callout::Kind::bad,
-                fmt::format("{}: {} and {} differ in a bit.", o.row.scene, outcomes[j].row.label, o.row.label)});
+            report.blocks.emplace_back(
+                Callout{Callout::Kind::bad, fmt::format("{}: {} and {} differ in a bit.", o.row.scene,
+                                                        stage.entries[j].name.label(), o.row.label)});
         }
         const double seconds = median(o.row.seconds);
         const double worst = o.errors.worst_ulp();
