@@ -31,53 +31,53 @@ TANDEM_HD void offer_candidate(const SceneView& scene, std::uint32_t primitive, 
     }
 }
 
-template <class Isa>
+/// `One` and `Packet`: the Reals of the tier, for one ray and for many.
+template <class One, class Packet>
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-    using Real = Lanes<float, Isa>;
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
     if (args->N == 1) {
         if (args->valid[0] == 0) return;
-        auto& query = *reinterpret_cast<QueryContext<float>*>(args->context);
-        const double before = query.best.t;
-        offer_candidate<float>(view.scene, args->primID, true, query);
+        auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
+        const Double<One> before = query.best.t;
+        offer_candidate<One>(view.scene, args->primID, true, query);
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-        if (query.best.t < before) ray.tfar = query.proposal.limit(query.best.t);
+        if (query.best.t < before) ray.tfar = to_plain(query.proposal.limit(query.best.t));
         return;
     }
-    auto& query = *reinterpret_cast<QueryContext<Real>*>(args->context);
-    const LaneMask<Isa> active(*reinterpret_cast<const typename LaneMask<Isa>::Vector*>(args->valid));
-    const Double<Real> before = query.best.t;
-    offer_candidate<Real>(view.scene, args->primID, active, query);
-    const LaneMask<Isa> nearer = query.best.t < before;
+    auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
+    const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    const Double<Packet> before = query.best.t;
+    offer_candidate<Packet>(view.scene, args->primID, active, query);
+    const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) {
-        auto& ray = reinterpret_cast<typename embree::Packet<Real::size>::RayHit*>(args->rayhit)->ray;
-        auto* tfar = reinterpret_cast<Real*>(ray.tfar);
+        auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
+        auto* tfar = reinterpret_cast<Float<Packet>*>(ray.tfar);
         *tfar = select(nearer, query.proposal.limit(query.best.t), *tfar);
     }
 }
 
 /// As intersect_callback() for any hit before best.t. Embree takes a tfar of -infinity for "occluded".
-template <class Isa>
+template <class One, class Packet>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
-    using Real = Lanes<float, Isa>;
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
     constexpr float found = -__builtin_huge_valf();
     if (args->N == 1) {
         if (args->valid[0] == 0) return;
-        auto& query = *reinterpret_cast<QueryContext<float>*>(args->context);
-        const double t_max = query.best.t;
-        intersect_primitive<float>(view.scene, args->primID, query.filter, *query.shadow_source, true, query.best);
-        if (query.best.t < t_max) reinterpret_cast<RTCRay*>(args->ray)->tfar = found;
+        auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
+        const Double<One> before = query.best.t;
+        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.shadow_source, true, query.best);
+        if (query.best.t < before) reinterpret_cast<RTCRay*>(args->ray)->tfar = found;
         return;
     }
-    auto& query = *reinterpret_cast<QueryContext<Real>*>(args->context);
-    const LaneMask<Isa> active(*reinterpret_cast<const typename LaneMask<Isa>::Vector*>(args->valid));
-    const Double<Real> before = query.best.t;
-    intersect_primitive<Real>(view.scene, args->primID, query.filter, *query.shadow_source, active, query.best);
-    const LaneMask<Isa> nearer = query.best.t < before;
+    auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
+    const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    const Double<Packet> before = query.best.t;
+    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.shadow_source, active, query.best);
+    const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) {
-        auto* tfar = reinterpret_cast<Real*>(reinterpret_cast<typename embree::Packet<Real::size>::Ray*>(args->ray)->tfar);
-        *tfar = select(nearer, Real(found), *tfar);
+        auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
+        auto* tfar = reinterpret_cast<Float<Packet>*>(ray.tfar);
+        *tfar = select(nearer, Float<Packet>(found), *tfar);
     }
 }
 
@@ -85,10 +85,10 @@ struct EmbreeTracer {
     const CpuSceneView& view;
 
     /// As LoopTracer::closest().
-    template <class From>
-    [[nodiscard]] TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
-        QueryContext<float> query;
-        query.best = no_hit<float>();
+    template <class Real, class From>
+    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+        QueryContext<Real> query;
+        query.best = no_hit<Real>();
         set_source(query, source);
         if (!start(query, ray, active, false)) return query.best;
         RTCRayHit rayhit;
@@ -98,17 +98,17 @@ struct EmbreeTracer {
         return query.best;
     }
 
-    template <class Isa, class From>
-    [[nodiscard]] TANDEM_HD Closest<Lanes<float, Isa>> closest(const Ray<Lanes<float, Isa>>& ray, const From& source,
-                                                               const LaneMask<Isa>& active) const {
-        using Real = Lanes<float, Isa>;
+    template <class T, class Isa, class From>
+    [[nodiscard]] TANDEM_HD Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray, const From& source,
+                                                           const LaneMask<Isa>& active) const {
+        using Real = Lanes<T, Isa>;
         QueryContext<Real> query;
         query.best = no_hit<Real>();
         set_source(query, source);
         if (!start(query, ray, active, true)) return query.best;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
-        set_packet(rayhit.ray, query, Real(3e38F));
-        const Lanes<std::uint32_t, Isa> none(RTC_INVALID_GEOMETRY_ID);
+        set_packet(rayhit.ray, query, Float<Real>(3e38F));
+        const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
         embree::intersect(reinterpret_cast<const int*>(&valid), view.embree, query.head, rayhit);
@@ -116,33 +116,35 @@ struct EmbreeTracer {
     }
 
     /// As LoopTracer::occluded().
-    [[nodiscard]] TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
-                                          bool active) const {
-        QueryContext<float> query;
-        query.best = before<float>(t_max);
+    template <class Real>
+    [[nodiscard]] TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                          const ShadowSource<Real>& source, bool active) const {
+        QueryContext<Real> query;
+        query.best = before<Real>(t_max);
         query.shadow_source = &source;
         if (!start(query, ray, active, false)) return false;
-        const float limit = query.proposal.limit(t_max);
+        const float limit = to_plain(query.proposal.limit(t_max));
         if (!(limit >= 0)) return false;
         RTCRay embree_ray = single_ray(query, limit);
         embree::occluded1(view.embree, query.head, embree_ray);
         return query.best.t < t_max;
     }
 
-    template <class Isa>
-    [[nodiscard]] TANDEM_HD LaneMask<Isa> occluded(const Ray<Lanes<float, Isa>>& ray, const Lanes<double, Isa>& t_max,
-                                                   const ShadowSource<Lanes<float, Isa>>& source,
+    template <class T, class Isa>
+    [[nodiscard]] TANDEM_HD LaneMask<Isa> occluded(const Ray<Lanes<T, Isa>>& ray, const Double<Lanes<T, Isa>>& t_max,
+                                                   const ShadowSource<Lanes<T, Isa>>& source,
                                                    const LaneMask<Isa>& active) const {
-        using Real = Lanes<float, Isa>;
+        using Real = Lanes<T, Isa>;
+        using F = Float<Real>;
         QueryContext<Real> query;
         query.best = before<Real>(t_max);
         query.shadow_source = &source;
         if (!start(query, ray, active, true)) return LaneMask<Isa>(false);
-        const Real limit = query.proposal.limit(t_max);
-        query.proposal.active = query.proposal.active && limit >= Real(0.0F);
+        const F limit = query.proposal.limit(t_max);
+        query.proposal.active = query.proposal.active && limit >= F(0.0F);
         if (!any(query.proposal.active)) return LaneMask<Isa>(false);
         alignas(64) typename embree::Packet<Real::size>::Ray embree_ray;
-        set_packet(embree_ray, query, select(query.proposal.active, limit, Real(0.0F)));
+        set_packet(embree_ray, query, select(query.proposal.active, limit, F(0.0F)));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
         embree::occluded(reinterpret_cast<const int*>(&valid), view.embree, query.head, embree_ray);
         return query.proposal.active && query.best.t < t_max;
@@ -169,20 +171,22 @@ struct EmbreeTracer {
         return true;
     }
 
-    TANDEM_HD static RTCRay single_ray(const QueryContext<float>& query, float tfar) {
-        const Ray<float>& p = query.proposal.ray;
-        return {p.origin.x,    p.origin.y, p.origin.z, 0, p.direction.x, p.direction.y,
-                p.direction.z, 0,          tfar,       0xFFFFFFFF,       0, 0};
+    template <class Real>
+    TANDEM_HD static RTCRay single_ray(const QueryContext<Real>& query, float tfar) {
+        const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
+        return {p.origin.x,    p.origin.y, p.origin.z, 0,          p.direction.x, p.direction.y,
+                p.direction.z, 0,          tfar,       0xFFFFFFFF, 0,             0};
     }
 
     template <class PacketRay, class Real>
-    TANDEM_HD static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Real& tfar) {
+    TANDEM_HD static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Float<Real>& tfar) {
+        using F = Float<Real>;
         const auto set = [](auto* field, const auto& value) { std::memcpy(field, &value, sizeof(value)); };
-        const Ray<Real>& p = query.proposal.ray;
-        const Real zero(0.0F);
+        const Ray<F>& p = query.proposal.ray;
+        const F zero(0.0F);
         // lanes that take no part still hold numbers: Debian's Embree asserts that every ray is valid
-        const Vec3<Real> origin = select(query.proposal.active, p.origin, Vec3<Real>{zero, zero, zero});
-        const Vec3<Real> direction = select(query.proposal.active, p.direction, Vec3<Real>{zero, zero, Real(1.0F)});
+        const Vec3<F> origin = select(query.proposal.active, p.origin, Vec3<F>{zero, zero, zero});
+        const Vec3<F> direction = select(query.proposal.active, p.direction, Vec3<F>{zero, zero, F(1.0F)});
         set(ray.org_x, origin.x);
         set(ray.org_y, origin.y);
         set(ray.org_z, origin.z);

@@ -1,5 +1,5 @@
-/// The kernels for one instruction set. Included by kernels_v2.cpp, kernels_v3.cpp and kernels_v4.cpp, each compiled
-/// for its own.
+/// The kernels of the exact tiers for one instruction set. Included by kernels_v2.cpp, kernels_v3.cpp and
+/// kernels_v4.cpp, each compiled for its own.
 #pragma once
 
 #include "cpu/embree_tracer.h"
@@ -8,12 +8,23 @@
 
 namespace tandem {
 
+/// The Reals of a tier: for one ray and for a packet.
+template <class OneReal, class PacketReal>
+struct TierReals {
+    using One = OneReal;
+    using Packet = PacketReal;
+};
+template <class Isa>
+using Strict = TierReals<float, Lanes<float, Isa>>;
+template <class Isa>
+using Precise = TierReals<double, Lanes<double, Isa>>;
+
 /// One pixel per lane, along rows.
-template <class Isa, class Tracer>
+template <class Reals, class Tracer>
 std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                             Vec3d* sums) {
-    using Real = Lanes<float, Isa>;
-    using Word = Lanes<std::uint32_t, Isa>;
+    using Real = typename Reals::Packet;
+    using Word = UInt<Real>;
     constexpr std::uint32_t width = Real::size;
     std::uint64_t invalid = 0;
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
@@ -33,19 +44,18 @@ std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const 
     return invalid;
 }
 
-template <class Isa>
+template <class Reals>
 std::uint64_t render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
-    if (view.embree != nullptr) return render_pixels<Isa>(EmbreeTracer{view}, view.scene, job, tile, sums);
-    return render_pixels<Isa>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+    if (view.embree != nullptr) return render_pixels<Reals>(EmbreeTracer{view}, view.scene, job, tile, sums);
+    return render_pixels<Reals>(LoopTracer{view.scene}, view.scene, job, tile, sums);
 }
 
 /// Do the rays run alike? Then a packet is faster than its rays one by one. One origin, and directions whose signs
 /// agree: true of camera rays, and cheap to see.
-template <class Isa>
-TANDEM_HD bool is_coherent(const Ray<Lanes<float, Isa>>& rays) {
-    using Real = Lanes<float, Isa>;
+template <class Real>
+TANDEM_HD bool is_coherent(const Ray<Real>& rays) {
     const auto same = [](const Real& a) { return a == Real(a[0]); };
-    const auto same_sign = [](const Real& a) { return select(LaneMask<Isa>(a[0] < 0.0F), a, -a) <= Real(0.0F); };
+    const auto same_sign = [](const Real& a) { return select(Mask<Real>(a[0] < 0), a, -a) <= Real(0.0F); };
     return all(same(rays.origin.x) && same(rays.origin.y) && same(rays.origin.z) && same_sign(rays.direction.x) &&
                same_sign(rays.direction.y) && same_sign(rays.direction.z));
 }
@@ -53,19 +63,19 @@ TANDEM_HD bool is_coherent(const Ray<Lanes<float, Isa>>& rays) {
 /// Lane i holds component(i), for i below `used`; the other lanes repeat lane 0.
 template <class Lane, class Component>
 TANDEM_HD Lane gather(std::size_t used, Component component) {
+    using Scalar = typename RealTraits<Lane>::Scalar;
     return Lane::from([&](int lane) TANDEM_INLINE_LAMBDA {
         const auto i = static_cast<std::size_t>(lane);
-        return component(i < used ? i : 0);
+        return static_cast<Scalar>(component(i < used ? i : 0));
     });
 }
 
 /// Rays [first, first + used) of a job, as a packet.
-template <class Isa>
-TANDEM_HD Ray<Lanes<float, Isa>> gather_rays(const TraceJob& job, std::size_t first, std::size_t used) {
+template <class Packet>
+TANDEM_HD Ray<Packet> gather_rays(const TraceJob& job, std::size_t first, std::size_t used) {
     const Ray<float>* rays = job.rays.data() + first;
     const auto load = [&](auto component) TANDEM_INLINE_LAMBDA {
-        return gather<Lanes<float, Isa>>(used, [&](std::size_t i)
-                                                   TANDEM_INLINE_LAMBDA { return component(rays[i]); });
+        return gather<Packet>(used, [&](std::size_t i) TANDEM_INLINE_LAMBDA { return component(rays[i]); });
     };
     return {{load([](const Ray<float>& r) { return r.origin.x; }), load([](const Ray<float>& r) { return r.origin.y; }),
              load([](const Ray<float>& r) { return r.origin.z; })},
@@ -74,24 +84,35 @@ TANDEM_HD Ray<Lanes<float, Isa>> gather_rays(const TraceJob& job, std::size_t fi
              load([](const Ray<float>& r) { return r.direction.z; })}};
 }
 
-/// What a job asks of a tracer, for one ray and for a packet: the nearest hits of rays that leave nothing, ...
-template <class Isa>
+template <class Packet>
+TANDEM_HD Source<Packet> gather_sources(const TraceJob& job, std::size_t first, std::size_t used) {
+    using Word = UInt<Packet>;
+    if (job.sources.empty()) return {};
+    const RaySource* sources = job.sources.data() + first;
+    return {gather<Word>(used, [&](std::size_t i) { return sources[i].primitive; }),
+            gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U)};
+}
+
+// What a job asks of a tracer, for one ray and for a packet: the nearest hits of rays that leave nothing, ...
+template <class Reals>
 struct AskNearest {
-    using Real = Lanes<float, Isa>;
+    using One = typename Reals::One;
+    using Packet = typename Reals::Packet;
     template <class Tracer>
     TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
-        write(job, i, tracer.closest(job.rays[i], NoSource{}, active));
+        write(job, i, tracer.closest(to_real<One>(job.rays[i]), NoSource{}, active));
     }
     template <class Tracer>
-    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Real>& rays, std::size_t first,
-                                 std::size_t used, const LaneMask<Isa>& active) {
+    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
+                                 std::size_t used, const Mask<Packet>& active) {
         write(job, first, used, tracer.closest(rays, NoSource{}, active));
     }
-    TANDEM_HD static void write(const TraceJob& job, std::size_t i, const Closest<float>& closest) {
+    TANDEM_HD static void write(const TraceJob& job, std::size_t i, const Closest<One>& closest) {
         job.hits[i] = to_hit(closest);
-        if (!job.wide_t.empty()) job.wide_t[i] = closest.primitive == no_primitive ? 0 : closest.t;
+        if (!job.wide_t.empty()) job.wide_t[i] = closest.primitive == no_primitive ? 0 : to_wide(closest.t);
     }
-    TANDEM_HD static void write(const TraceJob& job, std::size_t first, std::size_t used, const Closest<Real>& closest) {
+    TANDEM_HD static void write(const TraceJob& job, std::size_t first, std::size_t used,
+                                const Closest<Packet>& closest) {
         for (std::size_t i = 0; i < used; ++i) {
             const int lane = static_cast<int>(i);
             write(job, first + i, {closest.t[lane], closest.primitive[lane]});
@@ -100,50 +121,45 @@ struct AskNearest {
 };
 
 /// ... of rays that leave surfaces, ...
-template <class Isa>
-struct AskNearestFromSurface : AskNearest<Isa> {
-    using Real = Lanes<float, Isa>;
+template <class Reals>
+struct AskNearestFromSurface {
+    using One = typename Reals::One;
+    using Packet = typename Reals::Packet;
     template <class Tracer>
     TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
-        AskNearest<Isa>::write(job, i, tracer.closest(job.rays[i], job.sources[i], active));
+        const Source<One> source = to_real<One>(job.sources[i]);
+        AskNearest<Reals>::write(job, i, tracer.closest(to_real<One>(job.rays[i]), source, active));
     }
     template <class Tracer>
-    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Real>& rays, std::size_t first,
-                                 std::size_t used, const LaneMask<Isa>& active) {
-        Source<Real> source;
-        gather_sources(job, first, used, source);
-        AskNearest<Isa>::write(job, first, used, tracer.closest(rays, source, active));
-    }
-    TANDEM_HD static void gather_sources(const TraceJob& job, std::size_t first, std::size_t used,
-                                         Source<Real>& source) {
-        if (job.sources.empty()) return;
-        using Word = Lanes<std::uint32_t, Isa>;
-        const RaySource* sources = job.sources.data() + first;
-        source.primitive = gather<Word>(used, [&](std::size_t i) { return sources[i].primitive; });
-        source.inside = gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U);
+    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
+                                 std::size_t used, const Mask<Packet>& active) {
+        const Source<Packet> source = gather_sources<Packet>(job, first, used);
+        AskNearest<Reals>::write(job, first, used, tracer.closest(rays, source, active));
     }
 };
 
 /// ... or whether shadow rays are stopped.
-template <class Isa>
+template <class Reals>
 struct AskOccluded {
-    using Real = Lanes<float, Isa>;
+    using One = typename Reals::One;
+    using Packet = typename Reals::Packet;
     template <class Tracer>
     TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
-        ShadowSource<float> source;
-        if (!job.sources.empty()) static_cast<RaySource&>(source) = job.sources[i];
+        ShadowSource<One> source;
+        if (!job.sources.empty()) static_cast<Source<One>&>(source) = to_real<One>(job.sources[i]);
         source.light = job.ends[i].light;
-        write(job, i, tracer.occluded(job.rays[i], job.ends[i].t, source, active));
+        const auto t_max = constant<Double<One>>(job.ends[i].t);
+        write(job, i, tracer.occluded(to_real<One>(job.rays[i]), t_max, source, active));
     }
     template <class Tracer>
-    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Real>& rays, std::size_t first,
-                                 std::size_t used, const LaneMask<Isa>& active) {
+    TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
+                                 std::size_t used, const Mask<Packet>& active) {
         const RayEnd* ends = job.ends.data() + first;
-        ShadowSource<Real> source;
-        AskNearestFromSurface<Isa>::gather_sources(job, first, used, source);
-        source.light = gather<Lanes<std::uint32_t, Isa>>(used, [&](std::size_t i) { return ends[i].light; });
-        const auto t_max = gather<Lanes<double, Isa>>(used, [&](std::size_t i) { return ends[i].t; });
-        const LaneMask<Isa> occluded = tracer.occluded(rays, t_max, source, active);
+        ShadowSource<Packet> source;
+        static_cast<Source<Packet>&>(source) = gather_sources<Packet>(job, first, used);
+        source.light = gather<UInt<Packet>>(used, [&](std::size_t i) { return ends[i].light; });
+        const auto t_max = gather<Double<Packet>>(used, [&](std::size_t i) { return ends[i].t; });
+        const Mask<Packet> occluded = tracer.occluded(rays, t_max, source, active);
         for (std::size_t i = 0; i < used; ++i) write(job, first + i, occluded[static_cast<int>(i)]);
     }
     TANDEM_HD static void write(const TraceJob& job, std::size_t i, bool occluded) {
@@ -152,20 +168,23 @@ struct AskOccluded {
     }
 };
 
-template <class Isa, class Ask, class Tracer>
-std::uint64_t trace_rays(const Tracer& tracer, bool always_packets, const TraceJob& job) {
-    using Real = Lanes<float, Isa>;
-    constexpr std::size_t width = Real::size;
+/// Returns how many rays were not traceable.
+template <class Reals, class Ask, bool always_packets, class Tracer>
+std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
+    using Packet = typename Reals::Packet;
+    constexpr std::size_t width = Packet::size;
     const std::size_t count = job.rays.size();
     std::uint64_t rejected = 0;
     for (std::size_t first = 0; first < count; first += width) {
         const std::size_t used = count - first < width ? count - first : width;
-        const Ray<Real> packet = gather_rays<Isa>(job, first, used);
-        const LaneMask<Isa> traceable = is_traceable(packet);
+        const Ray<Packet> packet = gather_rays<Packet>(job, first, used);
+        const Mask<Packet> traceable = is_traceable(packet);
         for (std::size_t i = 0; i < used; ++i) rejected += traceable[static_cast<int>(i)] ? 0U : 1U;
         if (always_packets || is_coherent(packet)) {
             Ask::packet(tracer, job, packet, first, used, traceable);
-        } else {
+            continue;
+        }
+        if constexpr (!always_packets) {
             for (std::size_t i = 0; i < used; ++i) {
                 Ask::one(tracer, job, first + i, traceable[static_cast<int>(i)]);
             }
@@ -174,21 +193,22 @@ std::uint64_t trace_rays(const Tracer& tracer, bool always_packets, const TraceJ
     return rejected;
 }
 
-template <class Isa, class Ask>
+template <class Reals, class Ask>
 std::uint64_t trace_as(const CpuSceneView& view, const TraceJob& job) {
-    if (view.embree != nullptr) return trace_rays<Isa, Ask>(EmbreeTracer{view}, false, job);
-    return trace_rays<Isa, Ask>(LoopTracer{view.scene}, true, job);
+    if (view.embree != nullptr) return trace_rays<Reals, Ask, false>(EmbreeTracer{view}, job);
+    return trace_rays<Reals, Ask, true>(LoopTracer{view.scene}, job);
 }
 
-template <class Isa>
+template <class Reals>
 std::uint64_t trace(const CpuSceneView& view, const TraceJob& job) {
-    if (!job.ends.empty()) return trace_as<Isa, AskOccluded<Isa>>(view, job);
-    if (!job.sources.empty()) return trace_as<Isa, AskNearestFromSurface<Isa>>(view, job);
-    return trace_as<Isa, AskNearest<Isa>>(view, job);
+    if (!job.ends.empty()) return trace_as<Reals, AskOccluded<Reals>>(view, job);
+    if (!job.sources.empty()) return trace_as<Reals, AskNearestFromSurface<Reals>>(view, job);
+    return trace_as<Reals, AskNearest<Reals>>(view, job);
 }
 
-template <class Isa>
-inline constexpr CpuKernels cpu_kernels = {Isa::name, render_tile<Isa>, trace<Isa>, intersect_callback<Isa>,
-                                           occluded_callback<Isa>};
+template <class Reals>
+inline constexpr TierKernels tier_kernels = {render_tile<Reals>, trace<Reals>,
+                                             intersect_callback<typename Reals::One, typename Reals::Packet>,
+                                             occluded_callback<typename Reals::One, typename Reals::Packet>};
 
 }  // namespace tandem

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "tandem/accuracy/tier.h"
 #include "tandem/bvh/bvh_tracer.h"
 #include "tandem/geometry/few_tracer.h"
 #include "tandem/geometry/hit.h"
@@ -41,10 +42,6 @@ struct DeviceCounters {
     unsigned long long stack_overflows;
 };
 
-/// Starts the sums of all pixels. Both in device memory.
-void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                   DeviceCounters* counters, cudaStream_t stream);
-
 /// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.
 struct DeviceRays {
     const Ray<float>* rays;
@@ -56,10 +53,30 @@ struct DeviceRays {
     std::size_t count;
 };
 
-/// Starts the nearest hits of the rays.
-void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
+/// The kernels of one tier.
+struct TierKernels {
+    /// Starts the sums of all pixels. `sums` and `counters` are in device memory.
+    void (*render)(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
+                   DeviceCounters* counters, cudaStream_t stream);
+    /// Starts the answers to the rays.
+    void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
+    /// Of the render kernel that a scene gets.
+    KernelFacts (*render_facts)(const DeviceSceneView& scene);
+};
 
-/// Of the render kernel that a scene gets.
-[[nodiscard]] KernelFacts render_kernel_facts(const DeviceSceneView& scene);
+[[nodiscard]] const TierKernels& fast_kernels();
+[[nodiscard]] const TierKernels& strict_kernels();
+[[nodiscard]] const TierKernels& precise_kernels();
+
+[[nodiscard]] inline const TierKernels& kernels(Tier tier) {
+    switch (tier) {
+#define TANDEM_TIER(name, promise) \
+    case Tier::name:               \
+        return name##_kernels();
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+    }
+    return strict_kernels();
+}
 
 }  // namespace tandem::cuda

@@ -28,6 +28,7 @@ void record(BenchmarkRow& row, std::int32_t round, double seconds, const TimedFr
     row.registers = timed.stats.registers;
     row.occupancy = timed.stats.occupancy;
     row.rays = static_cast<double>(timed.stats.rays);
+    row.counters += timed.stats.counters;
     const auto add = [&](const char* name, double value) { phase(row, name).seconds.push_back(value); };
     add("prepare", timed.prepare);
     add("build", timed.load.build);

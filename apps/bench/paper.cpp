@@ -181,6 +181,7 @@ void report_sequences(const PaperMeasurements& m, Report& report) {
     }
     report.blocks.emplace_back(std::move(table));
     for (const PaperSequence& sequence : m.sequences) {
+        report.counters += sequence.times.counters;
         const bool enough = sequence.times.render_share() >= least_render_share;
         report.blocks.emplace_back(Callout{enough ? Callout::Kind::good : Callout::Kind::note,
                                            fmt::format("{}: {}", sequence.label, what_holds_it_back(sequence.times))});

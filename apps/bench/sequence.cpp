@@ -115,6 +115,7 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
         auto result = std::make_shared<RenderResult>(oldest.pending->get());
         times.render += result->stats.seconds.render;
         times.download += result->stats.seconds.download;
+        times.counters += result->stats.counters;
         if (options.output == SequenceOutput::none) return;
         RenderJob done = job;
         done.frame = static_cast<std::uint32_t>(oldest.frame);

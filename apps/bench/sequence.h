@@ -36,6 +36,7 @@ struct SequenceTimes {
     double host = 0;     ///< prepare and load, on the thread that drives the backend
     double encode = 0;   ///< over all encoding threads
     double blocked = 0;  ///< the driving thread waited for an encoder
+    RenderCounters counters;
 
     /// Share of the wall-clock time in which the backend rendered.
     [[nodiscard]] double render_share() const { return wall > 0 ? render / wall : 0; }

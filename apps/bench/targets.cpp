@@ -42,7 +42,7 @@ class TargetRun {
         const RenderJob job = paper_job();
         compare(
             result, "paper's kernel on the GPU", [&] { return naive_gpu_render(naive_job(), buffer().data()).kernel; },
-            "Tandem GPU, kernel", [&] { return render_timed(*gpu, paper_, job).stats.seconds.render; });
+            "Tandem GPU, kernel", [&] { return render_seconds(*gpu, job); });
     }
 
     /// Sample rate of our CPU renderer over that of a build of the naive one, on the same number of threads.
@@ -57,7 +57,7 @@ class TargetRun {
                 return watch.seconds();
             },
             fmt::format("Tandem CPU, {} threads", threads),
-            [&] { return render_timed(*cpu, paper_, job).stats.seconds.render; });
+            [&] { return render_seconds(*cpu, job); });
     }
 
     /// Our rays per second over raw Embree's.
@@ -87,6 +87,8 @@ class TargetRun {
         (void)run(SequenceOutput::none);  // warms up
         const SequenceTimes png = run(SequenceOutput::png);
         const SequenceTimes text = run(SequenceOutput::ppm_text);
+        report_.counters += png.counters;
+        report_.counters += text.counters;
         for (std::int32_t frame = options_.frames.first; frame <= options_.frames.last; ++frame) {
             std::filesystem::remove(fmt::format("{}/frame-{:04}.ppm", options_.folder, frame));
         }
@@ -104,6 +106,11 @@ class TargetRun {
         return backend;
     }
 
+    double render_seconds(Backend& backend, const RenderJob& job) {
+        const TimedFrame timed = render_timed(backend, paper_, job);
+        report_.counters += timed.stats.counters;
+        return timed.stats.seconds.render;
+    }
     RenderJob paper_job() const {
         return {options_.size.width, options_.size.height, options_.samples, 0, 0, Tier::strict};
     }

@@ -19,7 +19,7 @@ namespace {
 /// Something that traces rays, and the row of its times.
 struct RayContender {
     BenchmarkRow row;
-    std::function<double(std::span<const Ray<float>>, std::span<Hit>)> trace;
+    std::function<double(std::span<const Ray<float>>, std::span<Hit>, RenderCounters&)> trace;
     std::vector<Hit> hits;
 };
 
@@ -44,12 +44,12 @@ BenchmarkRow ray_row(const VersusOptions& options, const std::string& label, con
 void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>>& rays, int repetitions) {
     for (RayContender& contender : contenders) {
         contender.hits.resize(rays.size());
-        contender.trace(rays, contender.hits);
+        contender.trace(rays, contender.hits, contender.row.counters);
     }
     std::vector<Hit> scratch(rays.size());
     for (int round = 0; round < repetitions; ++round) {
         for (const std::size_t i : interleaved_order(contenders.size(), static_cast<std::size_t>(round))) {
-            contenders[i].row.seconds.push_back(contenders[i].trace(rays, scratch));
+            contenders[i].row.seconds.push_back(contenders[i].trace(rays, scratch, contenders[i].row.counters));
             contenders[i].row.rounds.push_back(round);
         }
     }
@@ -60,7 +60,8 @@ void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>
 RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>& backends, const BackendSource& source,
                     Report& report) {
     log_progress(fmt::format("{}: {} rays", options.scene, to_string(*options.rays)));
-    const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}, Vec3d{0, 0, 0}});  // rays are in world space
+    // the rays are made in world space
+    const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}, Vec3d{0, 0, 0}});
     const std::vector<Ray<float>> rays = make_rays(*options.rays, options.ray_edge);
 
     // Owners before what traces with them.
@@ -77,8 +78,8 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
         const std::shared_ptr<ResidentScene> resident = backend.load(scene);
         phase(contender.row, "build").seconds = {resident->load_times().build};
         phase(contender.row, "upload").seconds = {resident->load_times().upload};
-        contender.trace = [&backend, resident](auto some_rays, auto hits) {
-            return backend.trace(*resident, some_rays, hits);
+        contender.trace = [&backend, resident](auto some_rays, auto hits, RenderCounters& counters) {
+            return backend.trace(*resident, {.rays = some_rays, .hits = hits, .counters = &counters});
         };
         contenders.push_back(std::move(contender));
     }
@@ -88,7 +89,7 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
         RayContender contender{ray_row(options, "raw Embree, rtcIntersect1", "embree"), {}, {}};
         contender.row.variant = EmbreeNative::version() + ", RTC_GEOMETRY_TYPE_SPHERE_POINT";
         phase(contender.row, "build").seconds = {native->build_seconds()};
-        contender.trace = [&native](auto some_rays, auto hits) { return native->trace(some_rays, hits); };
+        contender.trace = [&native](auto some_rays, auto hits, RenderCounters&) { return native->trace(some_rays, hits); };
         contenders.push_back(std::move(contender));
         timing.has_native = true;
     }

@@ -52,17 +52,18 @@ struct BvhTracer {
     BvhView bvh;
 
     /// As LoopTracer::closest().
-    template <class From>
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
-        Closest<float> best = no_hit<float>();
+    template <class Real, class From>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+        Closest<Real> best = no_hit<Real>();
         if (active) find<Search::nearest>(ray, source, best);
         return best;
     }
 
     /// As LoopTracer::occluded().
-    TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
+    template <class Real>
+    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
                             bool active) const {
-        Closest<float> best = before<float>(t_max);
+        Closest<Real> best = before<Real>(t_max);
         if (active) find<Search::any>(ray, source, best);
         return best.t < t_max;
     }
@@ -72,14 +73,14 @@ struct BvhTracer {
     /// ray that finds the stack full tries every primitive, which is slow and right.
     static constexpr std::int32_t leaf_of_all = leaf_child(max_bvh_primitives - 1, max_leaf_size);
 
-    template <Search search, class From>
-    TANDEM_HD void find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
-        const Proposal<float> proposal = propose(ray, bvh.frame, true);
+    template <Search search, class Real, class From>
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        const Proposal<Real> proposal = propose(ray, bvh.frame, true);
         if (!proposal.active) return;
-        const FilterRay<float> filter = make_filter_ray(ray);
-        const SlabRay slab = make_slab_ray(proposal.ray.origin, proposal.ray.direction);
-        const double t_max = best.t;
-        float limit = search == Search::any ? proposal.limit(t_max) : 3e38F;
+        const FilterRay<Real> filter = make_filter_ray(ray);
+        const SlabRay slab = make_slab_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
+        const Double<Real> t_max = best.t;
+        float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
         std::int32_t at = 0;
@@ -123,23 +124,25 @@ struct BvhTracer {
         }
     }
 
-    template <class From>
-    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const From& source,
-                            const Proposal<float>& proposal, Closest<float>& best, float& limit) const {
+    template <class Real, class From>
+    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
+                            const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
         const std::uint32_t first = leaf == leaf_of_all ? 0 : leaf_first(leaf);
         const std::uint32_t end = leaf == leaf_of_all ? primitive_count(scene) : first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Quad q = bvh_detail::load_quad(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
-            if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
+            if constexpr (!is_fast<Real>) {  // there the test costs hardly more than its filter
+                if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
+            }
             const std::uint32_t id = bvh.entry_ids[i];
-            const double t_before = best.t;
+            const Double<Real> t_before = best.t;
             if (id < scene.sphere_count) {
                 decide(around, id, filter.ray, source, true, best);
             } else {
-                intersect_primitive<float>(scene, id, filter, source, true, best);
+                intersect_primitive<Real>(scene, id, filter, source, true, best);
             }
-            if (best.t < t_before) limit = proposal.limit(best.t);
+            if (best.t < t_before) limit = to_plain(proposal.limit(best.t));
         }
     }
 };

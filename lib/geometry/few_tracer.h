@@ -16,32 +16,37 @@ struct FewTracer {
     BoxFilter boxes[max_boxes];
 
     /// As LoopTracer::closest().
-    template <class From>
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, const From& source, bool active) const {
-        Closest<float> best = no_hit<float>();
+    template <class Real, class From>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+        Closest<Real> best = no_hit<Real>();
         if (active) find<Search::nearest>(ray, source, best);
         return best;
     }
 
     /// As LoopTracer::occluded().
-    TANDEM_HD bool occluded(const Ray<float>& ray, double t_max, const ShadowSource<float>& source,
+    template <class Real>
+    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
                             bool active) const {
-        Closest<float> best = before<float>(t_max);
+        Closest<Real> best = before<Real>(t_max);
         if (active) find<Search::any>(ray, source, best);
         return best.t < t_max;
     }
 
   private:
-    template <Search search, class From>
-    TANDEM_HD void find(const Ray<float>& ray, const From& source, Closest<float>& best) const {
-        const FilterRay<float> f = make_filter_ray(ray);
-        const double t_max = best.t;
+    template <Search search, class Real, class From>
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        const FilterRay<Real> f = make_filter_ray(ray);
+        const Double<Real> t_max = best.t;
         std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
         for (std::uint32_t i = 0; i < max_spheres; ++i) {
             if (i == scene.sphere_count) break;
+            if constexpr (is_fast<Real>) {
+                decide(spheres[i], i, ray, source, true, best);
+                continue;
+            }
             if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
         }
 #if TANDEM_ON_DEVICE

@@ -4,7 +4,7 @@
 ///
 /// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
 /// one that leaves inward meets the far side, and always does, so that it never gets lost inside. A new kind adds one
-/// overload of leave_inward(); flat ones, which cannot be met again either way, return Mask<Real>(false).
+/// overload of first_or_far(); for flat ones, which cannot be met again either way, that is first_in_front() && !own.
 #pragma once
 
 #include "tandem/geometry/affine.h"
@@ -20,6 +20,12 @@ struct Source {
 };
 using RaySource = Source<float>;
 
+/// A caller's source as the kernels of a tier take it. `Real` of one lane.
+template <class Real>
+TANDEM_HD Source<Real> to_real(const RaySource& source) {
+    return {source.primitive, source.inside};
+}
+
 /// A source for rays that leave no surface, such as camera rays: the code for sources is then not even compiled.
 struct NoSource {};
 
@@ -33,48 +39,57 @@ namespace source_detail {
 
 /// The far crossing of a ray that goes inward is in front of it; where rounding has put the origin behind the surface it
 /// would not be, and comes at once.
-template <class D>
-TANDEM_HD D in_front(const D& t) {
-    return greater(t, D(0x1p-1022));
+template <class Real>
+TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
+    return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
 }
 
 template <class Real>
 TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
     // A line that passes the ball by, because rounding has put the origin outside: where it comes nearest.
-    const Mask<Real> ahead = roots.b >= D(0.0);
-    const D numerator = select(roots.crosses, select(ahead, roots.q, roots.c), roots.b);
-    const D denominator = select(roots.crosses && !ahead, roots.q, roots.a);
-    return in_front(numerator / denominator);
+    const Mask<Real> by_product = roots.crosses && roots.b < D(0.0);
+    const D numerator = select(by_product, roots.c, select(roots.crosses, roots.q, roots.b));
+    const D denominator = select(by_product, roots.q, roots.a);
+    return in_front<Real>(numerator / denominator);
 }
 
 }  // namespace source_detail
 
-// Where a ray that leaves a primitive inward meets it again: t, in double, rounded to within 1 ulp of float of where the
-// line through the ray leaves the body. The root at the origin is not formed, so nothing has to tell the two apart.
+// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it again.
+// t is within 1 ulp of float of where the line through the ray enters or leaves the body. The root at the origin is not
+// formed, so that nothing has to tell the two apart.
 
 template <class Real>
-TANDEM_HD Mask<Real> leave_inward(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t) {
-    t = source_detail::far_crossing(sphere_roots(sphere, ray));
-    return Mask<Real>(true);
+TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_in_front(roots, t);
+    t = select(own, source_detail::far_crossing(roots), t);
+    return hit || own;
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const BoxCrossing<Real>& crossing, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_in_front<Real>(crossing, t);
+    t = select(own, source_detail::in_front<Real>(crossing.t_far), t);
+    return hit || own;
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> leave_inward(const Box& box, const Ray<Real>& ray, Double<Real>& t) {
-    t = source_detail::in_front(cross_box(box, ray).t_far);
-    return Mask<Real>(true);
+TANDEM_HD Mask<Real> first_or_far(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
+    return first_or_far(sphere_roots(sphere, ray), own, t);
 }
-
 template <class Real>
-TANDEM_HD Mask<Real> leave_inward(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t) {
-    t = source_detail::far_crossing(ellipsoid_roots(body.placement, ray));
-    return Mask<Real>(true);
+TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
+    return first_or_far(cross_box(box, ray), own, t);
 }
-
 template <class Real>
-TANDEM_HD Mask<Real> leave_inward(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t) {
-    t = source_detail::in_front(cross_parallelepiped(to_object(body.placement, ray)).t_far);
-    return Mask<Real>(true);
+TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                  Double<Real>& t) {
+    return first_or_far(ellipsoid_roots(body.placement, ray), own, t);
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                  Double<Real>& t) {
+    return first_or_far(cross_parallelepiped(to_object(body.placement, ray)), own, t);
 }
 
 /// Where is a hit on primitive `id` the far side of what the ray left inward?
@@ -97,15 +112,8 @@ TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint3
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, Double<Real>& t) {
-    Mask<Real> hit = first_in_front(primitive, ray, t);
     const Mask<Real> own = source.primitive == UInt<Real>(id);
-    if (any(own)) {
-        Double<Real> t_again;
-        const Mask<Real> again = leave_inward(primitive, ray, t_again) && source.inside;
-        hit = select(own, again, hit);
-        t = select(own, t_again, t);
-    }
-    return hit;
+    return first_or_far(primitive, ray, own, t) && (!own || source.inside);
 }
 
 template <class Real, class Primitive>

@@ -1,8 +1,8 @@
 /// Points of surfaces, and the rays that leave from them.
 ///
-/// A point is brought back onto its surface in double and then rounded to float once: a sphere's and an ellipsoid's along
+/// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's along
 /// the line from the centre, a face of a box by copying its coordinate. Rounding still leaves it beside the surface, by up
-/// to half the distance of floats there; that is harmless, because the ray carries what it leaves (ray_source.h).
+/// to half the distance of numbers there; that is harmless, because the ray carries what it leaves (ray_source.h).
 #pragma once
 
 #include "tandem/geometry/ray_source.h"
@@ -32,9 +32,9 @@ template <class Real>
 TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray, const Double<Real>& t,
                                const Double<Real>& scale) {
     using D = Double<Real>;
-    const Vec3<D> centre = broadcast<D>(placement.centre);
+    const Vec3<D> centre = constant<D>(placement.centre);
     const Vec3<D> offset = along<Real>(widen(ray.origin) - centre, widen(ray.direction), t);
-    return narrow(Vec3<D>{centre.x + offset.x * scale, centre.y + offset.y * scale, centre.z + offset.z * scale});
+    return to_real<Real>(Vec3<D>{centre.x + offset.x * scale, centre.y + offset.y * scale, centre.z + offset.z * scale});
 }
 
 }  // namespace spawn_detail
@@ -48,9 +48,8 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = sphere_normal(sphere, ray, t);
-    const Vec3<D> centre = broadcast<D>(widen(sphere.centre));
-    const D radius(widen(sphere.radius));
-    point.position = narrow(spawn_detail::along<Real>(centre, point.normal, radius));
+    const Vec3<D> centre = broadcast<D>(sphere.centre);
+    point.position = to_real<Real>(spawn_detail::along<Real>(centre, point.normal, D(sphere.radius)));
     return point;
 }
 
@@ -61,7 +60,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray,
     SurfacePoint<Real> point;
     const Vec3<D> direction = widen(ray.direction);
     point.normal = face_normal<Real>(cross_box(box, ray), direction, exits);
-    const Vec3<Real> near = narrow(spawn_detail::along<Real>(widen(ray.origin), direction, t));
+    const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), direction, t));
     const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) TANDEM_INLINE_LAMBDA {
         const Real lo(lower);
         const Real hi(upper);
@@ -158,7 +157,7 @@ struct ShadowRay {
 template <class Real>
 TANDEM_HD ShadowRay<Real> spawn_shadow_ray(const SurfacePoint<Real>& from, const Vec3<Real>& to,
                                            const UInt<Real>& light) {
-    const SpawnedRay<Real> spawned = spawn_ray(from, narrow(widen(to) - widen(from.position)));
+    const SpawnedRay<Real> spawned = spawn_ray(from, to_real<Real>(widen(to) - widen(from.position)));
     ShadowRay<Real> shadow;
     shadow.ray = spawned.ray;
     static_cast<Source<Real>&>(shadow.source) = spawned.source;

@@ -8,6 +8,8 @@
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
+/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles to float
+///                         and back, also where it made the vector itself out of scalars, and with them the rounding.
 #pragma once
 
 #if defined(__CUDACC__)
@@ -20,6 +22,12 @@
 #define TANDEM_ON_DEVICE 1
 #else
 #define TANDEM_ON_DEVICE 0
+#endif
+
+#if defined(__GNUC__) && !defined(__clang__) && !TANDEM_COMPILING_CUDA
+#define TANDEM_KEEP_ROUNDING(x) __asm__("" : "+x"(x))
+#else
+#define TANDEM_KEEP_ROUNDING(x) static_cast<void>(0)
 #endif
 
 #if TANDEM_COMPILING_CUDA

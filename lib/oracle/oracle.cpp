@@ -28,11 +28,15 @@ struct NearestSurface {
     std::uint32_t primitive = no_primitive;
 };
 
-NearestSurface nearest_surface(const SceneView& scene, const Ray<float>& ray, const RaySource& source,
+/// `T`: float or double.
+template <class T>
+Line line_of(const Ray<T>& ray) {
+    return {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
+}
+
+NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
                                std::uint32_t except = no_primitive) {
     NearestSurface nearest;
-    if (!is_traceable(ray)) return nearest;
-    const Line line = {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         if (id == except) continue;
         const Start start = id != source.primitive ? Start::anywhere
@@ -56,12 +60,11 @@ bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
 Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 /// Phong's sum, written out once more from the paper's formula.
-Vector shade(const SceneView& scene, const Ray<float>& ray, const NearestSurface& nearest) {
+Vector shade(const SceneView& scene, const Line& line, const NearestSurface& nearest) {
     const PhongMaterial& material = scene.materials[scene.material_of[nearest.primitive]];
-    const Vector direction = oracle::to_vector(ray.direction);
-    const Vector point = oracle::to_vector(ray.origin) + direction * nearest.surface.t;
+    const Vector point = line.origin + line.direction * nearest.surface.t;
     const Vector n = nearest.surface.normal;
-    const Vector v = oracle::unit(direction) * -1;
+    const Vector v = oracle::unit(line.direction) * -1;
     Vector sum = times(oracle::to_vector(material.ambient), oracle::to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const Vector l = oracle::unit(oracle::to_vector(scene.lights[i].position) - point);
@@ -106,10 +109,14 @@ class OracleBackend final : public Backend {
         const Stopwatch watch;
         std::atomic<std::uint64_t> rejected = 0;
         for_each_block(job.rays.size(), 256, [&](std::size_t i) {
-            if (!is_traceable(job.rays[i])) ++rejected;
             const RaySource source = job.sources.empty() ? RaySource{} : job.sources[i];
-            const NearestSurface nearest =
-                nearest_surface(scene_view, job.rays[i], source, job.ends.empty() ? no_primitive : job.ends[i].light);
+            const std::uint32_t except = job.ends.empty() ? no_primitive : job.ends[i].light;
+            NearestSurface nearest;
+            if (is_traceable(job.rays[i])) {
+                nearest = nearest_surface(scene_view, line_of(job.rays[i]), source, except);
+            } else {
+                ++rejected;
+            }
             const Real t = nearest.surface.t;
             if (!job.ends.empty()) {
                 const bool occluded = nearest.primitive != no_primitive && t < Real{job.ends[i].t};
@@ -134,7 +141,10 @@ class OracleBackend final : public Backend {
         std::atomic<std::uint64_t> invalid = 0;
         const Stopwatch watch;
         for_each_block(result.film.pixel_count(), 64, [&](std::size_t pixel) {
-            result.film.sums()[pixel] = render(scene_view, pixel_job, static_cast<std::uint32_t>(pixel), invalid);
+            const auto number = static_cast<std::uint32_t>(pixel);
+            result.film.sums()[pixel] = job.tier == Tier::precise
+                                            ? render<double>(scene_view, pixel_job, number, invalid)
+                                            : render<float>(scene_view, pixel_job, number, invalid);
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.rays = result.film.pixel_count() * pixel_job.samples;
@@ -145,18 +155,20 @@ class OracleBackend final : public Backend {
     }
 
   private:
+    /// `T`: what the tier's camera rays are given in.
+    template <class T>
     static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel,
                         std::atomic<std::uint64_t>& invalid) {
         Vector sum{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
             const auto random = random_block<float>(job.seed, job.frame, pixel, sample, Dimension::film);
-            const Ray<float> ray =
-                camera_ray<float>(job.camera, pixel % job.width, pixel / job.width,
-                                  to_unit_interval<float>(random.word[0]), to_unit_interval<float>(random.word[1]));
-            const NearestSurface nearest = nearest_surface(scene, ray, {});
+            const Line line =
+                line_of(camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
+                                      to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1])));
+            const NearestSurface nearest = nearest_surface(scene, line, {});
             const Vector value = nearest.primitive == no_primitive
-                                     ? background_towards(scene.environment, oracle::to_vector(ray.direction))
-                                     : shade(scene, ray, nearest);
+                                     ? background_towards(scene.environment, line.direction)
+                                     : shade(scene, line, nearest);
             if (is_float(value.x) && is_float(value.y) && is_float(value.z)) {
                 sum = sum + value;
             } else {
@@ -186,7 +198,8 @@ class OracleBackend final : public Backend {
 }  // namespace
 
 OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source) {
-    const NearestSurface nearest = nearest_surface(view(scene), ray, source);
+    if (!is_traceable(ray)) return {0, no_primitive};
+    const NearestSurface nearest = nearest_surface(view(scene), line_of(ray), source);
     return {nearest.surface.t, nearest.primitive};
 }
 

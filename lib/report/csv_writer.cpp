@@ -52,6 +52,9 @@ std::string to_csv(std::span<const BenchmarkRow> rows) {
         "label", "scene", "backend",       "variant",    "tier",   "threads",    "measurements", "seconds",    "mad",
         "min",   "max",   "samples_per_s", "rays_per_s", "factor", "factor_low", "factor_high",  "factor_over"};
     for (const std::string& name : phases) header.push_back(name + "_seconds");
+#define TANDEM_COUNTER(name, words) header.push_back(#name);
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
     std::string csv;
     append_line(csv, header);
     for (const BenchmarkRow& row : rows) {
@@ -73,6 +76,9 @@ std::string to_csv(std::span<const BenchmarkRow> rows) {
             cells.insert(cells.end(), 4, "");
         }
         for (const std::string& name : phases) cells.push_back(phase_median(row, name));
+#define TANDEM_COUNTER(name, words) number(row.counters.name);
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
         append_line(csv, cells);
     }
     return csv;

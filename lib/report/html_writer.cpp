@@ -98,6 +98,7 @@ std::string to_html(const Report& report) {
     for (const Block& block : report.blocks) {
         content += std::visit([](const auto& one) { return html_of(one); }, block);
     }
+    for (const Callout& callout : counter_callouts(report)) content += html_of(callout);
     return fill_template(page_template, {{"title", escape_html(report.title)},
                                          {"summary", escape_html(report.summary)},
                                          {"command", escape_html(report.command)},

@@ -36,6 +36,14 @@ Json json_of(const Machine& machine) {
             {"more", more}};
 }
 
+Json json_of(const RenderCounters& counters) {
+    Json json = Json::object();
+#define TANDEM_COUNTER(name, words) json[#name] = counters.name;
+#include "tandem/render/counters.def"
+#undef TANDEM_COUNTER
+    return json;
+}
+
 Json json_of(const BenchmarkRow& row) {
     Json phases = Json::object();
     for (const PhaseTimings& timings : row.phases) {
@@ -68,6 +76,7 @@ Json json_of(const BenchmarkRow& row) {
             {"rays_per_second", rays_per_second(row)},
             {"factor", factor},
             {"errors", errors},
+            {"counters", json_of(row.counters)},
             {"registers", row.registers},
             {"occupancy", row.occupancy},
             {"note", row.note}};
@@ -148,9 +157,11 @@ std::string to_json(const Report& report) {
     Json document = {{"title", report.title}, {"command", report.command}, {"machine", json_of(report.machine)}};
     document["properties"] = Json::object();
     for (const auto& [name, value] : report.properties) document["properties"][name] = value;
+    document["counters"] = json_of(report.counters);
     for (const char* list : {"callouts", "rows", "tables", "plots"}) document[list] = Json::array();
     for (const BenchmarkRow& row : report.rows) document["rows"].push_back(json_of(row));
     for (const Block& block : report.blocks) std::visit(BlockCollector{document}, block);
+    for (const Callout& callout : counter_callouts(report)) BlockCollector{document}(callout);
     // Text from outside (device names) may not be UTF-8; a report must not fail on it.
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

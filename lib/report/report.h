@@ -61,8 +61,13 @@ struct Report {
     Machine machine;
     std::vector<Block> blocks;
     std::vector<BenchmarkRow> rows;  ///< every measurement, for machines and for who wants to check
+    RenderCounters counters;         ///< of what was rendered and traced beside the rows
     /// Figures that are not times: hashes, verdicts, thread counts. Name and value, for the JSON file.
     std::vector<std::pair<std::string, std::string>> properties;
 };
+
+/// What was counted that must not happen (render/counters.def): a sentence for every row with anything and for what was
+/// beside the rows, or one that nothing was. None for a report without measurements. Every writer shows them.
+[[nodiscard]] std::vector<Callout> counter_callouts(const Report& report);
 
 }  // namespace tandem

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tandem/render/stats.h"
 #include "tandem/report/statistics.h"
 
 namespace tandem {
@@ -44,6 +45,7 @@ struct BenchmarkRow {
     double rays = 0;                   ///< rays per measurement; 0 if not known
     std::optional<Factor> factor;
     std::vector<ErrorFigure> errors;
+    RenderCounters counters;  ///< summed over the measurements
     int registers = 0;     ///< of the kernel; 0 if not known
     double occupancy = 0;  ///< 0 if not known
     std::string note;

@@ -82,6 +82,7 @@ std::string to_text(const Report& report) {
     std::string text = report.title + "\n" + std::string(columns_of(report.title), '=') + "\n";
     text += wrapped(report.summary);
     for (const Block& block : report.blocks) std::visit(TextBlocks{text}, block);
+    for (const Callout& callout : counter_callouts(report)) TextBlocks{text}(callout);
     return text;
 }
 

@@ -35,16 +35,21 @@ CameraView camera_view(const PreparedScene& scene, int width, int height) {
     const Vec3d forward = -axes.row[2];
     const Vec3d eye = scene.render_from_camera.translation;
     const Vec3d zero{0, 0, 0};
-    if (scene.orthographic) {
-        const Vec3f corner = narrow(eye + to_corner);
-        const Vec3f opposite = narrow(eye - to_corner);
-        if (!(reach({corner, corner}) <= coordinate_limit && reach({opposite, opposite}) <= coordinate_limit)) {
+    const CameraView view =
+        scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
+                           : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
+    // rays are affine in the film position: if those of the corners can be traced, all can
+    for (const double x : {0.0, double(width)}) {
+        for (const double y : {0.0, double(height)}) {
+            if (is_traceable(camera_ray<float>(view, x, y, 0.0F, 0.0F))) continue;
             throw InputError(
-                "the orthographic camera shows points farther than 1e18 from the origin; make ymag smaller");
+                scene.orthographic
+                    ? "the orthographic camera shows points farther than 1e18 from the origin; make ymag smaller"
+                    : "the camera sends rays that cannot be traced: it is farther than 1e18 from the origin, or not a "
+                      "number");
         }
-        return {eye + to_corner, right, down, forward, zero, zero, true};
     }
-    return {eye, zero, zero, forward + to_corner, right, down, false};
+    return view;
 }
 
 std::string scene_hash(const PreparedScene& scene) {

@@ -9,6 +9,7 @@
 #include "tandem/bvh/bvh.h"
 #include "tandem/bvh/bvh_tracer.h"
 #include "tandem/geometry/few_tracer.h"
+#include "tandem/geometry/spawn_ray.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/scene/prepare.h"
 
@@ -34,15 +35,43 @@ struct Structure {
     Bvh bvh;
 };
 
+/// Same nearest hit of the ray; from there, same nearest hit of a ray that leaves the surface, and same shadow.
+template <class Tracer>
+void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<float>& ray, const std::string& what) {
+    const Closest<float> a = tracer.closest(ray, NoSource{}, true);
+    const Closest<float> b = one_by_one.closest(ray, NoSource{}, true);
+    ASSERT_EQ(a.primitive, b.primitive) << what;
+    ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << what;
+    if (b.primitive == no_primitive) return;
+    const SurfacePoint<float> point = surface_point(one_by_one.scene, ray, NoSource{}, b, true);
+    const Vec3f back = {ray.direction.y, -ray.direction.x, ray.direction.z};
+    const SpawnedRay<float> spawned = spawn_ray(point, back);
+    if (!is_traceable(spawned.ray)) return;
+    const Closest<float> c = tracer.closest(spawned.ray, spawned.source, true);
+    const Closest<float> d = one_by_one.closest(spawned.ray, spawned.source, true);
+    ASSERT_EQ(c.primitive, d.primitive) << what << ", onwards";
+    ASSERT_EQ(bits_of(c.t), bits_of(d.t)) << what << ", onwards";
+    ShadowSource<float> source;
+    static_cast<RaySource&>(source) = spawned.source;
+    for (const double t_max : {0.5 * d.t, d.t, d.t * (1 + 1e-15), 1.0, 1e300}) {
+        ASSERT_EQ(tracer.occluded(spawned.ray, t_max, source, true),
+                  one_by_one.occluded(spawned.ray, t_max, source, true))
+            << what << ", until " << t_max;
+        ASSERT_EQ(one_by_one.occluded(spawned.ray, t_max, source, true), d.t < t_max) << what << ", until " << t_max;
+    }
+    source.light = d.primitive;
+    ASSERT_EQ(tracer.occluded(spawned.ray, 1e300, source, true),
+              one_by_one.occluded(spawned.ray, 1e300, source, true))
+        << what << ", to a light";
+}
+
 void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
     const BvhTracer through_bvh = structure.tracer();
     const LoopTracer one_by_one = {view(structure.scene)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!is_traceable(rays[i])) continue;
-        const Closest<float> a = through_bvh.closest(rays[i], NoSource{}, true);
-        const Closest<float> b = one_by_one.closest(rays[i], NoSource{}, true);
-        ASSERT_EQ(a.primitive, b.primitive) << name << ", ray " << i;
-        ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << name << ", ray " << i;
+        expect_same(through_bvh, one_by_one, rays[i], name + ", ray " + std::to_string(i));
+        if (::testing::Test::HasFatalFailure()) return;
     }
 }
 
@@ -76,7 +105,7 @@ TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
     EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
-    const Closest<float> hit = structure.tracer().closest({{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
+    const Closest<float> hit = structure.tracer().closest(Ray<float>{{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
     EXPECT_EQ(hit.primitive, 0U);
     EXPECT_EQ(hit.t, 2.5);
 }
@@ -92,14 +121,53 @@ TEST(Bvh, BoundsItsDepthForSizesThatHalve) {
     EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
 }
 
+// A hierarchy deeper than the stack, as build_bvh() never makes one: a chain, each node a leaf and the rest.
+TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
+    constexpr std::uint32_t count = 200;
+    PreparedScene scene;
+    for (std::uint32_t i = 0; i < count; ++i) scene.spheres.push_back({{0, 0, -3 * static_cast<float>(i) - 5}, 1});
+    scene.material_of.assign(count, 0);
+    scene.materials.emplace_back();
+    Structure structure(std::move(scene));
+    Bvh& bvh = structure.bvh;
+    bvh.nodes.clear();
+    bvh.entry_ids.clear();
+    bvh.entry_spheres.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        bvh.entry_ids.push_back(i);
+        bvh.entry_spheres.push_back(structure.scene.spheres[i]);
+        if (i + 1 == count) break;
+        // all boxes hold everything, and the chain comes first, so that each step leaves a leaf on the stack
+        BvhNode node{};
+        for (auto& side : node.xy) side[0] = side[2] = -1e3F, side[1] = side[3] = 1e3F;
+        node.z[0] = node.z[2] = -1e3F;
+        node.z[1] = node.z[3] = 1e3F;
+        node.child[0] = i + 2 == count ? leaf_child(count - 1, 1) : static_cast<std::int32_t>(i + 1);
+        node.child[1] = leaf_child(i, 1);
+        bvh.nodes.push_back(node);
+    }
+    EXPECT_NE(find_bvh_defect(bvh, view(structure.scene), 0), "") << "too deep";
+    unsigned long long overflows = 0;
+    BvhTracer tracer = structure.tracer();
+    tracer.bvh.stack_overflows = &overflows;
+    const LoopTracer one_by_one = {view(structure.scene)};
+    for (const float x : {0.0F, 0.5F, 0.999F, 1.5F}) {
+        expect_same(tracer, one_by_one, {{x, 0, 0}, {0, 0, -1}}, "x = " + std::to_string(x));
+        expect_same(tracer, one_by_one, {{x, 0, -1000}, {0, 0, 1}}, "from behind, x = " + std::to_string(x));
+    }
+    EXPECT_GT(overflows, 0U);
+    tracer.bvh.stack_overflows = nullptr;  // need not be counted
+    EXPECT_EQ(tracer.closest(Ray<float>{{0, 0, 0}, {0, 0, -1}}, NoSource{}, true).t, 4.0);
+}
+
 TEST(Bvh, HoldsOnePrimitive) {
     PreparedScene scene;
     scene.spheres.push_back({{0, 0, 0}, 1});
     scene.material_of.push_back(0);
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
-    EXPECT_EQ(structure.tracer().closest({{0, 0, -3}, {0, 0, 1}}, NoSource{}, true).t, 2.0);
-    EXPECT_EQ(structure.tracer().closest({{0, 3, -3}, {0, 0, 1}}, NoSource{}, true).primitive, no_primitive);
+    EXPECT_EQ(structure.tracer().closest(Ray<float>{{0, 0, -3}, {0, 0, 1}}, NoSource{}, true).t, 2.0);
+    EXPECT_EQ(structure.tracer().closest(Ray<float>{{0, 3, -3}, {0, 0, 1}}, NoSource{}, true).primitive, no_primitive);
 }
 
 TEST(FewTracer, GivesTheBitsOfTheLoop) {
@@ -116,10 +184,8 @@ TEST(FewTracer, GivesTheBitsOfTheLoop) {
         const LoopTracer one_by_one = {scene_view};
         for (const Ray<float>& ray : test::make_rays(scene, 50'000, 8)) {
             if (!is_traceable(ray)) continue;
-            const Closest<float> a = few.closest(ray, NoSource{}, true);
-            const Closest<float> b = one_by_one.closest(ray, NoSource{}, true);
-            ASSERT_EQ(a.primitive, b.primitive);
-            ASSERT_EQ(bits_of(a.t), bits_of(b.t));
+            expect_same(few, one_by_one, ray, "few");
+            if (HasFatalFailure()) return;
         }
     }
     EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("spheres/9")))));
