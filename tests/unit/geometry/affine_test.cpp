@@ -7,7 +7,7 @@
 
 #include "tandem/scene/prepare.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
+#include "support/exact_geometry.h"
 
 namespace tandem {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
+#include "support/exact_geometry.h"
 
 namespace tandem {
 namespace {

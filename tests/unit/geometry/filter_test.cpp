@@ -8,7 +8,7 @@
 
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
+#include "support/exact_geometry.h"
 #include "unit/math/lane_operations.h"
 
 namespace tandem {

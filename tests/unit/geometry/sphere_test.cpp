@@ -5,7 +5,7 @@
 
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
+#include "support/exact_geometry.h"
 
 namespace tandem {
 namespace {

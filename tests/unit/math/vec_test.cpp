@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/random.h"
-#include "unit/geometry/exact_geometry.h"
+#include "support/exact_geometry.h"
 
 namespace tandem {
 namespace {
