@@ -7,6 +7,7 @@
 #include "support/random.h"
 #include "tandem/geometry/sphere.h"
 #include "tandem/math/ray.h"
+#include "tandem/math/transform.h"
 
 namespace tandem::test {
 
@@ -24,6 +25,12 @@ inline Vec3d any_across(Random& random, const Vec3d& axis) {
         const Vec3d v = cross(axis, any_unit(random));
         if (dot(v, v) > 1e-4) return normalize(v);
     }
+}
+
+/// A turn about any axis, as a unit quaternion.
+inline Quaternion any_turn(Random& random) {
+    const Vec3d axis = any_unit(random) * 0.8;
+    return {axis.x, axis.y, axis.z, 0.6};
 }
 
 struct SphereCase {

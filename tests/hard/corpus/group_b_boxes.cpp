@@ -150,7 +150,7 @@ std::vector<Lot> placed(Random& random, std::size_t rays) {
         Scene scene = scene_of(shell(random, {0, 0, 0}, 1e4));
         Node node{.name = "body"};
         node.trs.translation = any_unit(random) * random.uniform(0.0, 100.0);
-        node.trs.rotation = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.3};
+        node.trs.rotation = test::any_turn(random);
         node.trs.scale = {1e-3, 1, 1e3};
         node.geometry.push_back(
             {i % 2 == 0 ? std::variant<SphereShape, BoxShape>(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});

@@ -31,7 +31,7 @@ std::vector<Lot> small_and_far(Random& random, std::size_t rays) {
     for (int i = 0; i < 64; ++i) {
         Node node{.name = "body", .parent = 1};
         const Vec3d place = any_unit(random) * random.uniform(0.0, 2000.0);
-        node.trs = {place, {random.uniform(-1.0, 1.0), 0.2, 0.1, 1}, {100, 70, 50}};
+        node.trs = {place, test::any_turn(random), {100, 70, 50}};
         node.geometry.push_back({i % 2 == 0 ? std::variant<SphereShape, BoxShape>(SphereShape{1}) : BoxShape{}, 0, {}});
         scene.nodes.push_back(node);
         places.push_back(middle + place * 1e-3);
