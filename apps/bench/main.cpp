@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/run_main.h"
+#include "hard.h"
 #include "output.h"
 #include "paper.h"
 #include "parity.h"
@@ -29,6 +30,7 @@ struct Everything {
     VersusOptions versus;
     PaperOptions paper;
     TargetOptions targets;
+    HardOptions hard;
     bool list_targets = false;
 };
 
@@ -123,6 +125,17 @@ CLI::App* add_targets(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_hard(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("hard", "Hard cases against exact answers. Status 1 if a mark is missed");
+    command->add_option("--cases", all.hard.cases, "Such as A1,B*; default all")->delimiter(',');
+    add_backends_option(*command, all.hard);
+    command->add_option("--tiers", all.hard.tiers, "fast, strict, precise; default all")->delimiter(',');
+    command->add_option("--rays", all.hard.rays, "Per case")->capture_default_str()->check(CLI::Range(16, 100'000'000));
+    command->add_option("--export", all.hard.export_folder, "Write scenes, rays and answers to this folder instead");
+    command->add_option("--check", all.hard.answers, "Score another renderer's answers, FOLDER/answers, instead");
+    return command;
+}
+
 /// The command line as it can be typed again.
 std::string command_line(int count, const char* const* words) {
     std::string line = "tandem-bench";
@@ -159,6 +172,7 @@ int run(int count, char** words) {
     const CLI::App* versus = add_versus(app, all);
     const CLI::App* paper = add_paper(app, all);
     const CLI::App* targets = add_targets(app, all);
+    const CLI::App* hard = add_hard(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -190,6 +204,8 @@ int run(int count, char** words) {
         }
         take_texts(all.texts, all.targets);
         satisfied = run_targets(all.targets, source, report);
+    } else if (hard->parsed()) {
+        satisfied = run_hard(all.hard, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;
