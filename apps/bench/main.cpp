@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "accuracy.h"
 #include "common/run_main.h"
 #include "hard.h"
 #include "output.h"
@@ -26,6 +27,7 @@ struct Texts {
 struct Everything {
     Texts texts;
     OutputOptions output;
+    AccuracyOptions accuracy;
     ParityOptions parity;
     VersusOptions versus;
     PaperOptions paper;
@@ -86,6 +88,25 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     command->add_option("--seed", all.versus.seed, "Of the random numbers")->capture_default_str();
+    return command;
+}
+
+CLI::App* add_accuracy(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("accuracy", "What each digit costs: every tier, its time beside its error");
+    command->add_option("SCENE", all.accuracy.scenes, "Files, or named:NAME")->capture_default_str();
+    add_backends_option(*command, all.accuracy);
+    command->add_option("--tiers", all.accuracy.tiers, "Which take part")->delimiter(',')->capture_default_str();
+    add_picture_options(*command, all.texts, all.accuracy);
+    command->add_option("--rays", all.accuracy.rays, "Per kind of primitive")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 26));
+    command->add_option("--threads", all.accuracy.threads, "Of the CPU; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--repetitions", all.accuracy.repetitions, "Rounds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--seed", all.accuracy.seed, "Of the random numbers")->capture_default_str();
     return command;
 }
 
@@ -170,6 +191,7 @@ int run(int count, char** words) {
     Everything all;
     const CLI::App* parity = add_parity(app, all);
     const CLI::App* versus = add_versus(app, all);
+    const CLI::App* accuracy = add_accuracy(app, all);
     const CLI::App* paper = add_paper(app, all);
     const CLI::App* targets = add_targets(app, all);
     const CLI::App* hard = add_hard(app, all);
@@ -192,6 +214,9 @@ int run(int count, char** words) {
         take_texts(all.texts, all.versus);
         if (!all.texts.rays.empty()) all.versus.rays = parse_ray_set(all.texts.rays);
         satisfied = run_versus(all.versus, source, report);
+    } else if (accuracy->parsed()) {
+        take_texts(all.texts, all.accuracy);
+        satisfied = run_accuracy(all.accuracy, source, report);
     } else if (paper->parsed()) {
         take_texts(all.texts, all.paper);
         satisfied = run_paper(all.paper, source, report);

@@ -1,6 +1,6 @@
 /// A float of the tier fast, for one ray (math/real.h). Files that use it are compiled so that the compiler may
 /// contract a * b + c and take the processor's approximate division, square root, exponential and logarithm
-/// (docs/accuracy.md). It is a type of its own, so that none of this code is mistaken for that of the tier strict,
+/// (docs/tiers.md). It is a type of its own, so that none of this code is mistaken for that of the tier strict,
 /// which works in float too.
 #pragma once
 

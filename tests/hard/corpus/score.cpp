@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/accuracy/ulp.h"
+
 namespace tandem::hard {
 
 double Score::median_ulps() const {
@@ -34,8 +36,7 @@ void Score::add(const Score& other) {
 double ulps_from(float value, double right) {
     const float nearest = static_cast<float>(right);
     if (std::isinf(nearest) || !std::isfinite(value)) return nearest == value ? 0 : HUGE_VAL;
-    const double place = double{std::nextafter(std::abs(nearest), HUGE_VALF)} - double{std::abs(nearest)};
-    return std::isinf(place) ? 0 : std::abs(double{value} - right) / place;
+    return error_in_ulp(value, right);
 }
 
 std::string to_literal(const Ray<float>& ray) {
