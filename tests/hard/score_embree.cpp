@@ -13,6 +13,7 @@
 
 #include "common/run_main.h"
 #include "embree_native.h"
+#include "hard/corpus/exchange.h"
 #include "hard/corpus/npy.h"
 #include "tandem/gltf/import.h"
 #include "tandem/scene/prepare.h"
@@ -22,27 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int32_t miss_id = -1;
-constexpr std::int32_t refused_id = -2;
-
 /// Embree as Debian packages it ends the process for other rays: it asserts |origin| and |direction| up to 1.844e18.
 bool embree_takes(const Ray<float>& ray) { return is_traceable(ray); }
-
-std::vector<Ray<float>> read_rays(const std::string& path, std::size_t count) {
-    const std::vector<double> n = hard::read_npy<double>(path, count, 6);
-    std::vector<Ray<float>> rays(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const double* at = &n[6 * i];
-        rays[i] = {narrow(Vec3d{at[0], at[1], at[2]}), narrow(Vec3d{at[3], at[4], at[5]})};
-    }
-    return rays;
-}
 
 /// False if the scene holds what Embree has no geometry for.
 bool answer_lot(const fs::path& folder, const fs::path& answers, const std::string& name, std::size_t count) {
     const PreparedScene scene = prepare(import_gltf(folder / (name + ".gltf")).scene);
     if (scene.spheres.size() != primitive_count(scene)) return false;
-    const std::vector<Ray<float>> rays = read_rays((folder / (name + ".rays.npy")).string(), count);
+    const std::vector<Ray<float>> rays = hard::read_rays(folder.string(), name, count);
     std::vector<Ray<float>> taken;
     for (const Ray<float>& ray : rays) {
         if (embree_takes(ray)) taken.push_back(ray);
@@ -56,8 +44,8 @@ bool answer_lot(const fs::path& folder, const fs::path& answers, const std::stri
     for (const Ray<float>& ray : rays) {
         const bool is_taken = embree_takes(ray);
         const Hit hit = is_taken ? hits[next++] : Hit{};
-        ids.push_back(!is_taken                       ? refused_id
-                      : hit.primitive == no_primitive ? miss_id
+        ids.push_back(!is_taken                       ? hard::refused_id
+                      : hit.primitive == no_primitive ? hard::miss_id
                                                       : static_cast<std::int32_t>(hit.primitive));
         t.push_back(hit.t);
     }

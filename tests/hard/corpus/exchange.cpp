@@ -19,8 +19,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr int format_version = 1;
-constexpr std::int32_t miss_id = -1;
-constexpr std::int32_t refused_id = -2;
 constexpr const char* manifest_name = "manifest.json";
 
 void make_folder(const fs::path& folder) {
@@ -95,16 +93,6 @@ std::vector<Answer> read_exact(const fs::path& folder, const std::string& name, 
     return answers;
 }
 
-std::vector<Ray<float>> read_rays(const fs::path& folder, const std::string& name, std::size_t rays) {
-    const auto numbers = read_npy<double>((folder / (name + ".rays.npy")).string(), rays, 6);
-    std::vector<Ray<float>> result(rays);
-    for (std::size_t i = 0; i < rays; ++i) {
-        const double* n = &numbers[6 * i];
-        result[i] = {narrow(Vec3d{n[0], n[1], n[2]}), narrow(Vec3d{n[3], n[4], n[5]})};
-    }
-    return result;
-}
-
 std::vector<Hit> read_answers(const fs::path& id_file, const fs::path& t_file, std::size_t rays,
                               std::size_t primitives) {
     const auto ids = read_npy<std::int64_t>(id_file.string(), rays);
@@ -148,6 +136,16 @@ void export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, c
     write_file((root / manifest_name).string(), std::string_view(manifest.dump(1) + "\n"), Durability::written);
 }
 
+std::vector<Ray<float>> read_rays(const std::string& folder, const std::string& lot, std::size_t rays) {
+    const auto numbers = read_npy<double>((fs::path(folder) / (lot + ".rays.npy")).string(), rays, 6);
+    std::vector<Ray<float>> result(rays);
+    for (std::size_t i = 0; i < rays; ++i) {
+        const double* n = &numbers[6 * i];
+        result[i] = {narrow(Vec3d{n[0], n[1], n[2]}), narrow(Vec3d{n[3], n[4], n[5]})};
+    }
+    return result;
+}
+
 std::vector<CheckedCase> check_answers(const std::string& answers) {
     const fs::path folder = fs::path(answers).lexically_normal();
     const fs::path root = (folder.has_filename() ? folder : folder.parent_path()).parent_path();
@@ -166,7 +164,7 @@ std::vector<CheckedCase> check_answers(const std::string& answers) {
                 if (checked.missing.empty() && !fs::exists(file)) checked.missing = file.string();
             }
             if (!checked.missing.empty()) break;
-            checked.score.add(score_hits(read_rays(root, name, count), read_exact(root, name, count),
+            checked.score.add(score_hits(read_rays(root.string(), name, count), read_exact(root, name, count),
                                          read_answers(id_file, t_file, count, lot["primitives"].get<std::size_t>()),
                                          hard_case["watertight"]));
         }
