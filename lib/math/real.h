@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "tandem/math/host_device.h"
 
@@ -106,6 +107,18 @@ TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
     const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
     high = static_cast<std::uint32_t>(product >> 32);
     low = static_cast<std::uint32_t>(product);
+}
+
+/// The value of one lane, and another in its place. A number that is no packet has one lane.
+template <class T>
+TANDEM_HD T lane(const T& value, int) {
+    return value;
+}
+template <class Real>
+using Scalar = decltype(lane(std::declval<const Real&>(), 0));
+template <class T>
+TANDEM_HD void set_lane(T& value, int, const T& lane_value) {
+    value = lane_value;
 }
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
