@@ -56,6 +56,8 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 }
 
 struct EmbreeTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+
     const CpuSceneView& view;
 
     [[nodiscard]] TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool) const {

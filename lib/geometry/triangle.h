@@ -170,11 +170,11 @@ class ExactCrossing {
 };
 
 template <class T>
-TANDEM_HD_RARE double exact_parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<T> ray) {
+TANDEM_HD_CALL double exact_parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<T> ray) {
     return ExactCrossing<T>(v0, v1, v2, ray).parameter();
 }
 template <class T>
-TANDEM_HD_RARE Barycentrics<double> exact_barycentrics(Vec3f v0, Vec3f v1, Vec3f v2, Ray<T> ray) {
+TANDEM_HD_CALL Barycentrics<double> exact_barycentrics(Vec3f v0, Vec3f v1, Vec3f v2, Ray<T> ray) {
     return ExactCrossing<T>(v0, v1, v2, ray).barycentrics();
 }
 
@@ -184,10 +184,9 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
 
-/// The parameter of the hit, or infinity for a miss; a call on a GPU, since few of the triangles that a ray is tried
-/// against get here.
+/// The parameter of the hit, or infinity for a miss.
 template <class Real>
-TANDEM_HD_RARE Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray) {
+TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D least = lesser(lesser(w.w0, w.w1), w.w2);
@@ -264,8 +263,10 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
 }
 
 /// Unit normal, on the side from which the corners run counter-clockwise.
-TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
-    return normalize(accurate_cross(widen(v1) - widen(v0), widen(v2) - widen(v0)));
+template <class S = double>
+TANDEM_HD Vec3<S> triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+    const Vec3<S> origin(v0);
+    return normalize(accurate_cross(Vec3<S>(v1) - origin, Vec3<S>(v2) - origin));
 }
 
 /// Is its area zero, exactly? No ray hits such a triangle.

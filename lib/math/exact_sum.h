@@ -129,8 +129,7 @@ class ExactSum {
 
 /// Adds det(a, b, c) = a . (b x c), or takes it away.
 template <class T>
-TANDEM_HD void add_determinant(ExactSum<T>& sum, const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
-                               bool take_away = false) {
+TANDEM_HD_CALL void add_determinant(ExactSum<T>& sum, Vec3<T> a, Vec3<T> b, Vec3<T> c, bool take_away = false) {
     const T p[3] = {a.x, a.y, a.z};
     const T q[3] = {b.x, b.y, b.z};
     const T r[3] = {c.x, c.y, c.z};

@@ -17,7 +17,7 @@ using test::small_scene;
 Quaternion about_z(double radians) { return {0, 0, std::sin(radians / 2), std::cos(radians / 2)}; }
 
 /// small_scene() with another thing at "body".
-PreparedScene prepare_body(std::variant<SphereShape, BoxShape> shape, const Trs& trs) {
+PreparedScene prepare_body(Shape shape, const Trs& trs) {
     Scene scene = small_scene();
     scene.nodes[1].geometry[0].shape = shape;
     scene.nodes[1].trs = trs;

@@ -17,7 +17,8 @@ struct HardScene {
     double scale;   ///< edge of the cloud of primitives, metres
     double offset;  ///< distance of the cloud from the world's origin, metres
     double spread;  ///< sizes are scale * 10^-U(0, spread)
-    int count;      ///< primitives: spheres, boxes, ellipsoids and parallelepipeds by turns
+    int count;      ///< primitives
+    bool faces = false;  ///< triangles and quads by turns; else spheres, boxes, ellipsoids and parallelepipeds
 };
 
 [[nodiscard]] std::vector<HardScene> hard_scenes();
