@@ -58,7 +58,7 @@ void check_embree(RTCDevice device, const char* doing) {
 
 class CpuScene final : public ResidentScene {
   public:
-    CpuScene(const PreparedScene& scene, Tier tier, RTCDevice device, const CpuKernels& kernels)
+    CpuScene(const PreparedScene& scene, Tier tier, RTCDevice device, const TierKernels& kernels)
         : ResidentScene(tier), scene_(scene) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
@@ -72,7 +72,7 @@ class CpuScene final : public ResidentScene {
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
   private:
-    void build(RTCDevice device, const CpuKernels& kernels, std::uint32_t count) {
+    void build(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
         const Aabb bounds = tbb::parallel_reduce(
             tbb::blocked_range<std::uint32_t>(0, count, 4096), Aabb{},
             [&](const tbb::blocked_range<std::uint32_t>& range, Aabb box) {
@@ -138,18 +138,19 @@ class CpuBackend final : public Backend {
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         std::shared_ptr<CpuScene> result;
-        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels()); });
+        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels(tier)); });
         return result;
     }
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
         check(job);
         const CpuSceneView& view = dynamic_cast<const CpuScene&>(scene).view();
+        const TierKernels& kernels = set_.kernels(scene.tier());
         const Stopwatch watch;
         arena_.execute([&] {
             tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.rays.size(), 1024), [&](const auto& range) {
                 const DefaultFpEnvironment guard;
-                set_.kernels().trace(view, part(job, range.begin(), range.size()));
+                kernels.trace(view, part(job, range.begin(), range.size()));
             });
         });
         return watch.seconds();
@@ -159,7 +160,7 @@ class CpuBackend final : public Backend {
                                                        const RenderJob& job) override {
         check(job, scene->tier());
         const auto& resident = dynamic_cast<const CpuScene&>(*scene);
-        const CpuKernels& kernels = set_.kernels();
+        const TierKernels& kernels = set_.kernels(job.tier);
         const PixelJob pixel_job = make_pixel_job(resident.prepared(), job);
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples);

@@ -19,11 +19,12 @@ struct QueryContext {
 };
 
 /// Candidate `primitive` for one ray of Embree's.
-TANDEM_HD void offer_candidate(const SceneView& scene, std::uint32_t primitive, QueryContext<float>& query,
+template <class Real>
+TANDEM_HD void offer_candidate(const SceneView& scene, std::uint32_t primitive, QueryContext<Real>& query,
                                RTCRayHit& ray) {
-    const double before = query.best.t;
-    intersect_primitive<float>(scene, primitive, query.filter, true, query.best);
-    if (query.best.t < before) ray.ray.tfar = query.proposal.limit(query.best.t);
+    const Double<Real> before = query.best.t;
+    intersect_primitive<Real>(scene, primitive, query.filter, true, query.best);
+    if (query.best.t < before) ray.ray.tfar = to_plain(query.proposal.limit(query.best.t));
 }
 
 /// Candidate `primitive` for the lanes of `active`.
@@ -34,25 +35,25 @@ TANDEM_HD void offer_candidate(const SceneView& scene, std::uint32_t primitive, 
     intersect_primitive<Real>(scene, primitive, query.filter, active, query.best);
     const Mask<Real> nearer = query.best.t < before;
     if (any(nearer)) {
-        auto* tfar = reinterpret_cast<Real*>(ray.ray.tfar);
+        auto* tfar = reinterpret_cast<Float<Real>*>(ray.ray.tfar);
         *tfar = select(nearer, query.proposal.limit(query.best.t), *tfar);
     }
 }
 
-template <class Isa>
+/// `One` and `Packet`: the Reals of the tier, for one ray and for many.
+template <class One, class Packet>
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
-    using Real = Lanes<float, Isa>;
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
     if (args->N == 1) {
         if (args->valid[0] == 0) return;
-        auto& query = *reinterpret_cast<QueryContext<float>*>(args->context);
-        offer_candidate(view.scene, args->primID, query, *reinterpret_cast<RTCRayHit*>(args->rayhit));
+        auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
+        offer_candidate<One>(view.scene, args->primID, query, *reinterpret_cast<RTCRayHit*>(args->rayhit));
         return;
     }
-    auto& query = *reinterpret_cast<QueryContext<Real>*>(args->context);
-    const LaneMask<Isa> active(*reinterpret_cast<const typename LaneMask<Isa>::Vector*>(args->valid));
-    auto& ray = *reinterpret_cast<typename embree::Packet<Real::size>::RayHit*>(args->rayhit);
-    offer_candidate<Real>(view.scene, args->primID, active, query, ray);
+    auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
+    const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit);
+    offer_candidate<Packet>(view.scene, args->primID, active, query, ray);
 }
 
 struct EmbreeTracer {
@@ -60,14 +61,15 @@ struct EmbreeTracer {
 
     const CpuSceneView& view;
 
-    [[nodiscard]] TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool) const {
-        QueryContext<float> query;
-        query.best = no_hit<float>();
+    template <class Real>
+    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, bool) const {
+        QueryContext<Real> query;
+        query.best = no_hit<Real>();
         query.proposal = propose(ray, view.frame, true);
         if (!query.proposal.active) return query.best;
         query.filter = make_filter_ray(ray);
         embree::init_context(query.head, false);
-        const Ray<float>& p = query.proposal.ray;
+        const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
         RTCRayHit rayhit;
         rayhit.ray = {p.origin.x, p.origin.y, p.origin.z, 0, p.direction.x, p.direction.y, p.direction.z, 0,
                       3e38F,      0xFFFFFFFF, 0,          0};
@@ -76,23 +78,24 @@ struct EmbreeTracer {
         return query.best;
     }
 
-    template <class Isa>
-    [[nodiscard]] TANDEM_HD Closest<Lanes<float, Isa>> closest(const Ray<Lanes<float, Isa>>& ray,
-                                                               const LaneMask<Isa>& active) const {
-        using Real = Lanes<float, Isa>;
+    template <class T, class Isa>
+    [[nodiscard]] TANDEM_HD Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray,
+                                                           const LaneMask<Isa>& active) const {
+        using Real = Lanes<T, Isa>;
+        using F = Float<Real>;
         QueryContext<Real> query;
         query.best = no_hit<Real>();
         query.proposal = propose(ray, view.frame, active);
         if (!any(query.proposal.active)) return query.best;
         query.filter = make_filter_ray(ray);
         embree::init_context(query.head, true);
-        const Ray<Real>& p = query.proposal.ray;
+        const Ray<F>& p = query.proposal.ray;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
         const auto set = [](auto* field, const auto& value) { std::memcpy(field, &value, sizeof(value)); };
-        const Real zero(0.0F);
+        const F zero(0.0F);
         // lanes that take no part still hold numbers: Debian's Embree asserts that every ray is valid
-        const Vec3<Real> origin = select(query.proposal.active, p.origin, Vec3<Real>{zero, zero, zero});
-        const Vec3<Real> direction = select(query.proposal.active, p.direction, Vec3<Real>{zero, zero, Real(1.0F)});
+        const Vec3<F> origin = select(query.proposal.active, p.origin, Vec3<F>{zero, zero, zero});
+        const Vec3<F> direction = select(query.proposal.active, p.direction, Vec3<F>{zero, zero, F(1.0F)});
         set(rayhit.ray.org_x, origin.x);
         set(rayhit.ray.org_y, origin.y);
         set(rayhit.ray.org_z, origin.z);
@@ -100,7 +103,7 @@ struct EmbreeTracer {
         set(rayhit.ray.dir_y, direction.y);
         set(rayhit.ray.dir_z, direction.z);
         set(rayhit.ray.tnear, zero);
-        set(rayhit.ray.tfar, Real(3e38F));
+        set(rayhit.ray.tfar, F(3e38F));
         set(rayhit.ray.time, zero);
         const Lanes<std::uint32_t, Isa> ones(0xFFFFFFFFU);
         set(rayhit.ray.mask, ones);

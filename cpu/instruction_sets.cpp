@@ -22,9 +22,9 @@ bool has_v4() {
 }
 
 constexpr std::array sets = {
-    InstructionSet{"x86-64-v2", has_v2, cpu_kernels_v2},
-    InstructionSet{"x86-64-v3", has_v3, cpu_kernels_v3},
-    InstructionSet{"x86-64-v4", has_v4, cpu_kernels_v4},
+    InstructionSet{"x86-64-v2", has_v2, exact_kernels_v2, fast_kernels_v2},
+    InstructionSet{"x86-64-v3", has_v3, exact_kernels_v3, fast_kernels_v3},
+    InstructionSet{"x86-64-v4", has_v4, exact_kernels_v4, fast_kernels_v4},
 };
 
 }  // namespace

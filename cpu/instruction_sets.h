@@ -11,7 +11,12 @@ namespace tandem {
 struct InstructionSet {
     const char* name;
     bool (*is_supported)();
-    const CpuKernels& (*kernels)();
+    const TierKernels& (*exact_kernels)(Tier tier);
+    const TierKernels& (*fast_kernels)();
+
+    [[nodiscard]] const TierKernels& kernels(Tier tier) const {
+        return tier == Tier::fast ? fast_kernels() : exact_kernels(tier);
+    }
 };
 
 /// From the least to the most capable.

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "cpu/embree_api.h"
+#include "tandem/accuracy/tier.h"
 #include "tandem/bvh/proposal.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
@@ -25,8 +26,8 @@ struct Tile {
     std::uint32_t x0, x1, y0, y1;
 };
 
-struct CpuKernels {
-    const char* instruction_set;
+/// The kernels of one tier for one instruction set.
+struct TierKernels {
     /// Writes the sums of the tile's pixels into the film (rows of job.width); returns how many samples were invalid.
     std::uint64_t (*render_tile)(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
     void (*trace)(const CpuSceneView& scene, const TraceJob& job);
@@ -34,8 +35,12 @@ struct CpuKernels {
     RTCIntersectFunctionN intersect;
 };
 
-const CpuKernels& cpu_kernels_v2();
-const CpuKernels& cpu_kernels_v3();
-const CpuKernels& cpu_kernels_v4();
+// By instruction set; the fast tier's are compiled apart, with other flags.
+[[nodiscard]] const TierKernels& exact_kernels_v2(Tier tier);
+[[nodiscard]] const TierKernels& exact_kernels_v3(Tier tier);
+[[nodiscard]] const TierKernels& exact_kernels_v4(Tier tier);
+[[nodiscard]] const TierKernels& fast_kernels_v2();
+[[nodiscard]] const TierKernels& fast_kernels_v3();
+[[nodiscard]] const TierKernels& fast_kernels_v4();
 
 }  // namespace tandem

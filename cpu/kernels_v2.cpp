@@ -2,6 +2,8 @@
 
 namespace tandem {
 
-const CpuKernels& cpu_kernels_v2() { return cpu_kernels<Sse4>; }
+const TierKernels& exact_kernels_v2(Tier tier) {
+    return tier == Tier::precise ? tier_kernels<Precise<Sse4>> : tier_kernels<Strict<Sse4>>;
+}
 
 }  // namespace tandem

@@ -2,6 +2,8 @@
 
 namespace tandem {
 
-const CpuKernels& cpu_kernels_v3() { return cpu_kernels<Avx2>; }
+const TierKernels& exact_kernels_v3(Tier tier) {
+    return tier == Tier::precise ? tier_kernels<Precise<Avx2>> : tier_kernels<Strict<Avx2>>;
+}
 
 }  // namespace tandem

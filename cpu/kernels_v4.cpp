@@ -2,6 +2,8 @@
 
 namespace tandem {
 
-const CpuKernels& cpu_kernels_v4() { return cpu_kernels<Avx512>; }
+const TierKernels& exact_kernels_v4(Tier tier) {
+    return tier == Tier::precise ? tier_kernels<Precise<Avx512>> : tier_kernels<Strict<Avx512>>;
+}
 
 }  // namespace tandem

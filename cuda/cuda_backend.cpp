@@ -96,7 +96,7 @@ class CudaBackend final : public Backend {
                               compute_.get()),
               "uploading rays");
         trace_start_.record(compute_.get());
-        launch_trace(resident.view(), rays, compute_.get());
+        kernels(resident.tier()).trace(resident.view(), rays, compute_.get());
         trace_end_.record(compute_.get());
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);
@@ -122,9 +122,9 @@ class CudaBackend final : public Backend {
         compute_.wait_for(resident.uploaded());
         memory->render_start.record(compute_.get());
         check(cudaMemsetAsync(memory->invalid.data(), 0, counter_bytes, compute_.get()), "clearing a counter");
-        launch_render(resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
-                      reinterpret_cast<Vec3d*>(memory->film.data()),
-                      reinterpret_cast<unsigned long long*>(memory->invalid.data()), compute_.get());
+        kernels(job.tier).render(resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
+                                 reinterpret_cast<Vec3d*>(memory->film.data()),
+                                 reinterpret_cast<unsigned long long*>(memory->invalid.data()), compute_.get());
         memory->render_end.record(compute_.get());
 
         download_.wait_for(memory->render_end);
@@ -136,7 +136,7 @@ class CudaBackend final : public Backend {
               "downloading a counter");
         memory->download_end.record(download_.get());
 
-        const KernelFacts facts = render_kernel_facts(resident.view());
+        const KernelFacts facts = kernels(job.tier).render_facts(resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         result.stats.rays = pixels * pixel_job.samples;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "tandem/accuracy/tier.h"
 #include "tandem/bvh/bvh_tracer.h"
 #include "tandem/geometry/few_tracer.h"
 #include "tandem/geometry/hit.h"
@@ -33,10 +34,6 @@ struct KernelFacts {
     double occupancy;  ///< resident warps over the most there can be
 };
 
-/// Starts the sums of all pixels; `invalid` counts dropped samples. Both in device memory.
-void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                   unsigned long long* invalid, cudaStream_t stream);
-
 /// Rays and room for their hits, in device memory. `wide_t` may be null.
 struct DeviceRays {
     const Ray<float>* rays;
@@ -45,10 +42,30 @@ struct DeviceRays {
     std::size_t count;
 };
 
-/// Starts the nearest hits of the rays.
-void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
+/// The kernels of one tier.
+struct TierKernels {
+    /// Starts the sums of all pixels; `invalid` counts dropped samples. Both in device memory.
+    void (*render)(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
+                   unsigned long long* invalid, cudaStream_t stream);
+    /// Starts the nearest hits of the rays.
+    void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
+    /// Of the render kernel that a scene gets.
+    KernelFacts (*render_facts)(const DeviceSceneView& scene);
+};
 
-/// Of the render kernel that a scene gets.
-[[nodiscard]] KernelFacts render_kernel_facts(const DeviceSceneView& scene);
+[[nodiscard]] const TierKernels& fast_kernels();
+[[nodiscard]] const TierKernels& strict_kernels();
+[[nodiscard]] const TierKernels& precise_kernels();
+
+[[nodiscard]] inline const TierKernels& kernels(Tier tier) {
+    switch (tier) {
+#define TANDEM_TIER(name, promise) \
+    case Tier::name:               \
+        return name##_kernels();
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+    }
+    return strict_kernels();
+}
 
 }  // namespace tandem::cuda

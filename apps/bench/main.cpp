@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "accuracy.h"
 #include "common/run_main.h"
+#include "hard.h"
 #include "output.h"
 #include "paper.h"
 #include "parity.h"
@@ -25,10 +27,12 @@ struct Texts {
 struct Everything {
     Texts texts;
     OutputOptions output;
+    AccuracyOptions accuracy;
     ParityOptions parity;
     VersusOptions versus;
     PaperOptions paper;
     TargetOptions targets;
+    HardOptions hard;
     bool list_targets = false;
 };
 
@@ -87,6 +91,25 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_accuracy(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("accuracy", "What each digit costs: every tier, its time beside its error");
+    command->add_option("SCENE", all.accuracy.scenes, "Files, or named:NAME")->capture_default_str();
+    add_backends_option(*command, all.accuracy);
+    command->add_option("--tiers", all.accuracy.tiers, "Which take part")->delimiter(',')->capture_default_str();
+    add_picture_options(*command, all.texts, all.accuracy);
+    command->add_option("--rays", all.accuracy.rays, "Per kind of primitive")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 26));
+    command->add_option("--threads", all.accuracy.threads, "Of the CPU; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--repetitions", all.accuracy.repetitions, "Rounds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    command->add_option("--seed", all.accuracy.seed, "Of the random numbers")->capture_default_str();
+    return command;
+}
+
 CLI::App* add_paper(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand("paper", "The paper's speed-up, audited: pictures and a page");
     command->add_option("--out", all.paper.out, "Folder for the pictures, report.html, report.json and report.csv")
@@ -120,6 +143,17 @@ CLI::App* add_targets(CLI::App& app, Everything& all) {
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
     command->add_option("--out", all.targets.folder, "Folder for the pictures of the animation")->capture_default_str();
+    return command;
+}
+
+CLI::App* add_hard(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("hard", "Hard cases against exact answers. Status 1 if a mark is missed");
+    command->add_option("--cases", all.hard.cases, "Such as A1,B*; default all")->delimiter(',');
+    add_backends_option(*command, all.hard);
+    command->add_option("--tiers", all.hard.tiers, "fast, strict, precise; default all")->delimiter(',');
+    command->add_option("--rays", all.hard.rays, "Per case")->capture_default_str()->check(CLI::Range(16, 100'000'000));
+    command->add_option("--export", all.hard.export_folder, "Write scenes, rays and answers to this folder instead");
+    command->add_option("--check", all.hard.answers, "Score another renderer's answers, FOLDER/answers, instead");
     return command;
 }
 
@@ -157,8 +191,10 @@ int run(int count, char** words) {
     Everything all;
     const CLI::App* parity = add_parity(app, all);
     const CLI::App* versus = add_versus(app, all);
+    const CLI::App* accuracy = add_accuracy(app, all);
     const CLI::App* paper = add_paper(app, all);
     const CLI::App* targets = add_targets(app, all);
+    const CLI::App* hard = add_hard(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -178,6 +214,9 @@ int run(int count, char** words) {
         take_texts(all.texts, all.versus);
         if (!all.texts.rays.empty()) all.versus.rays = parse_ray_set(all.texts.rays);
         satisfied = run_versus(all.versus, source, report);
+    } else if (accuracy->parsed()) {
+        take_texts(all.texts, all.accuracy);
+        satisfied = run_accuracy(all.accuracy, source, report);
     } else if (paper->parsed()) {
         take_texts(all.texts, all.paper);
         satisfied = run_paper(all.paper, source, report);
@@ -190,6 +229,8 @@ int run(int count, char** words) {
         }
         take_texts(all.texts, all.targets);
         satisfied = run_targets(all.targets, source, report);
+    } else if (hard->parsed()) {
+        satisfied = run_hard(all.hard, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;

@@ -13,19 +13,13 @@ Ray<float> coherent_ray(int x, int y, int edge) {
     return {{0, 0, 3.2F}, narrow(Vec3d{-half + (x + 0.5) * step, half - (y + 0.5) * step, -1})};
 }
 
-/// Uniform in [-1, 1)^3: number `draw` of ray `index`.
-Vec3d in_cube(std::uint32_t index, std::uint32_t draw) {
-    const auto bits = philox4x32<std::uint32_t>({{index, draw, 0, 0}}, 20, 24);
-    const auto coordinate = [&](int i) { return 2 * double{to_unit_interval<float>(bits.word[i])} - 1; };
-    return {coordinate(0), coordinate(1), coordinate(2)};
-}
-
 Ray<float> random_ray(std::uint32_t index) {
     // The first point of the cube that lies in the ball has a uniform direction. No libm: the same bits everywhere.
     std::uint32_t draw = 1;
-    Vec3d direction = in_cube(index, draw);
-    while (dot(direction, direction) > 1 || dot(direction, direction) < 1e-6) direction = in_cube(index, ++draw);
-    return {narrow(in_cube(index, 0)), narrow(normalize(direction))};
+    Vec3d direction = uniform_in_cube(20, index, draw);
+    while (dot(direction, direction) > 1 || dot(direction, direction) < 1e-6)
+        direction = uniform_in_cube(20, index, ++draw);
+    return {narrow(uniform_in_cube(20, index, 0)), narrow(normalize(direction))};
 }
 
 }  // namespace
@@ -34,6 +28,12 @@ RaySet parse_ray_set(const std::string& name) {
     if (name == "coherent") return RaySet::coherent;
     if (name == "random") return RaySet::random;
     throw InputError("--rays is '" + name + "', but must be coherent or random");
+}
+
+Vec3d uniform_in_cube(std::uint32_t stream, std::uint32_t index, std::uint32_t draw) {
+    const auto bits = philox4x32<std::uint32_t>({{index, draw, 0, 0}}, stream, 24);
+    const auto coordinate = [&](int i) { return 2 * double{to_unit_interval<float>(bits.word[i])} - 1; };
+    return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 std::string to_string(RaySet set) { return set == RaySet::coherent ? "coherent" : "random"; }

@@ -1,6 +1,7 @@
 /// Sets of rays to trace: coherent ones of a camera, and random ones through the scene.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,8 @@ enum class RaySet { coherent, random };
 /// atan(1 / 1.5), row by row. random: origins uniform in the cube, directions uniform over the sphere, unit length.
 /// The same on every machine.
 [[nodiscard]] std::vector<Ray<float>> make_rays(RaySet set, int edge);
+
+/// Uniform in [-1, 1)^3: number `draw` of item `index` of a stream.
+[[nodiscard]] Vec3d uniform_in_cube(std::uint32_t stream, std::uint32_t index, std::uint32_t draw);
 
 }  // namespace tandem::bench

@@ -43,13 +43,14 @@ struct BvhTracer {
     SceneView scene;
     BvhView bvh;
 
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
-        Closest<float> best = no_hit<float>();
+    template <class Real>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, bool active) const {
+        Closest<Real> best = no_hit<Real>();
         if (!active) return best;
-        const Proposal<float> proposal = propose(ray, bvh.frame, true);
+        const Proposal<Real> proposal = propose(ray, bvh.frame, true);
         if (!proposal.active) return best;
-        const FilterRay<float> filter = make_filter_ray(ray);
-        const SlabRay slab = make_slab_ray(proposal.ray.origin, proposal.ray.direction);
+        const FilterRay<Real> filter = make_filter_ray(ray);
+        const SlabRay slab = make_slab_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
         float limit = 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
@@ -86,22 +87,25 @@ struct BvhTracer {
     }
 
   private:
-    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<float>& filter, const Proposal<float>& proposal,
-                            Closest<float>& best, float& limit) const {
+    template <class Real>
+    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const Proposal<Real>& proposal,
+                            Closest<Real>& best, float& limit) const {
         const std::uint32_t first = leaf_first(leaf);
         const std::uint32_t end = first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Float4 q = bvh_detail::load_float4(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
-            if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
+            if constexpr (!is_fast<Real>) {  // there the test costs hardly more than its filter
+                if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
+            }
             const std::uint32_t id = bvh.entry_ids[i];
-            const double before = best.t;
+            const Double<Real> before = best.t;
             if (id < scene.sphere_count) {
                 decide(around, id, filter.ray, true, best);
             } else {
-                intersect_primitive<float>(scene, id, filter, true, best);
+                intersect_primitive<Real>(scene, id, filter, true, best);
             }
-            if (best.t < before) limit = proposal.limit(best.t);
+            if (best.t < before) limit = to_plain(proposal.limit(best.t));
         }
     }
 };

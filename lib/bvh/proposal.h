@@ -4,8 +4,8 @@
 ///
 /// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
 /// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
-/// origin adds 2 u S and rounding the direction 3 u S along a path of length 2 S. Boxes are padded by 32 u S.
-/// Held by tests/agree/structure_test.cpp.
+/// origin adds 2 u S, rounding it 1 u S and rounding the direction 3 u S along a path of length 2 S. Boxes are padded
+/// by 32 u S. Held by tests/agree/structure_test.cpp.
 #pragma once
 
 #include "tandem/geometry/box.h"
@@ -28,15 +28,15 @@ TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
 /// The ray for the structure: parameter s = (t - t_offset) * length along a unit direction.
 template <class Real>
 struct Proposal {
-    Ray<Real> ray;
+    Ray<Float<Real>> ray;
     Real length;
     Double<Real> t_offset;
     Mask<Real> active;  ///< lanes whose ray can touch the bounds at all
 
     /// A float not below the parameter of true parameter t: where the structure may stop.
-    TANDEM_HD Real limit(const Double<Real>& t) const {
+    TANDEM_HD Float<Real> limit(const Double<Real>& t) const {
         const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
-        const Double<Real> most(3e38);
+        const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
 };
@@ -51,9 +51,10 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
     const Real scaled_length = square_root(dot(scaled, scaled));
     const Real inverse_length = Real(1.0F) / scaled_length;
     Proposal<Real> proposal;
-    proposal.ray.direction = {scaled.x * inverse_length, scaled.y * inverse_length, scaled.z * inverse_length};
+    proposal.ray.direction =
+        narrow(Vec3<Real>{scaled.x * inverse_length, scaled.y * inverse_length, scaled.z * inverse_length});
     proposal.length = largest * scaled_length;
-    proposal.ray.origin = ray.origin;
+    proposal.ray.origin = narrow(ray.origin);
     proposal.t_offset = D(0.0);
     proposal.active = active;
     const Real limit(reach(frame.bounds));
@@ -68,8 +69,8 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
         const Vec3<D> o = widen(ray.origin);
         const Vec3<D> d = widen(ray.direction);
         const D& t = proposal.t_offset;
-        const Vec3<Real> moved = narrow(Vec3<D>{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z});
-        proposal.ray.origin = select(move, moved, ray.origin);
+        const Vec3<Float<Real>> moved = narrow(Vec3<D>{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z});
+        proposal.ray.origin = select(move, moved, proposal.ray.origin);
     }
     return proposal;
 }

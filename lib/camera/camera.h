@@ -22,21 +22,23 @@ struct CameraView {
 
 /// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
 /// normalised. The corner of the pixel comes from double, once per pixel; the offset is added in float, apart from
-/// the pixel's number, so that a large film does not eat its digits. Within 2 ulp of the largest component.
+/// the pixel's number, so that a large film does not eat its digits. Within 2 ulp of the largest component. (In the
+/// tier precise the offset is added in double, in fast the corner comes from float.)
 template <class Real>
 TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x, const Double<Real>& pixel_y,
                                const Real& offset_x, const Real& offset_y) {
     using D = Double<Real>;
     const auto at = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
-        const Vec3<Real> corner = narrow(Vec3<D>{(D(start.x) + pixel_x * D(dx.x)) + pixel_y * D(dy.x),
-                                                 (D(start.y) + pixel_x * D(dx.y)) + pixel_y * D(dy.y),
-                                                 (D(start.z) + pixel_x * D(dx.z)) + pixel_y * D(dy.z)});
-        return corner + (broadcast<Real>(narrow(dx)) * offset_x + broadcast<Real>(narrow(dy)) * offset_y);
+        const auto corner =
+            to_real<Real>(Vec3<D>{(constant<D>(start.x) + pixel_x * constant<D>(dx.x)) + pixel_y * constant<D>(dy.x),
+                                  (constant<D>(start.y) + pixel_x * constant<D>(dx.y)) + pixel_y * constant<D>(dy.y),
+                                  (constant<D>(start.z) + pixel_x * constant<D>(dx.z)) + pixel_y * constant<D>(dy.z)});
+        return corner + (constant<Real>(dx) * offset_x + constant<Real>(dy) * offset_y);
     };
     Ray<Real> ray;
-    ray.origin = camera.orthographic ? at(camera.origin, camera.origin_dx, camera.origin_dy)
-                                     : broadcast<Real>(narrow(camera.origin));
-    ray.direction = camera.orthographic ? broadcast<Real>(narrow(camera.direction))
+    ray.origin =
+        camera.orthographic ? at(camera.origin, camera.origin_dx, camera.origin_dy) : constant<Real>(camera.origin);
+    ray.direction = camera.orthographic ? constant<Real>(camera.direction)
                                         : at(camera.direction, camera.direction_dx, camera.direction_dy);
     return ray;
 }

@@ -36,7 +36,7 @@ struct ObjectRay {
 template <class Real>
 TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>& ray) {
     using D = Double<Real>;
-    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(placement.centre);
+    const Vec3<D> offset = widen(ray.origin) - constant<D>(placement.centre);
     return {multiply(placement.object_from_world, offset), multiply(placement.object_from_world, widen(ray.direction))};
 }
 

@@ -67,8 +67,10 @@ TANDEM_HD_RARE Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Doubl
 /// Source: T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986; A. Williams et al., "An Efficient and Robust
 ///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Bound held by tests/unit/geometry/box_test.cpp.
 template <class Real>
-TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower, const Vec3<Double<Real>>& upper,
-                                      const Vec3<Double<Real>>& origin, const Vec3<Double<Real>>& direction) {
+requires(!is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
+                                                               const Vec3<Double<Real>>& upper,
+                                                               const Vec3<Double<Real>>& origin,
+                                                               const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const D zero(0.0);
     const D infinity(__builtin_huge_val());
@@ -108,11 +110,41 @@ TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower, const Vec
     return result;
 }
 
+/// The same in the tier fast: in float, with reciprocals, and no second look. A ray in the plane of a face may miss.
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
+                                                              const Vec3<Double<Real>>& upper,
+                                                              const Vec3<Double<Real>>& origin,
+                                                              const Vec3<Double<Real>>& direction) {
+    BoxCrossing<Real> result;
+    result.t_near = Real(-__builtin_huge_valf());
+    result.t_far = Real(__builtin_huge_valf());
+    result.near_axis = UInt<Real>(0U);
+    result.far_axis = UInt<Real>(0U);
+    const auto slab = [&](const Real& lo, const Real& hi, const Real& o, const Real& d, std::uint32_t axis) {
+        const Real inverse = Real(1.0F) / d;
+        const Real a = (lo - o) * inverse;
+        const Real b = (hi - o) * inverse;
+        const Real entry = lesser(a, b);
+        const Real exit = greater(a, b);
+        const Mask<Real> later = entry > result.t_near;
+        const Mask<Real> sooner = exit < result.t_far;
+        result.t_near = select(later, entry, result.t_near);
+        result.t_far = select(sooner, exit, result.t_far);
+        result.near_axis = select(later, UInt<Real>(axis), result.near_axis);
+        result.far_axis = select(sooner, UInt<Real>(axis), result.far_axis);
+    };
+    slab(lower.x, upper.x, origin.x, direction.x, 0U);
+    slab(lower.y, upper.y, origin.y, direction.y, 1U);
+    slab(lower.z, upper.z, origin.z, direction.z, 2U);
+    result.crosses = result.t_near <= result.t_far;
+    return result;
+}
+
 template <class Real>
 TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
     using D = Double<Real>;
-    return cross_box<Real>(broadcast<D>(widen(box.lower)), broadcast<D>(widen(box.upper)), widen(ray.origin),
-                           widen(ray.direction));
+    return cross_box<Real>(broadcast<D>(box.lower), broadcast<D>(box.upper), widen(ray.origin), widen(ray.direction));
 }
 
 /// The nearest point of the box in front of the origin.

@@ -16,16 +16,21 @@ struct FewTracer {
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
 
-    TANDEM_HD Closest<float> closest(const Ray<float>& ray, bool active) const {
-        Closest<float> best = no_hit<float>();
+    template <class Real>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, bool active) const {
+        Closest<Real> best = no_hit<Real>();
         if (!active) return best;
-        const FilterRay<float> f = make_filter_ray(ray);
+        const FilterRay<Real> f = make_filter_ray(ray);
         std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
         for (std::uint32_t i = 0; i < max_spheres; ++i) {
             if (i == scene.sphere_count) break;
+            if constexpr (is_fast<Real>) {
+                decide(spheres[i], i, ray, true, best);
+                continue;
+            }
             if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
         }
 #if TANDEM_ON_DEVICE

@@ -9,7 +9,8 @@
 /// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
 /// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
 /// decides, and directions shorter than 1e-15 pass the sphere's filter: their square would lose digits. Overflow and
-/// NaN fail the comparison and pass the filter. Held by tests/unit/geometry/filter_test.cpp.
+/// NaN fail the comparison and pass the filter. A ray in double (tier precise) is rounded to float first, which adds
+/// u (|offset|_1 + |origin|_1) |direction| twice over. Held by tests/unit/geometry/filter_test.cpp.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -36,25 +37,28 @@ TANDEM_HD Vec3<Real> loose_cross(const Vec3<Real>& a, const Vec3<Real>& b) {
 template <class Real>
 struct FilterRay {
     Ray<Real> ray;
-    Real origin_norm1;
-    Real direction_length2;  ///< infinite for directions too short to be squared in float
+    Float<Real> origin_norm1;
+    Float<Real> direction_length2;  ///< infinite for directions too short to be squared in float
 };
 
 template <class Real>
 TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
-    const Real length2 = loose_dot(ray.direction, ray.direction);
-    const Real infinity(__builtin_huge_valf());
-    return {ray, norm1(ray.origin), select(length2 < Real(1e-30F), infinity, length2)};
+    using F = Float<Real>;
+    const Vec3<F> direction = narrow(ray.direction);
+    const F length2 = loose_dot(direction, direction);
+    const F infinity(__builtin_huge_valf());
+    return {ray, norm1(narrow(ray.origin)), select(length2 < F(1e-30F), infinity, length2)};
 }
 
 /// May the line of the ray touch the sphere? False only if it certainly does not.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
-    const Vec3<Real> offset = f.ray.origin - broadcast<Real>(sphere_centre);
-    const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
-    const Real reach = loose_multiply_add(Real(filter_margin), norm1(offset) + f.origin_norm1, Real(radius));
+    using F = Float<Real>;
+    const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
+    const Vec3<F> moment = loose_cross(offset, narrow(f.ray.direction));
+    const F reach = loose_multiply_add(F(filter_margin), norm1(offset) + f.origin_norm1, F(radius));
     // in this order: reach^2 could underflow before the length makes up for it
-    const Real limit = loose_multiply_add(f.direction_length2 * reach, reach, Real(1e-36F));
+    const F limit = loose_multiply_add(f.direction_length2 * reach, reach, F(1e-36F));
     return !(loose_dot(moment, moment) > limit);
 }
 
@@ -72,18 +76,19 @@ TANDEM_HD BoxFilter make_box_filter(const Vec3f& lower, const Vec3f& upper) {
 /// May the line of the ray touch the box? Separating axes of a line and a box: direction x each axis.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& box) {
-    const Vec3<Real> offset = f.ray.origin - broadcast<Real>(box.centre);
-    const Vec3<Real> moment = loose_cross(offset, f.ray.direction);
-    const Vec3<Real> d = {absolute(f.ray.direction.x), absolute(f.ray.direction.y), absolute(f.ray.direction.z)};
-    const Real slack =
-        loose_multiply_add(Real(filter_margin) * (norm1(offset) + f.origin_norm1 + Real(box.corner_norm1)),
-                           (d.x + d.y) + d.z, Real(1e-36F));
-    const auto limit = [&](float h0, const Real& d0, float h1, const Real& d1) TANDEM_INLINE_LAMBDA {
-        return loose_multiply_add(Real(h0), d0, loose_multiply_add(Real(h1), d1, slack));
+    using F = Float<Real>;
+    const Vec3<F> direction = narrow(f.ray.direction);
+    const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(box.centre);
+    const Vec3<F> moment = loose_cross(offset, direction);
+    const Vec3<F> d = {absolute(direction.x), absolute(direction.y), absolute(direction.z)};
+    const F slack = loose_multiply_add(F(filter_margin) * (norm1(offset) + f.origin_norm1 + F(box.corner_norm1)),
+                                       (d.x + d.y) + d.z, F(1e-36F));
+    const auto limit = [&](float h0, const F& d0, float h1, const F& d1) TANDEM_INLINE_LAMBDA {
+        return loose_multiply_add(F(h0), d0, loose_multiply_add(F(h1), d1, slack));
     };
-    const Real limit_x = limit(box.half.y, d.z, box.half.z, d.y);
-    const Real limit_y = limit(box.half.z, d.x, box.half.x, d.z);
-    const Real limit_z = limit(box.half.x, d.y, box.half.y, d.x);
+    const F limit_x = limit(box.half.y, d.z, box.half.z, d.y);
+    const F limit_y = limit(box.half.z, d.x, box.half.x, d.z);
+    const F limit_z = limit(box.half.x, d.y, box.half.y, d.x);
     return !(absolute(moment.x) > limit_x || absolute(moment.y) > limit_y || absolute(moment.z) > limit_z);
 }
 
@@ -97,24 +102,26 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower,
 /// (d x a) . e1, -(d x a) . e2 and, as their sum with the one that is left, d . (e1 x e2).
 ///
 /// Bound: all differences are rounded once, so no volume errs by more than 9 u |d| (|a| + |e|) |e|, |e| = |e1| + |e2|,
-/// in 1-norms. The terms with 1e-30 keep the limit above what underflow takes from products; where a volume overflows,
-/// the limit does too.
+/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. The terms with 1e-30
+/// keep the limit above what underflow takes from products; where a volume overflows, the limit does too.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+    using F = Float<Real>;
     const Vec3f e1 = v1 - v0;
     const Vec3f e2 = v2 - v0;
-    const float size = norm1(e1) + norm1(e2);
-    const Vec3<Real> a = broadcast<Real>(v0) - f.ray.origin;
-    const Vec3<Real> moment = loose_cross(f.ray.direction, a);
-    const Real w2 = loose_dot(moment, broadcast<Real>(e1));
-    const Real w1 = -loose_dot(moment, broadcast<Real>(e2));
-    const Real w0 = (loose_dot(f.ray.direction, broadcast<Real>(loose_cross(e1, e2))) - w1) - w2;
-    const Real length = norm1(f.ray.direction);
-    const Real reach = loose_multiply_add(length, norm1(a) + Real(size), Real(1e-30F));
-    const Real floor = loose_multiply_add(length, Real(1e-30F), Real(1e-30F));
-    const Real limit = Real(filter_margin) * loose_multiply_add(reach, Real(size), floor);
-    const Real least = lesser(lesser(w0, w1), w2);
-    const Real most = greater(greater(w0, w1), w2);
+    const F size(norm1(e1) + norm1(e2));
+    const Vec3<F> d = narrow(f.ray.direction);
+    const Vec3<F> a = broadcast<F>(v0) - narrow(f.ray.origin);
+    const Vec3<F> moment = loose_cross(d, a);
+    const F w2 = loose_dot(moment, broadcast<F>(e1));
+    const F w1 = -loose_dot(moment, broadcast<F>(e2));
+    const F w0 = (loose_dot(d, broadcast<F>(loose_cross(e1, e2))) - w1) - w2;
+    const F length = norm1(d);
+    const F reach = loose_multiply_add(length, (norm1(a) + f.origin_norm1) + size, F(1e-30F));
+    const F floor = loose_multiply_add(length, F(1e-30F), F(1e-30F));
+    const F limit = F(filter_margin) * loose_multiply_add(reach, size, floor);
+    const F least = lesser(lesser(w0, w1), w2);
+    const F most = greater(greater(w0, w1), w2);
     return !(least < -limit && most > limit);
 }
 

@@ -35,9 +35,11 @@ struct Hit {
     std::uint32_t primitive = no_primitive;  ///< id in the prepared scene, or no_primitive
 };
 
-TANDEM_HD Hit to_hit(const Closest<float>& closest) {
+/// `Real` of one lane.
+template <class Real>
+TANDEM_HD Hit to_hit(const Closest<Real>& closest) {
     if (closest.primitive == no_primitive) return {};
-    return {narrow(closest.t), closest.primitive};
+    return {to_plain(closest.t), closest.primitive};
 }
 
 }  // namespace tandem

@@ -48,12 +48,17 @@ TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
     return may_touch_quad(f, quad);
 }
 
-/// One primitive: the float filter first, then the decision in double.
+/// One primitive: the float filter first, then the decision. In the tier fast the decision costs hardly more than the
+/// filter, but for bodies with a transform.
 template <class Real, class Primitive>
 TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f,
                          const Mask<Real>& active, Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch(f, primitive);
-    if (any(candidate)) decide(primitive, id, f.ray, candidate, best);
+    if constexpr (is_fast<Real> && !std::is_base_of_v<Placement, Primitive>) {
+        decide(primitive, id, f.ray, active, best);
+    } else {
+        const Mask<Real> candidate = active && may_touch(f, primitive);
+        if (any(candidate)) decide(primitive, id, f.ray, candidate, best);
+    }
 }
 
 /// Any primitive by its id.

@@ -21,13 +21,17 @@ template <class Real>
 TANDEM_HD_CALL Vec3<Double<Real>> shading_normal(Vec3f v0, Vec3f v1, Vec3f v2, const Vec3f* normals, int second,
                                                  bool double_sided, Ray<Real> ray, Mask<Real> here) {
     using D = Double<Real>;
-    using S = Scalar<D>;
-    const Vec3<D> own = broadcast<D>(triangle_normal<S>(v0, v1, v2));
+    Vec3<D> own;
+    if constexpr (is_fast<Real>) {
+        own = normalize(cross(broadcast<D>(v1 - v0), broadcast<D>(v2 - v0)));
+    } else {
+        own = broadcast<D>(triangle_normal(v0, v1, v2));
+    }
     Vec3<D> normal = own;
     if (normals != nullptr) {
         const Barycentrics<D> at = barycentrics(v0, v1, v2, ray, here);
         const D rest = (D(1.0) - at.u) - at.v;
-        const auto corner = [&](int i) TANDEM_INLINE_LAMBDA { return broadcast<D>(Vec3<S>(normals[i])); };
+        const auto corner = [&](int i) TANDEM_INLINE_LAMBDA { return broadcast<D>(normals[i]); };
         const Vec3<D> sum = corner(0) * rest + corner(second) * at.u + corner(second + 1) * at.v;
         const Mask<Real> enough = dot(sum, sum) > D(0x1p-40);
         normal = select(enough, normalize(sum), own);

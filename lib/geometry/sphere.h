@@ -106,8 +106,10 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
 ///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound held
 ///        by tests/unit/geometry/sphere_test.cpp.
 template <class Real>
-TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin, const Vec3<Double<Real>>& centre,
-                                         const Vec3<Double<Real>>& direction, const Double<Real>& radius) {
+requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                  const Vec3<Double<Real>>& centre,
+                                                                  const Vec3<Double<Real>>& direction,
+                                                                  const Double<Real>& radius) {
     using D = Double<Real>;
     const D zero(0.0);
     SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius);
@@ -119,6 +121,29 @@ TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin, const
         roots.c = select(roots.doubtful, exact.c, roots.c);
         roots.q = select(roots.doubtful, exact.b + select(exact.b < zero, -root, root), roots.q);
     }
+    return roots;
+}
+
+/// The same in the tier fast: in float, without a second look.
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                 const Vec3<Double<Real>>& centre,
+                                                                 const Vec3<Double<Real>>& direction,
+                                                                 const Double<Real>& radius) {
+    const Vec3<Real> offset = origin - centre;
+    SphereRoots<Real> roots;
+    roots.doubtful = Mask<Real>(false);
+    roots.a = dot(direction, direction);
+    roots.b = -dot(offset, direction);
+    const Real to_closest = roots.b / roots.a;
+    const Vec3<Real> perpendicular = {offset.x + to_closest * direction.x, offset.y + to_closest * direction.y,
+                                      offset.z + to_closest * direction.z};
+    const Real radius2 = radius * radius;
+    roots.c = dot(offset, offset) - radius2;
+    const Real rest = radius2 - dot(perpendicular, perpendicular);
+    roots.crosses = rest >= Real(0.0F);
+    const Real root = square_root(absolute(rest) * roots.a);
+    roots.q = roots.b + select(roots.b < Real(0.0F), -root, root);
     return roots;
 }
 
@@ -148,8 +173,7 @@ TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>
 template <class Real>
 TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray) {
     using D = Double<Real>;
-    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(widen(sphere.centre)), widen(ray.direction),
-                              D(widen(sphere.radius)));
+    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(sphere.centre), widen(ray.direction), D(sphere.radius));
 }
 
 template <class Real>
@@ -172,10 +196,11 @@ TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
 /// The nearest point of the sphere in front of the origin: first_in_front(sphere_roots(sphere, ray), t), with what is
 /// rare out of the way.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t) {
+requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
+                                                             Double<Real>& t) {
     using D = Double<Real>;
-    const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(widen(sphere.centre)),
-                                                                 widen(ray.direction), D(widen(sphere.radius)));
+    const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
+                                                                 widen(ray.direction), D(sphere.radius));
     Mask<Real> hit = first_in_front(roots, t);
     if (any(roots.doubtful)) [[unlikely]] {
         const D exact = sphere_detail::exact_first_in_front(sphere, ray);
@@ -185,12 +210,18 @@ TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, 
     return hit;
 }
 
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
+                                                            Double<Real>& t) {
+    return first_in_front(sphere_roots(sphere, ray), t);
+}
+
 /// Unit outward normal at parameter t of the ray, which is on the sphere. Double; normalising the offset from the
 /// centre re-projects the point, so the error of t does not tilt the normal.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
     using D = Double<Real>;
-    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(widen(sphere.centre));
+    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(sphere.centre);
     const Vec3<D> direction = widen(ray.direction);
     return normalize(Vec3<D>{offset.x + t * direction.x, offset.y + t * direction.y, offset.z + t * direction.z});
 }

@@ -65,12 +65,31 @@ struct Volumes {
         const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
         const S size = norm1(e1) + norm1(e2);
         const Vec3<D> d = widen(ray.direction);
-        const Vec3<D> a = broadcast<D>(Vec3<S>(v0)) - widen(ray.origin);
+        const Vec3<D> a = broadcast<D>(v0) - widen(ray.origin);
         const Vec3<D> moment = accurate_cross(d, a);
         w2 = dot(moment, broadcast<D>(e1));
         w1 = -dot(moment, broadcast<D>(e2));
         w0 = (dot(d, broadcast<D>(accurate_cross(e1, e2))) - w1) - w2;
         error = D(volume_error) * ((norm1(d) * (norm1(a) + D(size))) * D(size));
+    }
+};
+
+/// Where a line crosses a triangle, in float: for the tier fast.
+/// Source: T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
+template <class Real>
+struct RoughCrossing {
+    Real t;
+    Barycentrics<Real> at;
+
+    TANDEM_HD RoughCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+        const Vec3<Real> e1 = broadcast<Real>(v1 - v0);
+        const Vec3<Real> e2 = broadcast<Real>(v2 - v0);
+        const Vec3<Real> p = cross(ray.direction, e2);
+        const Vec3<Real> from = ray.origin - broadcast<Real>(v0);
+        const Vec3<Real> q = cross(from, e1);
+        const Real inverse = Real(1.0F) / dot(e1, p);
+        at = {dot(from, p) * inverse, dot(ray.direction, q) * inverse};
+        t = dot(e2, q) * inverse;
     }
 };
 
@@ -102,7 +121,7 @@ struct PlaneCrossing {
         const Vec3<Pair<S>> e2 = subtract(Vec3<S>(v2), Vec3<S>(v0));
         const Vec3<Pair<D>> normal = broadcast_pairs<D>(cross(e1, e2));
         const D area(size_of(e1) * size_of(e2));
-        const Vec3<Pair<D>> a = subtract(broadcast<D>(Vec3<S>(v0)), widen(ray.origin));
+        const Vec3<Pair<D>> a = subtract(broadcast<D>(v0), widen(ray.origin));
         const Vec3<D> d = widen(ray.direction);
         const D zero(0.0);
         const Pair<D> above = dot(a, normal);
@@ -186,7 +205,7 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
 
 /// The parameter of the hit, or infinity for a miss.
 template <class Real>
-TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray) {
+requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D least = lesser(lesser(w.w0, w.w1), w.w2);
@@ -207,12 +226,44 @@ TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ra
     return t;
 }
 
+/// The same in the tier fast: in float, and no second look. A line through an edge may miss both of its triangles.
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD Real
+    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    const RoughCrossing<Real> crossing(v0, v1, v2, ray);
+    const Real zero(0.0F);
+    const Mask<Real> inside =
+        crossing.at.u >= zero && crossing.at.v >= zero && crossing.at.u + crossing.at.v <= Real(1.0F);
+    return select(inside, crossing.t, Real(__builtin_huge_valf()));
+}
+
+/// In the lanes of `active`, within 2^-22; they may be as much out of range.
+template <class Real>
+TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
+                                                       const Ray<Real>& ray, const Mask<Real>& active) {
+    using D = Double<Real>;
+    const Volumes<Real> w(v0, v1, v2, ray);
+    const D whole = (w.w0 + w.w1) + w.w2;
+    Barycentrics<D> at = {w.w1 / whole, w.w2 / whole};
+    const Mask<Real> coarse = active && w.error > D(0x1p-24) * absolute(whole);
+    if (any(coarse)) [[unlikely]] {
+        for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+            if (!lane(coarse, i)) continue;
+            const auto exact = exact_barycentrics(v0, v1, v2, one_ray(ray, i));
+            set_lane(at.u, i, exact.u);
+            set_lane(at.v, i, exact.v);
+        }
+    }
+    return at;
+}
+
 }  // namespace triangle_detail
 
 /// Where a line meets the closed triangle (v0, v1, v2) in front of its origin; `t` is valid where the result is true.
 ///
 /// Needs: finite vertices, a traceable ray (is_traceable()).
-/// Gives: the right decision between hit and miss, always, for float rays: triangles that share an edge or a vertex
+/// Gives: the right decision between hit and miss, always, in the tiers strict and precise: triangles that share an
+/// edge or a vertex
 ///        let no line through. A line through an edge or a vertex hits, whatever the winding; a line in the plane
 ///        misses, and so does every line where the area is zero. t is the double nearest to the exact quotient, save
 ///        within 2^-16 of a unit of its last place of a middle between two, so that triangles that one line meets in
@@ -239,22 +290,16 @@ TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& r
 }
 
 /// Where the line of a ray, in the lanes of `active` that hit the triangle, meets it. Within 2^-22 of the exact
-/// coordinates.
+/// coordinates, but in the tier fast.
 template <class Real>
 TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
                                                   const Ray<Real>& ray, const Mask<Real>& active) {
     using D = Double<Real>;
-    const triangle_detail::Volumes<Real> w(v0, v1, v2, ray);
-    const D whole = (w.w0 + w.w1) + w.w2;
-    Barycentrics<D> at = {w.w1 / whole, w.w2 / whole};
-    const Mask<Real> coarse = active && w.error > D(0x1p-24) * absolute(whole);
-    if (any(coarse)) [[unlikely]] {
-        for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-            if (!lane(coarse, i)) continue;
-            const auto exact = triangle_detail::exact_barycentrics(v0, v1, v2, triangle_detail::one_ray(ray, i));
-            set_lane(at.u, i, exact.u);
-            set_lane(at.v, i, exact.v);
-        }
+    Barycentrics<D> at;
+    if constexpr (is_fast<Real>) {
+        at = triangle_detail::RoughCrossing<Real>(v0, v1, v2, ray).at;
+    } else {
+        at = triangle_detail::fine_barycentrics(v0, v1, v2, ray, active);
     }
     const auto clamp = [](const D& x, const D& most) TANDEM_INLINE_LAMBDA { return lesser(greater(x, D(0.0)), most); };
     at.u = clamp(at.u, D(1.0));
@@ -263,10 +308,8 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
 }
 
 /// Unit normal, on the side from which the corners run counter-clockwise.
-template <class S = double>
-TANDEM_HD Vec3<S> triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
-    const Vec3<S> origin(v0);
-    return normalize(accurate_cross(Vec3<S>(v1) - origin, Vec3<S>(v2) - origin));
+TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+    return normalize(accurate_cross(widen(v1) - widen(v0), widen(v2) - widen(v0)));
 }
 
 /// Is its area zero, exactly? No ray hits such a triangle.

@@ -23,8 +23,8 @@ TANDEM_HD Mask<Real> is_finite(const Vec3<Real>& a) {
 
 template <class Real>
 struct PixelSum {
-    Vec3<Double<Real>> sum;  ///< over all samples, in their order
-    UInt<Real> invalid;      ///< samples that were NaN or infinite: counted, not added
+    Vec3<Wide<Real>> sum;  ///< over all samples, in their order
+    UInt<Real> invalid;    ///< samples that were NaN or infinite: counted, not added
 };
 
 /// The sum over the samples of pixel (x, y): in double, in the order of the samples, by one owner; this order is
@@ -34,9 +34,11 @@ TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& sce
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
     using D = Double<Real>;
     const UInt<Real> pixel = y * UInt<Real>(job.width) + x;
-    const D pixel_x = widen(to_float(x));
-    const D pixel_y = widen(to_float(y));
-    PixelSum<Real> result = {{D(0.0), D(0.0), D(0.0)}, UInt<Real>(0U)};
+    using W = Wide<Real>;
+    const D pixel_x = from_uint<D>(x);
+    const D pixel_y = from_uint<D>(y);
+    const W zero(0.0);
+    PixelSum<Real> result = {{zero, zero, zero}, UInt<Real>(0U)};
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
         const auto random = random_block<Real>(job.seed, job.frame, pixel, sample, Dimension::film);
         const Real offset_x = to_unit_interval<Real>(random.word[0]);
@@ -44,9 +46,8 @@ TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& sce
         const Ray<Real> ray = camera_ray(job.camera, pixel_x, pixel_y, offset_x, offset_y);
         const Vec3<Real> value = radiance(tracer, scene, ray, active);
         const Mask<Real> valid = is_finite(value);
-        const Vec3<D> addend = widen(value);
-        const D zero(0.0);
-        result.sum = result.sum + select(valid, addend, Vec3<D>{zero, zero, zero});
+        const Vec3<W> addend = to_wide(value);
+        result.sum = result.sum + select(valid, addend, Vec3<W>{zero, zero, zero});
         result.invalid = result.invalid + select(valid, UInt<Real>(0U), UInt<Real>(1U));
     }
     return result;

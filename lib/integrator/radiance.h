@@ -30,7 +30,7 @@ TANDEM_HD Vec3<Real> radiance(const Tracer& tracer, const SceneView& scene, cons
     Vec3<Real> reflected = surface.ambient * broadcast<Real>(scene.environment.ambient);
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const PointLight& light = scene.lights[i];
-        const Vec3<D> to_light = normalize(broadcast<D>(widen(light.position)) - position);
+        const Vec3<D> to_light = normalize(broadcast<D>(light.position) - position);
         reflected = reflected + phong_light(surface.diffuse, surface.specular, surface.shininess, light.intensity,
                                             surface.normal, to_light, to_viewer);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/math/exact_math.h"
+#include "tandem/math/fast_math.h"
 #include "tandem/math/vec.h"
 
 namespace tandem {
@@ -19,11 +20,11 @@ struct PhongMaterial {
 /// Gives: within 1 ulp of float for every shininess up to 1e8: the cosine stays double, since rounding it to float
 ///        first costs shininess * 2^-24, 45 % at 1e6 (docs/numerics.md).
 template <class Real>
-TANDEM_HD Float<Real> specular_lobe(const Double<Real>& cosine, const Real& shininess) {
+TANDEM_HD Real specular_lobe(const Double<Real>& cosine, const Real& shininess) {
     using D = Double<Real>;
     const D one(1.0);
     const D clamped = select(cosine > one, one, cosine);
-    return narrow(power<Real>(clamped, widen(shininess)));
+    return to_real<Real>(power<Real>(clamped, widen(shininess)));
 }
 
 /// Contribution of one light, without the ambient term: kd (L.N) id + ks (R.V)^alpha is, with R = 2 (L.N) N - L.
@@ -38,7 +39,7 @@ TANDEM_HD Vec3<Real> phong_light(const Vec3<Real>& diffuse, const Vec3<Real>& sp
     using D = Double<Real>;
     const D zero(0.0);
     const D light_cosine = dot(to_light, normal);
-    const Real diffuse_weight = narrow(select(light_cosine > zero, light_cosine, zero));
+    const Real diffuse_weight = to_real<Real>(select(light_cosine > zero, light_cosine, zero));
     const D twice = light_cosine + light_cosine;
     const Vec3<D> mirrored = {twice * normal.x - to_light.x, twice * normal.y - to_light.y,
                               twice * normal.z - to_light.z};

@@ -228,7 +228,7 @@ TANDEM_HD Double<Real> exp_wide(const Double<Real>& x) {
 /// x^y for x in [0, inf), normal or zero, and y >= 0. Relative error below 2^-52 (1 + |y log x|): the error of the
 /// logarithm counts y times. 0^0 = 1.
 template <class Real>
-TANDEM_HD Double<Real> power(const Double<Real>& x, const Double<Real>& y) {
+requires(!is_fast<Real>) TANDEM_HD Double<Real> power(const Double<Real>& x, const Double<Real>& y) {
     using D = Double<Real>;
     const D result = exp_wide<Real>(y * log_wide<Real>(x));
     return select(x > D(0.0), result, select(y == D(0.0), D(1.0), x));  // the last x: zero or NaN

@@ -7,7 +7,8 @@
 ///                         be the one that the linker keeps for a machine without it.
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
-/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it gets a
+/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it gets
+/// a
 ///                         copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
 #pragma once

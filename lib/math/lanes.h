@@ -29,6 +29,16 @@ struct Avx512 {
     static constexpr const char* name = "x86-64-v4";
 };
 
+/// The instruction set I for the fast tier: decisions in float, loose operations.
+template <class I>
+struct Fast : I {
+    static constexpr bool fast = true;
+};
+template <class I>
+inline constexpr bool is_fast_isa = false;
+template <class I>
+inline constexpr bool is_fast_isa<Fast<I>> = true;
+
 namespace lanes_detail {
 
 template <class T, int bytes>
@@ -346,12 +356,15 @@ struct Lanes {
 
 template <class T, class I>
 struct RealTraits<Lanes<T, I>> {
+    using Scalar = T;
     using Mask = LaneMask<I>;
     using Float = Lanes<float, I>;
-    using Double = Lanes<double, I>;
+    using Double = Lanes<std::conditional_t<is_fast_isa<I>, float, double>, I>;
+    using Wide = Lanes<double, I>;
     using UInt = Lanes<std::uint32_t, I>;
     using UInt64 = Lanes<std::uint64_t, I>;
     static constexpr int lanes = Lanes<T, I>::size;
+    static constexpr bool fast = is_fast_isa<I>;
 };
 
 namespace lanes_detail {
@@ -403,7 +416,7 @@ requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> greater(const Lanes<T
 }
 
 template <class I>
-TANDEM_HD Lanes<double, I> widen(const Lanes<float, I>& a) {
+TANDEM_HD Lanes<double, I> to_wide(const Lanes<float, I>& a) {
     using Vector = typename Lanes<double, I>::Vector;
     Lanes<double, I> result;
     result.part[0] = __builtin_convertvector(lanes_detail::half<0>(a.part[0]), Vector);
@@ -411,8 +424,18 @@ TANDEM_HD Lanes<double, I> widen(const Lanes<float, I>& a) {
     return result;
 }
 template <class I>
-TANDEM_HD Lanes<double, I> widen(const Lanes<double, I>& a) {
+TANDEM_HD Lanes<double, I> to_wide(const Lanes<double, I>& a) {
     return a;
+}
+
+/// Values as the type of decisions.
+template <class T, class I>
+TANDEM_HD Double<Lanes<T, I>> widen(const Lanes<T, I>& a) {
+    if constexpr (is_fast_isa<I>) {
+        return a;
+    } else {
+        return to_wide(a);
+    }
 }
 
 template <class I>
@@ -422,6 +445,11 @@ TANDEM_HD Lanes<float, I> narrow(const Lanes<double, I>& a) {
     result.part[0] =
         lanes_detail::join(__builtin_convertvector(a.part[0], Half), __builtin_convertvector(a.part[1], Half));
     return result;
+}
+
+template <class I>
+TANDEM_HD Lanes<float, I> narrow(const Lanes<float, I>& a) {
+    return a;
 }
 
 template <class T, class I>

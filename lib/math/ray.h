@@ -13,6 +13,12 @@ struct Ray {
     Vec3<Real> direction;
 };
 
+/// A caller's ray as the kernels of a tier take it; exact.
+template <class Real>
+TANDEM_HD Ray<Real> to_real(const Ray<float>& ray) {
+    return {broadcast<Real>(ray.origin), broadcast<Real>(ray.direction)};
+}
+
 /// Largest magnitude of a coordinate in a scene or a ray. Embree aborts beyond 1.8e18 and drops primitives there.
 inline constexpr float coordinate_limit = 1e18F;
 

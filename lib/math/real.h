@@ -1,36 +1,49 @@
-/// The scalar vocabulary of the kernel side. A formula is written once as a template over its `Real`, which is
-/// float or double (one ray: GPU, single rays on the CPU) or Lanes<...> (a packet of rays, math/lanes.h), and uses
-/// only the operators and the functions named here. All of them are correctly rounded or exact, so that a formula
-/// gives the same bits on every processor. There is no min/max of the library: fminf and fmaxf differ between CPU
-/// and GPU for NaN and signed zeros.
+/// The scalar vocabulary of the kernel side. A formula is written once as a template over its `Real`, and uses only the
+/// operators and the functions named here. Real says for how many rays at once and how accurately:
+///
+///   tier      one ray                        a packet (math/lanes.h)       decisions (Double<Real>)
+///   strict    float                          Lanes<float, Isa>             in double
+///   precise   double                         Lanes<double, Isa>            in double
+///   fast      FastFloat (math/fast_float.h)  Lanes<float, Fast<Isa>>       in float
+///
+/// In strict and precise all operations are correctly rounded or exact, so that a formula gives the same bits on every
+/// processor. There is no min/max of the library: fminf and fmaxf differ between CPU and GPU for NaN and signed zeros.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
+#include <type_traits>
 
 #include "tandem/math/host_device.h"
 
 namespace tandem {
 
-/// What belongs to a Real: the type of its comparisons, its double and float counterparts, its integers.
+/// What belongs to a Real: the type of its comparisons, the type that decisions are made in (Double), the type of
+/// bounds and filters (Float), the type of long sums (Wide), its integers; `Scalar` is the number in one lane.
 template <class Real>
 struct RealTraits;
 
 template <>
 struct RealTraits<float> {
+    using Scalar = float;
     using Mask = bool;
     using Float = float;
     using Double = double;
+    using Wide = double;
     using UInt = std::uint32_t;
     using UInt64 = std::uint64_t;
     static constexpr int lanes = 1;
+    static constexpr bool fast = false;
 };
 
 template <>
-struct RealTraits<double> : RealTraits<float> {};
+struct RealTraits<double> : RealTraits<float> {
+    using Scalar = double;
+};
 
+template <class Real>
+using Scalar = typename RealTraits<Real>::Scalar;
 template <class Real>
 using Mask = typename RealTraits<Real>::Mask;
 template <class Real>
@@ -38,9 +51,15 @@ using Double = typename RealTraits<Real>::Double;
 template <class Real>
 using Float = typename RealTraits<Real>::Float;
 template <class Real>
+using Wide = typename RealTraits<Real>::Wide;
+template <class Real>
 using UInt = typename RealTraits<Real>::UInt;
 template <class Real>
 using UInt64 = typename RealTraits<Real>::UInt64;
+
+/// Is Real of the fast tier, whose operations may be approximate and may be contracted?
+template <class Real>
+inline constexpr bool is_fast = RealTraits<Real>::fast;
 
 TANDEM_HD bool any(bool mask) { return mask; }
 TANDEM_HD bool all(bool mask) { return mask; }
@@ -65,6 +84,28 @@ TANDEM_HD double widen(float a) { return static_cast<double>(a); }
 TANDEM_HD double widen(double a) { return a; }
 /// One rounding to nearest even.
 TANDEM_HD float narrow(double a) { return static_cast<float>(a); }
+TANDEM_HD float narrow(float a) { return a; }
+TANDEM_HD double to_wide(float a) { return static_cast<double>(a); }
+TANDEM_HD double to_wide(double a) { return a; }
+/// The number of a single ray as callers see it.
+TANDEM_HD float to_plain(float a) { return a; }
+TANDEM_HD float to_plain(double a) { return static_cast<float>(a); }
+
+/// From the type of decisions to Real: one rounding in strict, none in precise and fast.
+template <class Real>
+TANDEM_HD Real to_real(const Double<Real>& a) {
+    if constexpr (std::is_same_v<Real, Double<Real>>) {
+        return a;
+    } else {
+        return narrow(a);
+    }
+}
+
+/// A constant of the host, rounded once to the precision of Real.
+template <class Real>
+TANDEM_HD Real constant(double a) {
+    return Real(static_cast<typename RealTraits<Real>::Scalar>(a));
+}
 
 TANDEM_HD float square_root(float a) { return sqrtf(a); }
 TANDEM_HD double square_root(double a) { return sqrt(a); }
@@ -87,6 +128,18 @@ TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 
 /// Exact for values below 2^31.
 TANDEM_HD float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
+
+/// The same as a Real of any kind.
+template <class Real>
+TANDEM_HD Real from_uint(const UInt<Real>& a) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return Real(to_float(a));
+    } else if constexpr (sizeof(typename RealTraits<Real>::Scalar) == sizeof(float)) {
+        return to_float(a);
+    } else {
+        return widen(to_float(a));
+    }
+}
 
 /// The same bits under another type.
 template <class To, class From>
@@ -114,8 +167,6 @@ template <class T>
 TANDEM_HD T lane(const T& value, int) {
     return value;
 }
-template <class Real>
-using Scalar = decltype(lane(std::declval<const Real&>(), 0));
 template <class T>
 TANDEM_HD void set_lane(T& value, int, const T& lane_value) {
     value = lane_value;

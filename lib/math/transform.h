@@ -22,7 +22,7 @@ TANDEM_HD Vec3d operator*(const Matrix3& m, const Vec3d& v) {
 
 template <class Real>
 TANDEM_HD Vec3<Real> multiply(const Matrix3& m, const Vec3<Real>& v) {
-    return {dot(broadcast<Real>(m.row[0]), v), dot(broadcast<Real>(m.row[1]), v), dot(broadcast<Real>(m.row[2]), v)};
+    return {dot(constant<Real>(m.row[0]), v), dot(constant<Real>(m.row[1]), v), dot(constant<Real>(m.row[2]), v)};
 }
 
 TANDEM_HD Matrix3 transpose(const Matrix3& m) {

@@ -73,6 +73,26 @@ TANDEM_HD Vec3<Float<Real>> narrow(const Vec3<Real>& a) {
     return {narrow(a.x), narrow(a.y), narrow(a.z)};
 }
 
+template <class Real>
+TANDEM_HD Vec3<Real> to_real(const Vec3<Double<Real>>& a) {
+    return {to_real<Real>(a.x), to_real<Real>(a.y), to_real<Real>(a.z)};
+}
+
+template <class Real>
+TANDEM_HD Vec3<Real> constant(const Vec3d& a) {
+    return {constant<Real>(a.x), constant<Real>(a.y), constant<Real>(a.z)};
+}
+
+template <class Real>
+TANDEM_HD Vec3<Wide<Real>> to_wide(const Vec3<Real>& a) {
+    return {to_wide(a.x), to_wide(a.y), to_wide(a.z)};
+}
+
+template <class Real>
+TANDEM_HD Vec3f to_plain(const Vec3<Real>& a) {
+    return {to_plain(a.x), to_plain(a.y), to_plain(a.z)};
+}
+
 /// By lane; one ray needs no more than the select() of real.h.
 template <class Mask, class Real>
 requires(RealTraits<Real>::lanes > 1) TANDEM_HD Vec3<Real> select(const Mask& mask, const Vec3<Real>& a,

@@ -27,10 +27,14 @@ struct NearestSurface {
     std::uint32_t primitive = no_primitive;
 };
 
-NearestSurface nearest_surface(const SceneView& scene, const Ray<float>& ray) {
+/// `T`: float or double.
+template <class T>
+Line line_of(const Ray<T>& ray) {
+    return {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
+}
+
+NearestSurface nearest_surface(const SceneView& scene, const Line& line) {
     NearestSurface nearest;
-    if (!is_traceable(ray)) return nearest;
-    const Line line = {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         const auto hit = oracle::hit_primitive(scene, id, line);
         // ids ascend, so a tie keeps the lower one
@@ -47,12 +51,11 @@ Vector background_towards(const Environment& environment, const Vector& directio
 Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 /// Phong's sum, written out once more from the paper's formula.
-Vector shade(const SceneView& scene, const Ray<float>& ray, const NearestSurface& nearest) {
+Vector shade(const SceneView& scene, const Line& line, const NearestSurface& nearest) {
     const PhongMaterial& material = scene.materials[scene.material_of[nearest.primitive]];
-    const Vector direction = oracle::to_vector(ray.direction);
-    const Vector point = oracle::to_vector(ray.origin) + direction * nearest.surface.t;
+    const Vector point = line.origin + line.direction * nearest.surface.t;
     const Vector n = nearest.surface.normal;
-    const Vector v = oracle::unit(direction) * -1;
+    const Vector v = oracle::unit(line.direction) * -1;
     Vector sum = times(oracle::to_vector(material.ambient), oracle::to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const Vector l = oracle::unit(oracle::to_vector(scene.lights[i].position) - point);
@@ -113,7 +116,9 @@ class OracleBackend final : public Backend {
         result.film = Film(job.width, job.height, job.samples);
         const Stopwatch watch;
         for_each_block(result.film.pixel_count(), 64, [&](std::size_t pixel) {
-            result.film.sums()[pixel] = render(scene_view, pixel_job, static_cast<std::uint32_t>(pixel));
+            const auto number = static_cast<std::uint32_t>(pixel);
+            result.film.sums()[pixel] = job.tier == Tier::precise ? render<double>(scene_view, pixel_job, number)
+                                                                  : render<float>(scene_view, pixel_job, number);
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.rays = result.film.pixel_count() * pixel_job.samples;
@@ -122,17 +127,18 @@ class OracleBackend final : public Backend {
     }
 
   private:
+    /// `T`: what the tier's camera rays are given in.
+    template <class T>
     static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel) {
         Vector sum{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
             const auto random = random_block<float>(job.seed, job.frame, pixel, sample, Dimension::film);
-            const Ray<float> ray =
-                camera_ray<float>(job.camera, pixel % job.width, pixel / job.width,
-                                  to_unit_interval<float>(random.word[0]), to_unit_interval<float>(random.word[1]));
-            const NearestSurface nearest = nearest_surface(scene, ray);
-            sum = sum + (nearest.primitive == no_primitive
-                             ? background_towards(scene.environment, oracle::to_vector(ray.direction))
-                             : shade(scene, ray, nearest));
+            const Line line =
+                line_of(camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
+                                      to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1])));
+            const NearestSurface nearest = nearest_surface(scene, line);
+            sum = sum + (nearest.primitive == no_primitive ? background_towards(scene.environment, line.direction)
+                                                           : shade(scene, line, nearest));
         }
         return {static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)};
     }
@@ -157,7 +163,8 @@ class OracleBackend final : public Backend {
 }  // namespace
 
 OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray) {
-    const NearestSurface nearest = nearest_surface(view(scene), ray);
+    if (!is_traceable(ray)) return {0, no_primitive};
+    const NearestSurface nearest = nearest_surface(view(scene), line_of(ray));
     return {nearest.surface.t, nearest.primitive};
 }
 

@@ -35,7 +35,7 @@ TANDEM_HD PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t 
 /// Uniform in [0, 1): the upper 24 bits, so that 1 is never reached and every value is a float.
 template <class Real>
 TANDEM_HD Real to_unit_interval(const UInt<Real>& word) {
-    return to_float(word >> 8) * Real(0x1p-24F);
+    return from_uint<Real>(word >> 8) * Real(0x1p-24F);
 }
 
 }  // namespace tandem

@@ -81,6 +81,33 @@ Scene paper() {
     return scene;
 }
 
+/// A ball of the Earth's size, seen from a man's height, with small ones lying on it.
+Scene planet() {
+    constexpr double radius = 6.4e6, eye = 1.75;
+    Scene scene;
+    scene.name = "hard/planet";
+    scene.materials = {phong("ground", {0.35F, 0.5F, 0.3F}), phong("red", {0.8F, 0.2F, 0.2F}),
+                       phong("blue", {0.2F, 0.2F, 0.8F})};
+    scene.nodes = {camera_node({0, 0, 0}), light_node({4, 6, 2}),
+                   shape_node("planet", {0, -(radius + eye), 0}, SphereShape{radius}, 0)};
+    for (int i = 0; i < 12; ++i) {
+        const double r = 0.1 + 0.05 * (i % 4);
+        scene.nodes.push_back(shape_node(fmt::format("ball {}", i), {0.9 * (i % 5 - 2), r - eye, -3.0 - 0.8 * i},
+                                         SphereShape{r}, static_cast<std::uint32_t>(1 + i % 2)));
+    }
+    return scene;
+}
+
+/// The paper's scene from 100 km away, as large in the picture as from near by.
+Scene telescope() {
+    constexpr double distance = 1e5;
+    Scene scene = paper();
+    scene.name = "hard/telescope";
+    scene.nodes[0].trs.translation.z += distance;
+    scene.nodes[0].camera = PerspectiveCamera{2 * std::atan(3 / 1.5 / distance)};
+    return scene;
+}
+
 /// Uniform numbers of object `index`; counter-based, so that an object does not depend on the others.
 class ObjectNumbers {
   public:
@@ -220,12 +247,14 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"paper",          "spheres/N[/SEED]", "boxes/N[/SEED]", "mixed/N[/SEED]", "triangles/N[/SEED]",
-            "quads/N[/SEED]", "icosphere/LEVEL"};
+    return {"paper",          "hard/planet",        "hard/telescope", "spheres/N[/SEED]", "boxes/N[/SEED]",
+            "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]", "icosphere/LEVEL"};
 }
 
 Scene named_scene(std::string_view name) {
     if (name == "paper") return paper();
+    if (name == "hard/planet") return planet();
+    if (name == "hard/telescope") return telescope();
     const std::vector<std::string_view> parts = split(name, '/');
     if (parts.size() == 2 && parts[0] == "icosphere") {
         if (const auto level = parse_count(parts[1], 10, 0))

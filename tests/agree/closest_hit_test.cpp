@@ -62,15 +62,19 @@ class ClosestHit : public test::ExactBackend {};
 TEST_P(ClosestHit, AgreesWithTheOracle) {
     std::size_t total = 0;
     for (const Reference& reference : references()) {
-        const auto scene = backend_->load(reference.scene);
+        const auto scene = load(reference.scene);
         std::vector<Hit> hits(reference.rays.size());
-        backend_->trace(*scene, reference.rays, hits);
+        std::vector<double> wide_t(reference.rays.size());
+        backend_->trace(*scene, {.rays = reference.rays, .hits = hits, .wide_t = wide_t});
         std::size_t found = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             found += hits[i].primitive != no_primitive;
             ASSERT_EQ(hits[i].primitive, reference.hits[i].primitive)
                 << describe(reference.parameters, i, reference.rays[i]);
             ASSERT_LE(ulps_between(hits[i].t, reference.hits[i].t), 1)
+                << describe(reference.parameters, i, reference.rays[i]);
+            // what callers see as a float is t in double, rounded once
+            ASSERT_EQ(bits_of(narrow(wide_t[i])), bits_of(hits[i].t))
                 << describe(reference.parameters, i, reference.rays[i]);
         }
         EXPECT_GT(found, hits.size() / 20) << reference.parameters.name << ": too few rays hit to say anything";
@@ -85,9 +89,9 @@ TEST_P(ClosestHit, GivesTheBitsOfTheLeastProcessor) {
     const auto least = make_backend("cpu", options);
     for (const Reference& reference : references()) {
         std::vector<Hit> expected(reference.rays.size());
-        least->trace(*least->load(reference.scene), reference.rays, expected);
+        least->trace(*least->load(reference.scene, GetParam().tier), reference.rays, expected);
         std::vector<Hit> hits(reference.rays.size());
-        backend_->trace(*backend_->load(reference.scene), reference.rays, hits);
+        backend_->trace(*load(reference.scene), reference.rays, hits);
         for (std::size_t i = 0; i < hits.size(); ++i) {
             ASSERT_EQ(bits_of(hits[i].t), bits_of(expected[i].t))
                 << describe(reference.parameters, i, reference.rays[i]);
@@ -111,9 +115,9 @@ TEST_P(ClosestHit, MissesWithRaysThatAreNotTraceable) {
         all.push_back(rays[i % rays.size()]);
     }
     std::vector<Hit> hits(all.size(), Hit{5, 5});
-    backend_->trace(*backend_->load(scene), all, hits);
+    backend_->trace(*load(scene), all, hits);
     std::vector<Hit> alone(good.size());
-    backend_->trace(*backend_->load(scene), good, alone);
+    backend_->trace(*load(scene), good, alone);
     for (std::size_t i = 0; i < good.size(); ++i) {
         EXPECT_EQ(hits[2 * i].primitive, alone[i].primitive);
         EXPECT_EQ(hits[2 * i + 1].primitive, no_primitive);
@@ -148,7 +152,7 @@ TEST_P(ClosestHit, GivesTiesToTheLowestId) {
         }
     }
     std::vector<Hit> hits(rays.size());
-    backend_->trace(*backend_->load(scene), rays, hits);
+    backend_->trace(*load(scene), rays, hits);
     std::vector<Hit> reference(rays.size());
     const auto oracle = make_backend("oracle");
     oracle->trace(*oracle->load(scene), rays, reference);
@@ -185,8 +189,8 @@ TEST_P(ClosestHit, GivesTiesBetweenFacesToTheLowestId) {
     const PreparedScene prepared = prepare(scene);
     std::vector<Ray<float>> rays;
     for (const Vec3f& corner : grid.positions) {  // at corners, edges, diagonals and insides
-        for (const Vec3f& beside : {Vec3f{0, 0, 0}, Vec3f{0.5F, 0, 0}, Vec3f{0, 0.25F, 0}, Vec3f{0.5F, 0.5F, 0},
-                                    Vec3f{0.25F, 0.75F, 0}}) {
+        for (const Vec3f& beside :
+             {Vec3f{0, 0, 0}, Vec3f{0.5F, 0, 0}, Vec3f{0, 0.25F, 0}, Vec3f{0.5F, 0.5F, 0}, Vec3f{0.25F, 0.75F, 0}}) {
             for (const Vec3f& origin : {Vec3f{corner.x, corner.y, 1}, Vec3f{1000, -2000, -4096}, Vec3f{7, 3, 9}}) {
                 rays.push_back({origin, corner + beside - origin});
             }
@@ -225,9 +229,9 @@ TEST_P(ClosestHit, AnswersForAnEmptySceneAndForNoRays) {
     const PreparedScene empty;
     std::vector<Ray<float>> rays = {{{0, 0, 0}, {0, 0, 1}}};
     std::vector<Hit> hits(1, Hit{5, 5});
-    backend_->trace(*backend_->load(empty), rays, hits);
+    backend_->trace(*load(empty), rays, hits);
     EXPECT_EQ(hits[0].primitive, no_primitive);
-    backend_->trace(*backend_->load(empty), {}, {});
+    backend_->trace(*load(empty), TraceJob{});
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, ClosestHit, ::testing::ValuesIn(test::exact_renderers()), test::test_name);

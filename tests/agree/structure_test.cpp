@@ -76,7 +76,7 @@ TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
     EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
-    const Closest<float> hit = structure.tracer().closest({{1, 2, 0}, {0, 0, 1}}, true);
+    const Closest<float> hit = structure.tracer().closest(Ray<float>{{1, 2, 0}, {0, 0, 1}}, true);
     EXPECT_EQ(hit.primitive, 0U);
     EXPECT_EQ(hit.t, 2.5);
 }
@@ -98,8 +98,8 @@ TEST(Bvh, HoldsOnePrimitive) {
     scene.material_of.push_back(0);
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
-    EXPECT_EQ(structure.tracer().closest({{0, 0, -3}, {0, 0, 1}}, true).t, 2.0);
-    EXPECT_EQ(structure.tracer().closest({{0, 3, -3}, {0, 0, 1}}, true).primitive, no_primitive);
+    EXPECT_EQ(structure.tracer().closest(Ray<float>{{0, 0, -3}, {0, 0, 1}}, true).t, 2.0);
+    EXPECT_EQ(structure.tracer().closest(Ray<float>{{0, 3, -3}, {0, 0, 1}}, true).primitive, no_primitive);
 }
 
 TEST(FewTracer, GivesTheBitsOfTheLoop) {

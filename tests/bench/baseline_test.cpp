@@ -102,7 +102,7 @@ TEST(Baseline, ThePictureIsTandemsButForNoise) {
     const NaiveJob job{100, 90, 64, 45, 0};
     const Film naive = film_from(drawn(naive_o3, job), job);
     LoopBackend backend("cpu", false, true);
-    const auto scene = backend.load(prepare(named_scene("paper"), {job.frame, {}}));
+    const auto scene = backend.load(prepare(named_scene("paper"), {job.frame, {}}), Tier::strict);
     const Film ours = backend.render(scene, {job.width, job.height, job.samples, 5, 45, Tier::strict}).film;
     const Bias bias = bias_between(naive, ours);
     EXPECT_LT(std::abs(bias.mean), 2e-4);

@@ -36,7 +36,12 @@ class LoopBackend final : public Backend {
     double trace(ResidentScene& scene, const TraceJob& job) override {
         const Stopwatch watch;
         const LoopTracer tracer{view(dynamic_cast<LoopScene&>(scene).prepared)};
-        for (std::size_t i = 0; i < job.rays.size(); ++i) job.hits[i] = to_hit(tracer.closest(job.rays[i], true));
+        for (std::size_t i = 0; i < job.rays.size(); ++i) {
+            const Closest<float> closest = tracer.closest(job.rays[i], true);
+            job.hits[i] = to_hit(closest);
+            if (job.wide_t.empty()) continue;
+            job.wide_t[i] = (closest.primitive == no_primitive ? 0 : closest.t) + (spoiled_ ? 1 : 0);
+        }
         if (spoiled_) job.hits[0].t += 1;
         return watch.seconds();
     }

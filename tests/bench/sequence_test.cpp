@@ -41,7 +41,7 @@ TEST_F(Sequence, WritesEveryFrameAndEachIsItsOwn) {
         EXPECT_EQ(file.metadata->frame, static_cast<std::uint32_t>(frame));
         RenderJob job = job_;
         job.frame = static_cast<std::uint32_t>(frame);
-        const Film film = backend_.render(backend_.load(prepare(scene_, {frame, {}})), job).film;
+        const Film film = backend_.render(backend_.load(prepare(scene_, {frame, {}}), job.tier), job).film;
         EXPECT_EQ(tone_map(film_to_image(film)).image.values, tone_map(file.image).image.values) << frame;
     }
 }

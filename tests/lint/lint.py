@@ -9,6 +9,9 @@ KERNEL_ROOMS = ("math", "geometry", "material", "light", "camera", "sampler", "i
 CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 # The paper's method re-created to be measured, not used: its arithmetic is its own.
 BASELINE = "apps/bench/baseline/"
+# The tier fast: its files, and no others, may use what the exact tiers must not (docs/tiers.md).
+FAST_TIER = re.compile(r"^(?:cpu|cuda)/kernels_fast\w*\.(?:cpp|cu)$|^lib/math/fast_\w+\.h$")
+FAST_FLAGS = {"cpu/CMakeLists.txt": {"-ffp-contract=fast"}, "cuda/CMakeLists.txt": {"--use_fast_math"}}
 FAST_MATH = re.compile(
     r"-ffast-math|-Ofast\b|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"
     r"|-fno-signed-zeros|-ffp-contract=(?:fast|on)|-mdaz-ftz|-?-use_fast_math|-?-ftz=true|-?-fmad=true"

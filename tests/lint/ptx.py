@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compiles the device code to PTX and looks for approximations.
 
-Fails on .approx, .full and .ftz, and on any single-precision fma: the source writes fma in double, and in single
-precision only in loose_multiply_add(), which is switched off here; with --fmad=false the compiler adds none. Needs
-nvcc, no GPU.
+Fails on .approx, .full and .ftz in the kernels of the exact tiers, and on any single-precision fma: the source writes fma
+in double, and in single precision only in loose_multiply_add(), which is switched off here; with --fmad=false the compiler
+adds none. The tier fast is compiled with the flags of its own, and must have them. Needs nvcc, no GPU.
 
 usage: ptx.py ROOT BUILD NVCC GLM_INCLUDE
 """
@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from lint import Report
+from lint import FAST_TIER, Report
 
 # Exact operations; the compiler's own integer arithmetic uses .approx nowhere.
 FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|ftz)(?:\.\w+)*|fma\.r[nzmp]\.f32)\b", re.M)
@@ -30,16 +30,22 @@ def main():
     for source in sources:
         with tempfile.TemporaryDirectory() as folder:
             ptx = pathlib.Path(folder, "out.ptx")
+            fast = FAST_TIER.match(source.relative_to(root).as_posix())
+            exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "--fmad=false", "-DTANDEM_NO_LOOSE_FMA", *where,
-                 "--ftz=false", "--prec-div=true",
-                 "--prec-sqrt=true", "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-DTANDEM_NO_LOOSE_FMA", *where,
+                 *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
             name = source.relative_to(root).as_posix()
             if result.returncode:
                 report.add(name, f"nvcc fails: {result.stderr.strip()[:2000]}")
                 continue
             text = ptx.read_text()
+        if fast:
+            if "fma.rn.ftz.f32" not in text or "sqrt.approx.ftz.f32" not in text:
+                report.add(name, "does not contract or approximate, which is what the tier fast is for")
+            print(f"{name}: {len(re.findall(r'[.]approx', text))} approximations")
+            continue
         for instruction, count in collections.Counter(FORBIDDEN.findall(text)).items():
             report.add(name, f"{count} x {instruction} in the PTX")
         print(f"{name}: {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")

@@ -14,8 +14,8 @@ PreparedScene one_of_each() {
     scene.boxes = {{{0, 0, 0}, {1, 1, 1}}};
     scene.ellipsoids.resize(1);
     scene.parallelepipeds.resize(1);
-    for (Placement* placement : {static_cast<Placement*>(&scene.ellipsoids[0]),
-                                 static_cast<Placement*>(&scene.parallelepipeds[0])}) {
+    for (Placement* placement :
+         {static_cast<Placement*>(&scene.ellipsoids[0]), static_cast<Placement*>(&scene.parallelepipeds[0])}) {
         *placement = {{}, {1, 2, 3}, {{1, 2, 3}, 2}, {1, 1, 1}};
     }
     scene.triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};

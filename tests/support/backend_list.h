@@ -11,31 +11,35 @@
 
 namespace tandem::test {
 
-/// One way to render: a backend and, for the CPU, an instruction set.
+/// One way to render: a backend, a tier that promises bits and, for the CPU, an instruction set.
 struct Renderer {
     std::string backend;
     BackendOptions options;
+    Tier tier = Tier::strict;
 };
 
 inline void PrintTo(const Renderer& renderer, std::ostream* out) {
-    *out << renderer.backend << " " << renderer.options.instruction_set;
+    *out << renderer.backend << " " << renderer.options.instruction_set << " " << to_string(renderer.tier);
 }
 
 [[nodiscard]] inline std::vector<Renderer> exact_renderers() {
     std::vector<Renderer> list;
-    for (const char* set : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
-        BackendOptions options;
-        options.instruction_set = set;
-        list.push_back({"cpu", options});
+    for (const Tier tier : {Tier::strict, Tier::precise}) {
+        for (const char* set : {"x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+            BackendOptions options;
+            options.instruction_set = set;
+            list.push_back({"cpu", options, tier});
+        }
+        list.push_back({"cuda", {}, tier});
     }
-    list.push_back({"cuda", {}});
     return list;
 }
 
-/// "cpu_x86_64_v3", "cuda": names for gtest.
+/// "cpu_x86_64_v3_strict", "cuda_precise": names for gtest.
 [[nodiscard]] inline std::string test_name(const ::testing::TestParamInfo<Renderer>& info) {
     std::string name = info.param.backend;
     if (!info.param.options.instruction_set.empty()) name += "_" + info.param.options.instruction_set;
+    name += "_" + to_string(info.param.tier);
     for (char& c : name) {
         if (c == '-') c = '_';
     }
@@ -54,6 +58,9 @@ class ExactBackend : public ::testing::TestWithParam<Renderer> {
             if (GetParam().options.instruction_set.empty()) throw;
             GTEST_SKIP() << error.what();
         }
+    }
+    [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene) {
+        return backend_->load(scene, GetParam().tier);
     }
     std::unique_ptr<Backend> backend_;
 };

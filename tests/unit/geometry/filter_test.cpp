@@ -6,9 +6,9 @@
 
 #include <vector>
 
+#include "support/exact_geometry.h"
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_triangles.h"
-#include "unit/geometry/exact_geometry.h"
 #include "unit/math/lane_operations.h"
 
 namespace tandem {

@@ -1,23 +1,25 @@
-#include "cuda/kernels.h"
+/// The CUDA kernels as templates over the Real of a tier (math/real.h). Included by one .cu file per tier, each
+/// compiled with the flags of its tier (cuda/CMakeLists.txt).
+#pragma once
 
+#include "cuda/kernels.h"
 #include "cuda/launch.h"
 
 namespace tandem::cuda {
 
-namespace {
-
 // A block covers 16 x 8 pixels as four warps of 8 x 4: neighbours in a warp see the same things.
-constexpr unsigned int warp_width = 8;
-constexpr unsigned int warp_height = 4;
-constexpr unsigned int block_width = 16;
-constexpr unsigned int block_height = 8;
-constexpr unsigned int block_threads = block_width * block_height;
+inline constexpr unsigned int warp_width = 8;
+inline constexpr unsigned int warp_height = 4;
+inline constexpr unsigned int block_width = 16;
+inline constexpr unsigned int block_height = 8;
+inline constexpr unsigned int block_threads = block_width * block_height;
 /// Blocks that must fit on a multiprocessor: 64 registers a thread. Measured on an H200 against 5, 6 and 7
 /// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
-constexpr unsigned int resident_blocks = 8;
+template <class Real>
+inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
 
-template <class Tracer>
-__global__ void __launch_bounds__(block_threads, resident_blocks)
+template <class Real, class Tracer>
+__global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, unsigned long long* __restrict__ invalid) {
     const unsigned int warp = threadIdx.x / 32;
@@ -27,20 +29,20 @@ __global__ void __launch_bounds__(block_threads, resident_blocks)
     const std::uint32_t y =
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
     if (x >= job.width || y >= height) return;
-    const PixelSum<float> pixel = render_pixel<float>(tracer, tracer.scene, job, x, y, true);
+    const PixelSum<Real> pixel = render_pixel<Real>(tracer, tracer.scene, job, x, y, true);
     sums[static_cast<std::size_t>(y) * job.width + x] = pixel.sum;
     if (pixel.invalid != 0) atomicAdd(invalid, pixel.invalid);
 }
 
-template <class Tracer>
-__global__ void __launch_bounds__(block_threads, resident_blocks)
+template <class Real, class Tracer>
+__global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
     trace_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
     if (i >= job.count) return;
     const Ray<float> ray = job.rays[i];
-    const Closest<float> closest = tracer.closest(ray, is_traceable(ray));
+    const Closest<Real> closest = tracer.closest(to_real<Real>(ray), is_traceable(ray));
     job.hits[i] = to_hit(closest);
-    if (job.wide_t != nullptr) job.wide_t[i] = closest.primitive == no_primitive ? 0.0 : closest.t;
+    if (job.wide_t != nullptr) job.wide_t[i] = closest.primitive == no_primitive ? 0.0 : to_wide(closest.t);
 }
 
 /// Calls f with the tracer that fits the scene.
@@ -57,34 +59,37 @@ auto with_tracer(const DeviceSceneView& scene, F f) {
     return f(BvhTracer{scene.scene, scene.bvh});
 }
 
-unsigned int blocks_for(std::size_t items, std::size_t per_block) {
+inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
 }
 
-}  // namespace
-
+template <class Real>
 void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
                    unsigned long long* invalid, cudaStream_t stream) {
     const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
     with_tracer(scene, [&]<class Tracer>(const Tracer& tracer) {
-        launch("rendering", render_kernel<Tracer>, grid, block_threads, stream, tracer, job, height, sums, invalid);
+        launch("rendering", render_kernel<Real, Tracer>, grid, block_threads, stream, tracer, job, height, sums,
+               invalid);
     });
 }
 
+template <class Real>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
     with_tracer(scene, [&]<class Tracer>(const Tracer& tracer) {
-        launch("tracing rays", trace_kernel<Tracer>, blocks_for(rays.count, block_threads), block_threads, stream,
+        launch("tracing rays", trace_kernel<Real, Tracer>, blocks_for(rays.count, block_threads), block_threads, stream,
                tracer, rays);
     });
 }
 
+template <class Real>
 KernelFacts render_kernel_facts(const DeviceSceneView& scene) {
     return with_tracer(scene, []<class Tracer>(const Tracer&) {
+        const auto kernel = render_kernel<Real, Tracer>;
         cudaFuncAttributes attributes{};
-        check(cudaFuncGetAttributes(&attributes, render_kernel<Tracer>), "reading the facts of a kernel");
+        check(cudaFuncGetAttributes(&attributes, kernel), "reading the facts of a kernel");
         int blocks = 0;
-        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, render_kernel<Tracer>, block_threads, 0),
+        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, block_threads, 0),
               "reading the occupancy of a kernel");
         int device = 0;
         int threads = 1;
@@ -94,5 +99,8 @@ KernelFacts render_kernel_facts(const DeviceSceneView& scene) {
                            static_cast<double>(blocks) * block_threads / threads};
     });
 }
+
+template <class Real>
+inline constexpr TierKernels tier_kernels = {launch_render<Real>, launch_trace<Real>, render_kernel_facts<Real>};
 
 }  // namespace tandem::cuda

@@ -1,0 +1,32 @@
+#include "accuracy.h"
+
+#include <fmt/format.h>
+
+#include "tandem/error/error.h"
+
+namespace tandem::bench {
+
+std::string format_price(double seconds, double fastest) {
+    return fastest > 0 ? fmt::format("{:.2f}", seconds / fastest) : "-";
+}
+
+bool run_accuracy(const AccuracyOptions& options, const BackendSource& source, Report& report) {
+    report.title = "Accuracy: what each digit costs";
+    report.summary =
+        "Every tier on every backend: time beside error. Errors of rays are against the oracle, which tries every "
+        "primitive with 64-bit significands; errors of frames are against the tier precise with the same samples.";
+    std::vector<Tier> tiers;
+    for (const std::string& name : options.tiers) tiers.push_back(parse_tier(name));
+    AccuracyStage stage;
+    for (const std::string& name : available_backends(source, options.backends, report)) {
+        stage.backends.push_back(source.make(name, {options.threads, 16, {}}));
+        describe_backend(*stage.backends.back(), report);
+        for (const Tier tier : tiers) stage.entries.push_back({{name, tier}, stage.backends.back().get()});
+    }
+    if (stage.entries.empty()) throw EnvironmentError("none of the backends that were asked for can run here");
+    const bool rays = accuracy_of_rays(options, stage, report);
+    const bool frames = accuracy_of_frames(options, stage, report);
+    return rays && frames;
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,96 @@
+#include "kind_scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "ray_sets.h"
+#include "tandem/error/error.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr int primitives = 64;
+
+// Streams of random numbers.
+constexpr std::uint32_t place_stream = 31, turn_stream = 32, scale_stream = 33, aim_stream = 34, origin_stream = 35;
+
+struct Kind {
+    const char* name;
+    std::variant<SphereShape, BoxShape> shape;
+    bool scaled;  ///< unevenly
+    bool turned;
+};
+
+const std::array kinds = {
+    Kind{"sphere", SphereShape{0.5}, false, false},
+    Kind{"box", BoxShape{{1, 1, 1}}, true, false},
+    Kind{"ellipsoid", SphereShape{0.5}, true, true},
+    Kind{"parallelepiped", BoxShape{{1, 1, 1}}, true, true},
+};
+
+/// Of any length but zero, which a rotation may have.
+Quaternion random_turn(std::uint32_t i) {
+    const Vec3d axis = uniform_in_cube(turn_stream, i, 0);
+    return {axis.x, axis.y, axis.z, 1.5 + uniform_in_cube(turn_stream, i, 1).x};
+}
+
+Vec3d random_scale(std::uint32_t i) { return Vec3d{1, 1, 1} + uniform_in_cube(scale_stream, i, 0) * 0.5; }
+
+/// Where the scene lies and how large it and its primitives are.
+struct Setting {
+    double offset;
+    double size;
+    double distance;  ///< from the centre to where rays start
+};
+
+Setting setting_of(Difficulty difficulty) {
+    return difficulty == Difficulty::easy ? Setting{0, 0.25, 3} : Setting{1000, 0.0025, 3000};
+}
+
+}  // namespace
+
+std::vector<std::string> primitive_kinds() {
+    std::vector<std::string> names;
+    for (const Kind& kind : kinds) names.emplace_back(kind.name);
+    return names;
+}
+
+KindScene make_kind_scene(const std::string& name, Difficulty difficulty, std::size_t ray_count) {
+    const auto* const kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return name == k.name; });
+    if (kind == kinds.end()) throw InputError("no kind of primitive is named '" + name + "'");
+    const auto [offset, size, distance] = setting_of(difficulty);
+    const Vec3d centre = {offset, offset, offset};
+
+    Scene scene;
+    scene.name = name;
+    scene.materials.emplace_back();
+    Node camera;
+    camera.camera = PerspectiveCamera{};
+    Node crowd;
+    crowd.geometry.push_back({kind->shape, 0, {}});
+    for (std::uint32_t i = 0; i < primitives; ++i) {
+        Trs place;
+        place.translation = centre + uniform_in_cube(place_stream, i, 0);
+        place.scale = (kind->scaled ? random_scale(i) : Vec3d{1, 1, 1}) * size;
+        if (kind->turned) place.rotation = random_turn(i);
+        crowd.geometry.back().instances.push_back(place);
+    }
+    scene.nodes = {std::move(camera), std::move(crowd)};
+
+    KindScene result{name, difficulty, prepare(scene), {}};
+    const SceneView window = view(result.scene);
+    result.rays.reserve(ray_count);
+    for (std::uint32_t i = 0; i < ray_count; ++i) {
+        const Aabb bounds = primitive_bounds(window, i % primitives);
+        const Vec3d half = (widen(bounds.upper) - widen(bounds.lower)) * 0.5;
+        const Vec3d target = widen(bounds.lower) + half + half * uniform_in_cube(aim_stream, i, 0);
+        const Vec3f origin = narrow(centre + normalize(uniform_in_cube(origin_stream, i, 0)) * distance);
+        result.rays.push_back({origin, narrow(target - widen(origin))});
+    }
+    return result;
+}
+
+}  // namespace tandem::bench
