@@ -37,8 +37,10 @@ TANDEM_HD Float4 load_float4(const void* address) {
 
 }  // namespace bvh_detail
 
-struct BvhTracer {
-    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+/// `kind_set` as with LoopTracerFor.
+template <std::uint32_t kind_set>
+struct BvhTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
 
     SceneView scene;
     BvhView bvh;
@@ -103,11 +105,12 @@ struct BvhTracer {
             if (id < scene.sphere_count) {
                 decide(around, id, filter.ray, true, best);
             } else {
-                intersect_primitive<Real>(scene, id, filter, true, best);
+                intersect_primitive<Real, kinds>(scene, id, filter, true, best);
             }
             if (best.t < before) limit = to_plain(proposal.limit(best.t));
         }
     }
 };
+using BvhTracer = BvhTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

@@ -61,18 +61,21 @@ TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const Fil
     }
 }
 
-/// Any primitive by its id.
-template <class Real>
+/// Any primitive by its id; `kinds`: the ones that the scene may have.
+template <class Real, std::uint32_t kinds = PrimitiveKinds::all>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const Mask<Real>& active, Closest<Real>& best) {
-    visit_primitive(scene, id,
-                    [&](const auto& primitive) TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, active, best); });
+    const auto as_itself = [&](const auto& primitive)
+                               TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, active, best); };
+    visit_primitive<kinds>(scene, id, as_itself);
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
-/// `active`, here and with the other tracers.
-struct LoopTracer {
-    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+/// `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a kernel for few
+/// of them needs fewer registers.
+template <std::uint32_t kind_set>
+struct LoopTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
 
     SceneView scene;
 
@@ -81,12 +84,16 @@ struct LoopTracer {
         Closest<Real> best = no_hit<Real>();
         const FilterRay<Real> f = make_filter_ray(ray);
         std::uint32_t id = 0;
+        const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
+            for (std::uint32_t i = 0; i < count; ++i, ++id) intersect(primitives[i], id, f, active, best);
+        };
 #define TANDEM_PRIMITIVE(Type, name, names) \
-    for (std::uint32_t i = 0; i < scene.name##_count; ++i, ++id) intersect(scene.names[i], id, f, active, best);
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) try_all(scene.names, scene.name##_count);
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
         return best;
     }
 };
+using LoopTracer = LoopTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

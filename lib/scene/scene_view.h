@@ -49,7 +49,11 @@ struct PrimitiveKinds {
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
         ;
+    static constexpr std::uint32_t faces = triangle | quad;
+    static constexpr std::uint32_t bodies = all & ~faces;
 };
+
+TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
 
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
