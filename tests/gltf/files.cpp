@@ -40,6 +40,15 @@ std::size_t TestFile::add_floats(const std::string& type, const std::vector<floa
     return add_bytes(type, 5126, values.size() / width, bytes_of(values));
 }
 
+std::size_t TestFile::add_indices(int component_type, const std::vector<std::uint32_t>& values) {
+    const std::size_t width = component_type == 5121 ? 1 : component_type == 5123 ? 2 : 4;
+    std::string bytes;
+    for (const std::uint32_t value : values) bytes += word(value).substr(0, width);  // little endian
+    const std::size_t accessor = add_bytes("SCALAR", component_type, values.size(), bytes);
+    json["accessors"][accessor]["normalized"] = false;
+    return accessor;
+}
+
 std::string TestFile::text() const {
     Json document = json;
     if (!data.empty() && !document.contains("buffers")) {
@@ -92,6 +101,17 @@ TestFile rich_file() {
                                        {"channels",
                                         {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "scale"}}}},
                                          {{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}}}});
+    return file;
+}
+
+TestFile mesh_file() {
+    TestFile file = small_file();
+    file.json["nodes"][1]["name"] = "sheet";
+    const std::size_t positions = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
+    const std::size_t indices = file.add_indices(5123, {0, 1, 2, 2, 1, 3});
+    file.json["meshes"][0] = {
+        {"name", "sheet"},
+        {"primitives", {{{"material", 0}, {"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}};
     return file;
 }
 

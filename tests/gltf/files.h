@@ -24,6 +24,8 @@ struct TestFile {
     std::size_t add_floats(const std::string& type, const std::vector<float>& values);
     /// The same for components of any type, which are normalised if they are integers.
     std::size_t add_bytes(const std::string& type, int component_type, std::size_t count, const std::string& bytes);
+    /// Indices of a mesh as components of 5121, 5123 or 5125.
+    std::size_t add_indices(int component_type, const std::vector<std::uint32_t>& values);
 
     /// As .gltf, with the buffer, if there are bytes, as a data URI.
     [[nodiscard]] std::string text() const;
@@ -37,6 +39,9 @@ struct TestFile {
 /// small_file() with a point light, an environment, a node "crowd" of three instances of a box, and an animation of
 /// ball and crowd.
 [[nodiscard]] TestFile rich_file();
+
+/// A camera "eye" and a node "sheet" with a mesh of six vertices and two triangles.
+[[nodiscard]] TestFile mesh_file();
 
 /// A .glb of a JSON text and a binary chunk; none if it is empty.
 [[nodiscard]] std::string make_glb(std::string json, std::string chunk);

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/exact_geometry.h"
 #include "tandem/scene/prepare.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "support/exact_geometry.h"
 
 namespace tandem {
 namespace {
