@@ -57,6 +57,8 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 }
 
 struct EmbreeTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+
     const CpuSceneView& view;
 
     template <class Real>

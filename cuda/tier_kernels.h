@@ -48,15 +48,17 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
 /// Calls f with the tracer that fits the scene.
 template <class F>
 auto with_tracer(const DeviceSceneView& scene, F f) {
+    constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
+    const bool faces = has_faces(scene.scene);
     switch (structure_of(scene)) {
         case Structure::few:
             return f(scene.few);
         case Structure::loop:
-            return f(LoopTracer{scene.scene});
+            return faces ? f(LoopTracerFor<all>{scene.scene}) : f(LoopTracerFor<bodies>{scene.scene});
         case Structure::bvh:
             break;
     }
-    return f(BvhTracer{scene.scene, scene.bvh});
+    return faces ? f(BvhTracerFor<all>{scene.scene, scene.bvh}) : f(BvhTracerFor<bodies>{scene.scene, scene.bvh});
 }
 
 inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {

@@ -20,6 +20,10 @@ struct Placement {
 static_assert(sizeof(Placement) == 72 + 24 + 16 + 24 + 8,
               "no byte of a placement is undefined; scene_hash() reads all");
 
+/// The unit sphere, and the cube [-1, 1]^3, somewhere.
+struct Ellipsoid : Placement {};
+struct Parallelepiped : Placement {};
+
 TANDEM_HD Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
 
 /// A ray in the space of a body, double, not normalised.
@@ -53,6 +57,16 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     using D = Double<Real>;
     const Vec3<D> one = {D(1.0), D(1.0), D(1.0)};
     return cross_box<Real>(-one, one, local.origin, local.direction);
+}
+
+/// The nearest point of the body in front of the origin.
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t) {
+    return first_in_front(ellipsoid_roots(body, ray), t);
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t) {
+    return first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.

@@ -147,6 +147,12 @@ TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
     return cross_box<Real>(broadcast<D>(box.lower), broadcast<D>(box.upper), widen(ray.origin), widen(ray.direction));
 }
 
+/// The nearest point of the box in front of the origin.
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double<Real>& t) {
+    return first_in_front<Real>(cross_box(box, ray), t);
+}
+
 /// Unit outward normal of the face that the ray hits first in front of its origin. Axis-aligned, hence exact.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction) {

@@ -18,80 +18,65 @@ TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, std::uint32_t
 
 /// Keeps the nearer of `best` and the first point in front of the ray's origin, in the lanes of `candidate`, which the
 /// filter let through.
-template <class Real>
-TANDEM_HD void decide(const Sphere& sphere, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
+template <class Real, class Primitive>
+TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
                       Closest<Real>& best) {
     Double<Real> t;
-    offer<Real>(first_in_front(sphere, ray, t) && candidate, t, id, best);
-}
-template <class Real>
-TANDEM_HD void decide(const Box& box, std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& candidate,
-                      Closest<Real>& best) {
-    Double<Real> t;
-    offer<Real>(first_in_front<Real>(cross_box(box, ray), t) && candidate, t, id, best);
+    const Mask<Real> hit = first_in_front(primitive, ray, t);
+    offer<Real>(hit && candidate, t, id, best);
 }
 
-// One primitive each: the float filter first, then the decision in double.
-
+// The filter of each kind.
 template <class Real>
-TANDEM_HD void intersect(const Sphere& sphere, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
-                         Closest<Real>& best) {
-    if constexpr (is_fast<Real>) {
-        decide(sphere, id, f.ray, active, best);  // hardly more work than the filter
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
+    return may_touch_sphere(f, sphere.centre, sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
+    return may_touch_box(f, box.lower, box.upper);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Placement& body) {
+    return may_touch(f, body.bounding_sphere);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Triangle& triangle) {
+    return may_touch_triangle(f, triangle.v0, triangle.v1, triangle.v2);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
+    return may_touch_quad(f, quad);
+}
+
+/// One primitive: the float filter first, then the decision. In the tier fast the decision costs hardly more than the
+/// filter, but for bodies with a transform.
+template <class Real, class Primitive>
+TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f,
+                         const Mask<Real>& active, Closest<Real>& best) {
+    if constexpr (is_fast<Real> && !std::is_base_of_v<Placement, Primitive>) {
+        decide(primitive, id, f.ray, active, best);
     } else {
-        const Mask<Real> candidate = active && may_touch_sphere(f, sphere.centre, sphere.radius);
-        if (any(candidate)) decide(sphere, id, f.ray, candidate, best);
+        const Mask<Real> candidate = active && may_touch(f, primitive);
+        if (any(candidate)) decide(primitive, id, f.ray, candidate, best);
     }
 }
 
-template <class Real>
-TANDEM_HD void intersect(const Box& box, std::uint32_t id, const FilterRay<Real>& f, const Mask<Real>& active,
-                         Closest<Real>& best) {
-    if constexpr (is_fast<Real>) {
-        decide(box, id, f.ray, active, best);
-    } else {
-        const Mask<Real> candidate = active && may_touch_box(f, box.lower, box.upper);
-        if (any(candidate)) decide(box, id, f.ray, candidate, best);
-    }
-}
-
-template <class Real>
-TANDEM_HD void intersect_ellipsoid(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
-                                   const Mask<Real>& active, Closest<Real>& best) {
-    const Sphere& around = placement.bounding_sphere;
-    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) {
-        Double<Real> t;
-        offer<Real>(first_in_front(ellipsoid_roots(placement, f.ray), t) && candidate, t, id, best);
-    }
-}
-
-template <class Real>
-TANDEM_HD void intersect_parallelepiped(const Placement& placement, std::uint32_t id, const FilterRay<Real>& f,
-                                        const Mask<Real>& active, Closest<Real>& best) {
-    const Sphere& around = placement.bounding_sphere;
-    const Mask<Real> candidate = active && may_touch_sphere(f, around.centre, around.radius);
-    if (any(candidate)) {
-        Double<Real> t;
-        const BoxCrossing<Real> crossing = cross_parallelepiped(to_object(placement, f.ray));
-        offer<Real>(first_in_front<Real>(crossing, t) && candidate, t, id, best);
-    }
-}
-
-/// Any primitive by its id.
-template <class Real>
+/// Any primitive by its id; `kinds`: the ones that the scene may have.
+template <class Real, std::uint32_t kinds = PrimitiveKinds::all>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const Mask<Real>& active, Closest<Real>& best) {
-    visit_primitive(
-        scene, id, [&](const Sphere& sphere) TANDEM_INLINE_LAMBDA { intersect(sphere, id, f, active, best); },
-        [&](const Box& box) TANDEM_INLINE_LAMBDA { intersect(box, id, f, active, best); },
-        [&](const Placement& ellipsoid) TANDEM_INLINE_LAMBDA { intersect_ellipsoid(ellipsoid, id, f, active, best); },
-        [&](const Placement& body) TANDEM_INLINE_LAMBDA { intersect_parallelepiped(body, id, f, active, best); });
+    const auto as_itself = [&](const auto& primitive)
+                               TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, active, best); };
+    visit_primitive<kinds>(scene, id, as_itself);
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
-/// `active`, here and with the other tracers.
-struct LoopTracer {
+/// `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a kernel for few
+/// of them needs fewer registers.
+template <std::uint32_t kind_set>
+struct LoopTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
+
     SceneView scene;
 
     template <class Real>
@@ -99,16 +84,16 @@ struct LoopTracer {
         Closest<Real> best = no_hit<Real>();
         const FilterRay<Real> f = make_filter_ray(ray);
         std::uint32_t id = 0;
-        for (std::uint32_t i = 0; i < scene.sphere_count; ++i, ++id) intersect(scene.spheres[i], id, f, active, best);
-        for (std::uint32_t i = 0; i < scene.box_count; ++i, ++id) intersect(scene.boxes[i], id, f, active, best);
-        for (std::uint32_t i = 0; i < scene.ellipsoid_count; ++i, ++id) {
-            intersect_ellipsoid(scene.ellipsoids[i], id, f, active, best);
-        }
-        for (std::uint32_t i = 0; i < scene.parallelepiped_count; ++i, ++id) {
-            intersect_parallelepiped(scene.parallelepipeds[i], id, f, active, best);
-        }
+        const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
+            for (std::uint32_t i = 0; i < count; ++i, ++id) intersect(primitives[i], id, f, active, best);
+        };
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) try_all(scene.names, scene.name##_count);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
         return best;
     }
 };
+using LoopTracer = LoopTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

@@ -6,6 +6,31 @@
 
 namespace tandem::oracle {
 
+namespace {
+
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Sphere& sphere, const Line& line) {
+    return hit_sphere(to_vector(sphere.centre), sphere.radius, line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Box& box, const Line& line) {
+    return hit_box(to_vector(box.lower), to_vector(box.upper), line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Ellipsoid& body, const Line& line) {
+    return hit_placed(body, false, line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Parallelepiped& body, const Line& line) {
+    return hit_placed(body, true, line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Triangle& triangle, const Line& line) {
+    return hit_face({{triangle.v0, triangle.v1, triangle.v2}, {0, 1, 2}}, triangle.attributes, scene.normals, line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Quad& quad, const Line& line) {
+    const auto first = hit_face({{quad.v0, quad.v1, quad.v2}, {0, 1, 2}}, quad.attributes, scene.normals, line);
+    const auto second = hit_face({{quad.v0, quad.v2, quad.v3}, {0, 2, 3}}, quad.attributes, scene.normals, line);
+    return !first || (second && second->t < first->t) ? second : first;
+}
+
+}  // namespace
+
 Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
 
 std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line) {
@@ -78,11 +103,7 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
 
 std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line) {
     std::optional<SurfaceHit> hit;
-    visit_primitive(
-        scene, id, [&](const Sphere& s) { hit = hit_sphere(to_vector(s.centre), s.radius, line); },
-        [&](const Box& b) { hit = hit_box(to_vector(b.lower), to_vector(b.upper), line); },
-        [&](const Placement& p) { hit = hit_placed(p, false, line); },
-        [&](const Placement& p) { hit = hit_placed(p, true, line); });
+    visit_primitive(scene, id, [&](const auto& primitive) { hit = hit_shape(scene, primitive, line); });
     return hit;
 }
 

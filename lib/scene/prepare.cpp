@@ -8,6 +8,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/place_mesh.h"
 
 namespace tandem {
 
@@ -75,7 +76,9 @@ class Preparer {
         result_.environment = scene_.environment;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
-            for (const Geometry& geometry : node.geometry) count += std::max<std::size_t>(1, geometry.instances.size());
+            for (const Geometry& geometry : node.geometry) {
+                count += primitives_in(geometry.shape) * std::max<std::size_t>(1, geometry.instances.size());
+            }
         }
         if (count >= no_primitive_limit) {
             throw InputError(
@@ -130,9 +133,27 @@ class Preparer {
     void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
         if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
             add_sphere(*sphere, geometry.material, world_from_object, node);
+        } else if (const auto* box = std::get_if<BoxShape>(&geometry.shape)) {
+            add_box(*box, geometry.material, world_from_object, node);
         } else {
-            add_box(std::get<BoxShape>(geometry.shape), geometry.material, world_from_object, node);
+            add_mesh(std::get<MeshShape>(geometry.shape), geometry.material, world_from_object, node);
         }
+    }
+
+    std::size_t primitives_in(const Shape& shape) const {
+        const auto* reference = std::get_if<MeshShape>(&shape);
+        if (reference == nullptr) return 1;
+        const Mesh& mesh = scene_.meshes[reference->mesh];
+        return mesh.triangles.size() / 3 + mesh.quads.size() / 4;
+    }
+
+    void add_mesh(const MeshShape& shape, std::uint32_t material, const Transform& world_from_object,
+                  std::size_t node) {
+        const bool double_sided = scene_.materials[material].double_sided;
+        const PlacedMesh placed = place_mesh(scene_.meshes[shape.mesh], world_from_object, double_sided, result_);
+        if (!is_empty(placed.bounds)) check_reach(placed.bounds, node);
+        triangles_.add(material, node, placed.triangles);
+        quads_.add(material, node, placed.quads);
     }
 
     void add_sphere(const SphereShape& shape, std::uint32_t material, const Transform& world_from_object,
@@ -181,7 +202,11 @@ class Preparer {
         }
         const Placement placement = place(world_from_unit, is_box);
         check_reach(bounds(placement), node);
-        (is_box ? result_.parallelepipeds : result_.ellipsoids).push_back(placement);
+        if (is_box) {
+            result_.parallelepipeds.push_back({placement});
+        } else {
+            result_.ellipsoids.push_back({placement});
+        }
         (is_box ? parallelepipeds_ : ellipsoids_).add(material, node);
     }
 
@@ -195,10 +220,13 @@ class Preparer {
     }
 
     void join_kinds() {
-        for (const Origin* origin : {&spheres_, &boxes_, &ellipsoids_, &parallelepipeds_}) {
-            result_.material_of.insert(result_.material_of.end(), origin->material.begin(), origin->material.end());
-            result_.node_of.insert(result_.node_of.end(), origin->node.begin(), origin->node.end());
-        }
+        const auto join = [this](const Origin& origin) {
+            result_.material_of.insert(result_.material_of.end(), origin.material.begin(), origin.material.end());
+            result_.node_of.insert(result_.node_of.end(), origin.node.begin(), origin.node.end());
+        };
+#define TANDEM_PRIMITIVE(Type, name, names) join(names##_);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     }
 
     void choose_camera() {
@@ -241,16 +269,18 @@ class Preparer {
     struct Origin {
         std::vector<std::uint32_t> material;
         std::vector<std::uint32_t> node;
-        void add(std::uint32_t m, std::size_t n) {
-            material.push_back(m);
-            node.push_back(static_cast<std::uint32_t>(n));
+        void add(std::uint32_t m, std::size_t n, std::size_t count = 1) {
+            material.insert(material.end(), count, m);
+            node.insert(node.end(), count, static_cast<std::uint32_t>(n));
         }
     };
 
     const Scene& scene_;
     const PrepareOptions& options_;
     std::vector<Transform> world_from_node_;
-    Origin spheres_, boxes_, ellipsoids_, parallelepipeds_;
+#define TANDEM_PRIMITIVE(Type, name, names) Origin names##_;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     PreparedScene result_;
 };
 

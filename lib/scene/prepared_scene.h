@@ -14,18 +14,20 @@
 
 namespace tandem {
 
-/// Primitive ids run over the arrays in this order: spheres, boxes, ellipsoids, parallelepipeds. Within a kind they
-/// follow the order of nodes, geometries and instances in the Scene.
+/// Primitive ids run over the arrays spheres, boxes, ... in the order of primitives.def. Within a kind they follow the
+/// order of nodes, geometries, instances and faces in the Scene.
 struct PreparedScene {
-    std::vector<Sphere> spheres;
-    std::vector<Box> boxes;
-    std::vector<Placement> ellipsoids;
-    std::vector<Placement> parallelepipeds;
+#define TANDEM_PRIMITIVE(Type, name, names) std::vector<Type> names;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    std::vector<Vec3f> normals;  ///< shading normals of the corners of faces (FaceAttributes): unit, world space, or 0
+    std::vector<Vec2f> texcoords;            ///< texture coordinates of the corners of faces
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;
     std::vector<PointLight> lights;
     Environment environment;
+    std::uint64_t dropped_primitives = 0;  ///< faces of the Scene without area: no ray hits them
 
     /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
     Transform world_from_camera;
@@ -42,8 +44,8 @@ struct PreparedScene {
 /// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
-/// SHA-256 over everything above except node_of, which serves messages only, in hexadecimal: equal hashes mean equal
-/// pictures.
+/// SHA-256 over everything above except node_of and dropped_primitives, which serve messages only, in hexadecimal:
+/// equal hashes mean equal pictures.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

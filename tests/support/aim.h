@@ -14,7 +14,7 @@ namespace tandem::test {
 inline Vec3d any_unit(Random& random) {
     for (;;) {
         const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-        const double length2 = dot(v, v);
+        const double length2 = tandem::dot(v, v);
         if (length2 > 1e-4 && length2 <= 1.0) return normalize(v);
     }
 }
@@ -22,8 +22,8 @@ inline Vec3d any_unit(Random& random) {
 /// A unit vector at a right angle to `axis`.
 inline Vec3d any_across(Random& random, const Vec3d& axis) {
     for (;;) {
-        const Vec3d v = cross(axis, any_unit(random));
-        if (dot(v, v) > 1e-4) return normalize(v);
+        const Vec3d v = tandem::cross(axis, any_unit(random));
+        if (tandem::dot(v, v) > 1e-4) return normalize(v);
     }
 }
 

@@ -70,20 +70,40 @@ Crossing cross_placed(const Placement& placement, bool is_box, const Ray<float>&
     return result;
 }
 
+/// The exact crossing, by the type of the primitive.
+struct CrossExactly {
+    const Ray<float>& ray;
+    BigVector origin = test::big(ray.origin);
+    BigVector direction = test::big(ray.direction);
+    Crossing result{};
+
+    void operator()(const Sphere& s) {
+        result.t = test::hit_ball(origin - test::big(s.centre), direction, Big(s.radius));
+    }
+    void operator()(const Box& b) {
+        const auto hit = test::hit_box(origin, direction, test::big(b.lower), test::big(b.upper));
+        if (hit) result.t = hit->t;
+    }
+    void operator()(const Ellipsoid& e) { result = cross_placed(e, false, ray); }
+    void operator()(const Parallelepiped& p) { result = cross_placed(p, true, ray); }
+    void operator()(const Triangle& t) { result.t = cross_triangle(t.v0, t.v1, t.v2); }
+    void operator()(const Quad& q) {
+        result.t = cross_triangle(q.v0, q.v1, q.v2);
+        const std::optional<Big> other = cross_triangle(q.v0, q.v2, q.v3);
+        if (other && (!result.t || *other < *result.t)) result.t = other;
+    }
+
+  private:
+    [[nodiscard]] std::optional<Big> cross_triangle(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) const {
+        const auto hit = test::hit_triangle(origin, direction, test::big(v0), test::big(v1), test::big(v2));
+        return hit ? std::optional<Big>(hit->t) : std::nullopt;
+    }
+};
+
 Crossing cross(const SceneView& scene, std::uint32_t id, const Ray<float>& ray) {
-    Crossing result;
-    const BigVector origin = test::big(ray.origin);
-    const BigVector direction = test::big(ray.direction);
-    visit_primitive(
-        scene, id,
-        [&](const Sphere& s) { result.t = test::hit_ball(origin - test::big(s.centre), direction, Big(s.radius)); },
-        [&](const Box& b) {
-            const auto hit = test::hit_box(origin, direction, test::big(b.lower), test::big(b.upper));
-            if (hit) result.t = hit->t;
-        },
-        [&](const Placement& p) { result = cross_placed(p, false, ray); },
-        [&](const Placement& p) { result = cross_placed(p, true, ray); });
-    return result;
+    CrossExactly crossing{ray};
+    visit_primitive(scene, id, [&](const auto& primitive) { crossing(primitive); });
+    return crossing.result;
 }
 
 /// Do equal crossings of two primitives come from the same arithmetic, so that every program finds them equal?
@@ -94,7 +114,8 @@ bool same_arithmetic(const SceneView& scene, std::uint32_t a, std::uint32_t b) {
     const auto is_box = [&](std::uint32_t id) {
         return id >= scene.sphere_count && id - scene.sphere_count < scene.box_count;
     };
-    return is_box(a) && is_box(b);
+    const std::uint32_t faces = primitive_count(scene) - scene.triangle_count - scene.quad_count;
+    return (is_box(a) && is_box(b)) || (a >= faces && b >= faces);
 }
 
 /// Of equal spheres in a row only the first can be right.

@@ -7,6 +7,7 @@ namespace tandem::hard {
 
 [[nodiscard]] std::vector<HardCase> sphere_cases();     // A
 [[nodiscard]] std::vector<HardCase> box_cases();        // B
+[[nodiscard]] std::vector<HardCase> face_cases();       // C
 [[nodiscard]] std::vector<HardCase> structure_cases();  // D
 [[nodiscard]] std::vector<HardCase> shading_cases();    // G
 [[nodiscard]] std::vector<HardCase> camera_cases();     // H
