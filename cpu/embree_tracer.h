@@ -82,6 +82,8 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 }
 
 struct EmbreeTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+
     const CpuSceneView& view;
 
     /// As LoopTracer::closest().

@@ -66,10 +66,10 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     }
 
     Layout layout;
-    const std::size_t spheres = layout.add(scene.spheres);
-    const std::size_t boxes = layout.add(scene.boxes);
-    const std::size_t ellipsoids = layout.add(scene.ellipsoids);
-    const std::size_t parallelepipeds = layout.add(scene.parallelepipeds);
+#define TANDEM_PRIMITIVE(Type, name, names) const std::size_t names = layout.add(scene.names);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    const std::size_t normals = layout.add(scene.normals);
     const std::size_t material_of = layout.add(scene.material_of);
     const std::size_t materials = layout.add(scene.materials);
     const std::size_t lights = layout.add(scene.lights);
@@ -83,10 +83,10 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 
     std::byte* base = memory_->device.data();
     view_.scene = host;
-    view_.scene.spheres = reinterpret_cast<const Sphere*>(base + spheres);
-    view_.scene.boxes = reinterpret_cast<const Box*>(base + boxes);
-    view_.scene.ellipsoids = reinterpret_cast<const Placement*>(base + ellipsoids);
-    view_.scene.parallelepipeds = reinterpret_cast<const Placement*>(base + parallelepipeds);
+#define TANDEM_PRIMITIVE(Type, name, names) view_.scene.names = reinterpret_cast<const Type*>(base + names);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    view_.scene.normals = reinterpret_cast<const Vec3f*>(base + normals);
     view_.scene.material_of = reinterpret_cast<const std::uint32_t*>(base + material_of);
     view_.scene.materials = reinterpret_cast<const PhongMaterial*>(base + materials);
     view_.scene.lights = reinterpret_cast<const PointLight*>(base + lights);

@@ -68,17 +68,19 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
 /// Calls f with the tracer that fits the scene, which counts into `counters`.
 template <class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
+    constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
+    const bool faces = has_faces(scene.scene);
     switch (structure_of(scene)) {
         case Structure::few:
             return f(scene.few);
         case Structure::loop:
-            return f(LoopTracer{scene.scene});
+            return faces ? f(LoopTracerFor<all>{scene.scene}) : f(LoopTracerFor<bodies>{scene.scene});
         case Structure::bvh:
             break;
     }
-    BvhTracer tracer = {scene.scene, scene.bvh};
-    tracer.bvh.stack_overflows = counters == nullptr ? nullptr : &counters->stack_overflows;
-    return f(tracer);
+    BvhView bvh = scene.bvh;
+    bvh.stack_overflows = counters == nullptr ? nullptr : &counters->stack_overflows;
+    return faces ? f(BvhTracerFor<all>{scene.scene, bvh}) : f(BvhTracerFor<bodies>{scene.scene, bvh});
 }
 
 inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {

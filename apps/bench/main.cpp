@@ -5,6 +5,7 @@
 
 #include "accuracy.h"
 #include "common/run_main.h"
+#include "hard.h"
 #include "output.h"
 #include "paper.h"
 #include "parity.h"
@@ -31,6 +32,7 @@ struct Everything {
     VersusOptions versus;
     PaperOptions paper;
     TargetOptions targets;
+    HardOptions hard;
     bool list_targets = false;
 };
 
@@ -144,6 +146,17 @@ CLI::App* add_targets(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_hard(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("hard", "Hard cases against exact answers. Status 1 if a mark is missed");
+    command->add_option("--cases", all.hard.cases, "Such as A1,B*; default all")->delimiter(',');
+    add_backends_option(*command, all.hard);
+    command->add_option("--tiers", all.hard.tiers, "fast, strict, precise; default all")->delimiter(',');
+    command->add_option("--rays", all.hard.rays, "Per case")->capture_default_str()->check(CLI::Range(16, 100'000'000));
+    command->add_option("--export", all.hard.export_folder, "Write scenes, rays and answers to this folder instead");
+    command->add_option("--check", all.hard.answers, "Score another renderer's answers, FOLDER/answers, instead");
+    return command;
+}
+
 /// The command line as it can be typed again.
 std::string command_line(int count, const char* const* words) {
     std::string line = "tandem-bench";
@@ -181,6 +194,7 @@ int run(int count, char** words) {
     const CLI::App* accuracy = add_accuracy(app, all);
     const CLI::App* paper = add_paper(app, all);
     const CLI::App* targets = add_targets(app, all);
+    const CLI::App* hard = add_hard(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -215,6 +229,8 @@ int run(int count, char** words) {
         }
         take_texts(all.texts, all.targets);
         satisfied = run_targets(all.targets, source, report);
+    } else if (hard->parsed()) {
+        satisfied = run_hard(all.hard, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;

@@ -20,6 +20,10 @@ constexpr std::int64_t most_prepared_frames = 240;
 /// The text lists this many nodes, materials and problems, and counts the others.
 constexpr std::size_t most_lines = 24;
 
+/// By index of the alternative in Shape.
+constexpr const char* shape_names[] = {"spheres", "boxes", "meshes"};
+static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
+
 Json colour(const Vec3f& c) { return Json::array({c.x, c.y, c.z}); }
 
 Json describe_nodes(const Scene& scene) {
@@ -30,13 +34,13 @@ Json describe_nodes(const Scene& scene) {
         const Node& node = scene.nodes[i];
         Json row = {{"name", node.name}};
         if (node.parent != Node::no_parent) row["parent"] = node.parent;
-        std::size_t spheres = 0, boxes = 0;
+        std::map<const char*, std::size_t> shapes;
         for (const Geometry& geometry : node.geometry) {
-            const bool is_sphere = std::holds_alternative<SphereShape>(geometry.shape);
-            (is_sphere ? spheres : boxes) += std::max<std::size_t>(1, geometry.instances.size());
+            shapes[shape_names[geometry.shape.index()]] += std::max<std::size_t>(1, geometry.instances.size());
         }
-        if (spheres > 0) row["spheres"] = spheres;
-        if (boxes > 0) row["boxes"] = boxes;
+        for (const char* name : shape_names) {
+            if (shapes[name] > 0) row[name] = shapes[name];
+        }
         if (node.camera) row["camera"] = true;
         if (node.light) row["light"] = true;
         if (animated.contains(i)) row["animated"] = true;
@@ -78,7 +82,8 @@ Json describe_materials(const Scene& scene) {
                              {"ambient", colour(material.phong.ambient)},
                              {"diffuse", colour(material.phong.diffuse)},
                              {"specular", colour(material.phong.specular)},
-                             {"shininess", material.phong.shininess}});
+                             {"shininess", material.phong.shininess},
+                             {"double_sided", material.double_sided}});
     }
     return materials;
 }
@@ -92,16 +97,21 @@ Json describe_animation(const Scene& scene) {
             {"frames_per_second", scene.frames_per_second}};
 }
 
-/// How many primitives of each kind the renderer gets at frame 0; nothing if the scene cannot be prepared.
-Json describe_primitives(const Scene& scene) {
+/// Adds how many primitives of each kind the renderer gets at frame 0, and how many it drops; null if the scene cannot
+/// be prepared.
+void describe_primitives(const Scene& scene, Json& description) {
+    description["primitives"] = nullptr;
+    description["dropped_primitives"] = nullptr;
     try {
         const PreparedScene prepared = prepare(scene);
-        return {{"spheres", prepared.spheres.size()},
-                {"boxes", prepared.boxes.size()},
-                {"ellipsoids", prepared.ellipsoids.size()},
-                {"parallelepipeds", prepared.parallelepipeds.size()}};
+        description["primitives"] = {
+#define TANDEM_PRIMITIVE(Type, name, names) {#names, prepared.names.size()},
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+        };
+        description["dropped_primitives"] = prepared.dropped_primitives;
     } catch (const InputError&) {
-        return nullptr;  // problems_of() says why
+        // problems_of() says why
     }
 }
 
@@ -116,7 +126,7 @@ std::string components(const Json& colour) {
 
 std::string line_of_node(const Json& node) {
     std::string carries;
-    for (const char* what : {"spheres", "boxes"}) {
+    for (const char* what : shape_names) {
         if (node.contains(what)) carries += fmt::format(", {} {}", node[what].get<std::size_t>(), what);
     }
     for (const char* what : {"camera", "light", "animated"}) {
@@ -140,9 +150,10 @@ std::string line_of_light(const Json& light) {
 }
 
 std::string line_of_material(const Json& material) {
-    return fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}", quoted(material["name"]),
+    return fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}{}", quoted(material["name"]),
                        components(material["ambient"]), components(material["diffuse"]),
-                       components(material["specular"]), material["shininess"].get<float>());
+                       components(material["specular"]), material["shininess"].get<float>(),
+                       material["double_sided"].get<bool>() ? ", double-sided" : "");
 }
 
 template <class LineOf>
@@ -165,19 +176,18 @@ Json describe(const std::string& specification, const Scene& scene, const Import
                          {"sentence", to_string(note)}});
     }
     const Environment& environment = scene.environment;
-    return {{"file", specification},
-            {"scene", scene.name},
-            {"primitives", describe_primitives(scene)},
-            {"nodes", describe_nodes(scene)},
-            {"cameras", describe_cameras(scene)},
-            {"lights", describe_lights(scene)},
-            {"materials", describe_materials(scene)},
-            {"environment",
-             {{"bottom", colour(environment.bottom)},
-              {"top", colour(environment.top)},
-              {"ambient", colour(environment.ambient)}}},
-            {"animation", describe_animation(scene)},
-            {"report", notes}};
+    Json description = {{"file", specification}, {"scene", scene.name}};
+    describe_primitives(scene, description);
+    description["nodes"] = describe_nodes(scene);
+    description["cameras"] = describe_cameras(scene);
+    description["lights"] = describe_lights(scene);
+    description["materials"] = describe_materials(scene);
+    description["environment"] = {{"bottom", colour(environment.bottom)},
+                                  {"top", colour(environment.top)},
+                                  {"ambient", colour(environment.ambient)}};
+    description["animation"] = describe_animation(scene);
+    description["report"] = std::move(notes);
+    return description;
 }
 
 std::string to_text(const Json& description) {
@@ -193,6 +203,9 @@ std::string to_text(const Json& description) {
             kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count.get<std::size_t>(), kind);
         }
         text += fmt::format("primitives: {} ({})\n", total, kinds);
+        if (const auto dropped = description["dropped_primitives"].get<std::size_t>(); dropped > 0) {
+            text += fmt::format("dropped: {} faces without area\n", dropped);
+        }
     }
     add_list(text, "nodes", description["nodes"], most_lines, line_of_node);
     add_list(text, "cameras", description["cameras"], most_lines, line_of_camera);

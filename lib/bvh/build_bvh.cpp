@@ -18,6 +18,30 @@ constexpr int sah_depth = max_bvh_depth - 30;
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
+/// The sphere around `middle` that reaches all of the points.
+template <class... Points>
+Sphere sphere_to(const Vec3f& middle, const Points&... points) {
+    double radius2 = 0;
+    const auto reach_for = [&](const Vec3f& point) {
+        const Vec3d offset = widen(point) - widen(middle);
+        radius2 = std::max(radius2, dot(offset, offset));
+    };
+    (reach_for(points), ...);
+    return {middle, round_up(square_root(radius2) * (1 + 1e-15))};
+}
+
+Sphere sphere_around(const Sphere& sphere) { return sphere; }
+Sphere sphere_around(const Placement& body) { return body.bounding_sphere; }
+Sphere sphere_around(const Box& box) {
+    const Vec3f middle = (box.lower + box.upper) * 0.5F;
+    const Vec3d lower = widen(middle) - widen(box.lower);
+    const Vec3d upper = widen(box.upper) - widen(middle);
+    const Vec3d far = {std::max(lower.x, upper.x), std::max(lower.y, upper.y), std::max(lower.z, upper.z)};
+    return {middle, round_up(square_root(dot(far, far)) * (1 + 1e-15))};
+}
+Sphere sphere_around(const Triangle& t) { return sphere_to(centre(bounds(t)), t.v0, t.v1, t.v2); }
+Sphere sphere_around(const Quad& q) { return sphere_to(centre(bounds(q)), q.v0, q.v1, q.v2, q.v3); }
+
 struct Bin {
     Aabb box;
     std::uint32_t count = 0;
@@ -163,17 +187,7 @@ class Builder {
 
     Sphere bounding_sphere(std::uint32_t id) const {
         Sphere sphere{};
-        const auto around_placement = [&](const Placement& p) { sphere = p.bounding_sphere; };
-        visit_primitive(
-            scene_, id, [&](const Sphere& s) { sphere = s; },
-            [&](const Box& box) {
-                const Vec3f middle = (box.lower + box.upper) * 0.5F;
-                const Vec3d lower = widen(middle) - widen(box.lower);
-                const Vec3d upper = widen(box.upper) - widen(middle);
-                const Vec3d far = {std::max(lower.x, upper.x), std::max(lower.y, upper.y), std::max(lower.z, upper.z)};
-                sphere = {middle, round_up(square_root(dot(far, far)) * (1 + 1e-15))};
-            },
-            around_placement, around_placement);
+        visit_primitive(scene_, id, [&](const auto& primitive) { sphere = sphere_around(primitive); });
         return sphere;
     }
 

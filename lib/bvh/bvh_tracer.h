@@ -20,19 +20,19 @@ struct BvhView {
 
 namespace bvh_detail {
 
-struct alignas(16) Quad {
+struct alignas(16) Float4 {
     float a, b, c, d;
 };
 
 /// 16 bytes at once; on the GPU through the read-only cache.
-TANDEM_HD Quad load_quad(const void* address) {
+TANDEM_HD Float4 load_float4(const void* address) {
 #if TANDEM_ON_DEVICE
     const float4 v = __ldg(static_cast<const float4*>(address));
     return {v.x, v.y, v.z, v.w};
 #else
-    Quad quad;
-    std::memcpy(&quad, address, sizeof(quad));
-    return quad;
+    Float4 v;
+    std::memcpy(&v, address, sizeof(v));
+    return v;
 #endif
 }
 
@@ -47,7 +47,11 @@ TANDEM_HD void count(unsigned long long* counter) {
 
 }  // namespace bvh_detail
 
-struct BvhTracer {
+/// `kind_set` as with LoopTracerFor.
+template <std::uint32_t kind_set>
+struct BvhTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
+
     SceneView scene;
     BvhView bvh;
 
@@ -87,10 +91,10 @@ struct BvhTracer {
         while (true) {
             if (at >= 0) {
                 const BvhNode& node = bvh.nodes[at];
-                const bvh_detail::Quad xy0 = bvh_detail::load_quad(node.xy[0]);
-                const bvh_detail::Quad xy1 = bvh_detail::load_quad(node.xy[1]);
-                const bvh_detail::Quad z = bvh_detail::load_quad(node.z);
-                const bvh_detail::Quad children = bvh_detail::load_quad(node.child);
+                const bvh_detail::Float4 xy0 = bvh_detail::load_float4(node.xy[0]);
+                const bvh_detail::Float4 xy1 = bvh_detail::load_float4(node.xy[1]);
+                const bvh_detail::Float4 z = bvh_detail::load_float4(node.z);
+                const bvh_detail::Float4 children = bvh_detail::load_float4(node.child);
                 const float entry0 = slab_entry(slab, xy0.a, xy0.b, xy0.c, xy0.d, z.a, z.b, limit);
                 const float entry1 = slab_entry(slab, xy1.a, xy1.b, xy1.c, xy1.d, z.c, z.d, limit);
                 const bool enter0 = entry0 <= limit;
@@ -130,7 +134,7 @@ struct BvhTracer {
         const std::uint32_t first = leaf == leaf_of_all ? 0 : leaf_first(leaf);
         const std::uint32_t end = leaf == leaf_of_all ? primitive_count(scene) : first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
-            const bvh_detail::Quad q = bvh_detail::load_quad(&bvh.entry_spheres[i]);
+            const bvh_detail::Float4 q = bvh_detail::load_float4(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
             if constexpr (!is_fast<Real>) {  // there the test costs hardly more than its filter
                 if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
@@ -140,11 +144,12 @@ struct BvhTracer {
             if (id < scene.sphere_count) {
                 decide(around, id, filter.ray, source, true, best);
             } else {
-                intersect_primitive<Real>(scene, id, filter, source, true, best);
+                intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
             }
             if (best.t < t_before) limit = to_plain(proposal.limit(best.t));
         }
     }
 };
+using BvhTracer = BvhTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

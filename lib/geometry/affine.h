@@ -20,6 +20,10 @@ struct Placement {
 static_assert(sizeof(Placement) == 72 + 24 + 16 + 24 + 8,
               "no byte of a placement is undefined; scene_hash() reads all");
 
+/// The unit sphere, and the cube [-1, 1]^3, somewhere.
+struct Ellipsoid : Placement {};
+struct Parallelepiped : Placement {};
+
 TANDEM_HD Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
 
 /// A ray in the space of a body, double, not normalised.
@@ -43,14 +47,6 @@ TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ra
     return sphere_roots<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0));
 }
 
-/// A placement seen as the unit sphere, or as the cube [-1, 1]^3.
-struct Ellipsoid {
-    const Placement& placement;
-};
-struct Parallelepiped {
-    const Placement& placement;
-};
-
 template <class Real>
 TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
     return to_crossing(ellipsoid_roots(placement, ray));
@@ -66,11 +62,11 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
 /// The nearest point of the body in front of the origin.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front(ellipsoid_roots(body.placement, ray), t);
+    return first_in_front(ellipsoid_roots(body, ray), t);
 }
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front<Real>(cross_parallelepiped(to_object(body.placement, ray)), t);
+    return first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.

@@ -8,6 +8,7 @@ namespace tandem {
 
 /// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
 struct FewTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
     static constexpr std::uint32_t max_spheres = 8;
     static constexpr std::uint32_t max_boxes = 4;
 
@@ -74,7 +75,7 @@ struct FewTracer {
 /// Has the scene so few primitives, and of such kinds?
 TANDEM_HD bool fits_few_tracer(const SceneView& scene) {
     return scene.sphere_count <= FewTracer::max_spheres && scene.box_count <= FewTracer::max_boxes &&
-           scene.ellipsoid_count == 0 && scene.parallelepiped_count == 0;
+           primitive_count(scene) == scene.sphere_count + scene.box_count;
 }
 
 /// `on_host`: the scene in host memory, to copy from; `scene`: where the tracer will read it.

@@ -1,6 +1,6 @@
 /// Conservative rejection in float: cheap tests that may only say "certainly a miss".
 ///
-/// Both tests look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
+/// All tests look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
 /// centre of the primitive. Its length over |direction| is the distance of the line from the centre, so that no
 /// division and no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since
 /// only true misses are dropped, it could differ and the picture would not.
@@ -95,6 +95,34 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& bo
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
     return may_touch_box(f, make_box_filter(lower, upper));
+}
+
+/// May the line of the ray touch the triangle? False only if it passes one edge certainly on one side and another
+/// certainly on the other. With a = v0 - origin and the edges e1 = v1 - v0, e2 = v2 - v0, the volumes that say so are
+/// (d x a) . e1, -(d x a) . e2 and, as their sum with the one that is left, d . (e1 x e2).
+///
+/// Bound: all differences are rounded once, so no volume errs by more than 9 u |d| (|a| + |e|) |e|, |e| = |e1| + |e2|,
+/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. The terms with 1e-30
+/// keep the limit above what underflow takes from products; where a volume overflows, the limit does too.
+template <class Real>
+TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+    using F = Float<Real>;
+    const Vec3f e1 = v1 - v0;
+    const Vec3f e2 = v2 - v0;
+    const F size(norm1(e1) + norm1(e2));
+    const Vec3<F> d = narrow(f.ray.direction);
+    const Vec3<F> a = broadcast<F>(v0) - narrow(f.ray.origin);
+    const Vec3<F> moment = loose_cross(d, a);
+    const F w2 = loose_dot(moment, broadcast<F>(e1));
+    const F w1 = -loose_dot(moment, broadcast<F>(e2));
+    const F w0 = (loose_dot(d, broadcast<F>(loose_cross(e1, e2))) - w1) - w2;
+    const F length = norm1(d);
+    const F reach = loose_multiply_add(length, (norm1(a) + f.origin_norm1) + size, F(1e-30F));
+    const F floor = loose_multiply_add(length, F(1e-30F), F(1e-30F));
+    const F limit = F(filter_margin) * loose_multiply_add(reach, size, floor);
+    const F least = lesser(lesser(w0, w1), w2);
+    const F most = greater(greater(w0, w1), w2);
+    return !(least < -limit && most > limit);
 }
 
 }  // namespace tandem

@@ -27,47 +27,49 @@ TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Re
     offer<Real>(hit && candidate, t, id, best);
 }
 
-// The filter of each kind. In the tier fast, a sphere and a box are hardly more work than their filters. A ray that leaves
-// a surface passes that of its own primitive: its origin is off by less than the filter allows.
+// The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than
+// the filter allows.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
-    if constexpr (is_fast<Real>) return Mask<Real>(true);
     return may_touch_sphere(f, sphere.centre, sphere.radius);
 }
 template <class Real>
 TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
-    if constexpr (is_fast<Real>) return Mask<Real>(true);
     return may_touch_box(f, box.lower, box.upper);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Ellipsoid& body) {
-    const Sphere& around = body.placement.bounding_sphere;
-    return may_touch_sphere(f, around.centre, around.radius);
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Placement& body) {
+    return may_touch(f, body.bounding_sphere);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Parallelepiped& body) {
-    const Sphere& around = body.placement.bounding_sphere;
-    return may_touch_sphere(f, around.centre, around.radius);
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Triangle& triangle) {
+    return may_touch_triangle(f, triangle.v0, triangle.v1, triangle.v2);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
+    return may_touch_quad(f, quad);
 }
 
-/// One primitive: the float filter first, then the decision in double.
+/// One primitive: the float filter first, then the decision. In the tier fast the decision costs hardly more than the
+/// filter, but for bodies with a transform.
 template <class Real, class From, class Primitive>
 TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
                          const Mask<Real>& active, Closest<Real>& best) {
-    const Mask<Real> candidate = active && may_touch(f, primitive);
-    if (any(candidate)) decide(primitive, id, f.ray, source, candidate, best);
+    if constexpr (is_fast<Real> && !std::is_base_of_v<Placement, Primitive>) {
+        decide(primitive, id, f.ray, source, active, best);
+    } else {
+        const Mask<Real> candidate = active && may_touch(f, primitive);
+        if (any(candidate)) decide(primitive, id, f.ray, source, candidate, best);
+    }
 }
 
-/// Any primitive by its id.
-template <class Real, class From>
+/// Any primitive by its id; `kinds`: the ones that the scene may have.
+template <class Real, std::uint32_t kinds = PrimitiveKinds::all, class From>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const From& source, const Mask<Real>& active, Closest<Real>& best) {
     const auto as_itself = [&](const auto& primitive)
                                TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, source, active, best); };
-    visit_primitive(
-        scene, id, as_itself, as_itself,
-        [&](const Placement& placement) TANDEM_INLINE_LAMBDA { as_itself(Ellipsoid{placement}); },
-        [&](const Placement& placement) TANDEM_INLINE_LAMBDA { as_itself(Parallelepiped{placement}); });
+    visit_primitive<kinds>(scene, id, as_itself);
 }
 
 /// What a tracer looks for: the nearest hit, or any one nearer than where the search starts.
@@ -80,8 +82,12 @@ TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
 }
 
 /// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
-/// `active`, here and with the other tracers.
-struct LoopTracer {
+/// `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a kernel for few
+/// of them needs fewer registers.
+template <std::uint32_t kind_set>
+struct LoopTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
+
     SceneView scene;
 
     /// The nearest hit of a ray that comes from `source` (NoSource or Source<Real>).
@@ -92,7 +98,7 @@ struct LoopTracer {
         return best;
     }
 
-    /// Is anything hit at some t < t_max? The comparison is exact, in double.
+    /// Is anything hit at some t < t_max? The comparison is exact, in the type of decisions.
     template <class Real>
     TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
                                   const Mask<Real>& active) const {
@@ -107,23 +113,21 @@ struct LoopTracer {
         const FilterRay<Real> f = make_filter_ray(ray);
         const Double<Real> t_max = best.t;
         std::uint32_t id = 0;
-        const auto try_all = [&](const auto* primitives, std::uint32_t count, auto as_kind) TANDEM_INLINE_LAMBDA {
+        const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
             for (std::uint32_t i = 0; i < count; ++i, ++id) {
                 if constexpr (search == Search::any) {
                     active = active && !(best.t < t_max);
                     if (!any(active)) return;
                 }
-                intersect(as_kind(primitives[i]), id, f, source, active, best);
+                intersect(primitives[i], id, f, source, active, best);
             }
         };
-        const auto itself = [](const auto& primitive) TANDEM_INLINE_LAMBDA -> const auto& { return primitive; };
-        try_all(scene.spheres, scene.sphere_count, itself);
-        try_all(scene.boxes, scene.box_count, itself);
-        try_all(scene.ellipsoids, scene.ellipsoid_count,
-                [](const Placement& p) TANDEM_INLINE_LAMBDA { return Ellipsoid{p}; });
-        try_all(scene.parallelepipeds, scene.parallelepiped_count,
-                [](const Placement& p) TANDEM_INLINE_LAMBDA { return Parallelepiped{p}; });
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) try_all(scene.names, scene.name##_count);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     }
 };
+using LoopTracer = LoopTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

@@ -3,12 +3,13 @@
 /// however near the next surface is (docs/numerics.md).
 ///
 /// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
-/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. A new kind adds one
-/// overload of first_or_far(); for flat ones, which cannot be met again either way, that is first_in_front() && !own.
+/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met again
+/// by a ray that leaves them. A new kind adds one overload of first_or_far().
 #pragma once
 
 #include "tandem/geometry/affine.h"
 #include "tandem/geometry/hit.h"
+#include "tandem/geometry/quad.h"
 
 namespace tandem {
 
@@ -84,12 +85,23 @@ TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Ma
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
                                   Double<Real>& t) {
-    return first_or_far(ellipsoid_roots(body.placement, ray), own, t);
+    return first_or_far(ellipsoid_roots(body, ray), own, t);
 }
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
                                   Double<Real>& t) {
-    return first_or_far(cross_parallelepiped(to_object(body.placement, ray)), own, t);
+    return first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
+}
+
+// Flat ones are not met again by a ray that leaves them, to either side; nor is a quad, even if it is folded.
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Triangle& triangle, const Ray<Real>& ray, const Mask<Real>& own,
+                                  Double<Real>& t) {
+    return first_in_front(triangle, ray, t) && !own;
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Quad& quad, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
+    return first_in_front(quad, ray, t) && !own;
 }
 
 /// Where is a hit on primitive `id` the far side of what the ray left inward?

@@ -1,9 +1,14 @@
 /// Points of surfaces, and the rays that leave from them.
 ///
 /// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's along
-/// the line from the centre, a face of a box by copying its coordinate. Rounding still leaves it beside the surface, by up
-/// to half the distance of numbers there; that is harmless, because the ray carries what it leaves (ray_source.h).
+/// the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding still leaves
+/// it beside the surface, by up to half the distance of numbers there; that is harmless, because the ray carries what it
+/// leaves (ray_source.h). Only the neighbours of a face in a mesh are primitives of their own: a ray that leaves a face
+/// starts so far from its plane, on the ray's side, that rounding cannot put it behind. All that lies behind the plane,
+/// and so the rest of a flat or convex mesh, is then out of its way.
 #pragma once
+
+#include <type_traits>
 
 #include "tandem/geometry/ray_source.h"
 #include "tandem/scene/scene_view.h"
@@ -14,8 +19,9 @@ namespace tandem {
 template <class Real>
 struct SurfacePoint {
     Vec3<Real> position;
-    Vec3<Double<Real>> normal;  ///< unit, outward, of the point before rounding
+    Vec3<Double<Real>> normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
     UInt<Real> primitive = UInt<Real>(no_primitive);
+    Double<Real> clearance = Double<Real>(0.0);  ///< for a face: from its plane to where rays leave
 };
 
 namespace spawn_detail {
@@ -79,11 +85,11 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real
                                            const Mask<Real>&) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
-    point.normal = ellipsoid_normal(body.placement, ray, t);
-    const ObjectRay<Real> local = to_object(body.placement, ray);
+    point.normal = ellipsoid_normal(body, ray, t);
+    const ObjectRay<Real> local = to_object(body, ray);
     const Vec3<D> unit_point = spawn_detail::along<Real>(local.origin, local.direction, t);
     // scaling the offset from the centre scales its image in object space alike
-    point.position = spawn_detail::at_offset(body.placement, ray, t, inverse_square_root(dot(unit_point, unit_point)));
+    point.position = spawn_detail::at_offset(body, ray, t, inverse_square_root(dot(unit_point, unit_point)));
     return point;
 }
 
@@ -92,12 +98,55 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Ray
                                            const Mask<Real>& exits) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
-    point.normal = parallelepiped_normal(body.placement, ray, exits);
-    const ObjectRay<Real> local = to_object(body.placement, ray);
+    point.normal = parallelepiped_normal(body, ray, exits);
+    const ObjectRay<Real> local = to_object(body, ray);
     const Vec3<D> face = face_normal<Real>(cross_parallelepiped(local), local.direction, exits);
     const Vec3<D> cube_point = spawn_detail::along<Real>(local.origin, local.direction, t);
-    point.position = spawn_detail::at_offset(body.placement, ray, t, D(1.0) / absolute(dot(cube_point, face)));
+    point.position = spawn_detail::at_offset(body, ray, t, D(1.0) / absolute(dot(cube_point, face)));
     return point;
+}
+
+namespace spawn_detail {
+
+/// A point of the plane through v0 with the given normal, and how far rounding may put it off that plane.
+template <class Real>
+TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real>>& normal, const Ray<Real>& ray,
+                                         const Double<Real>& t) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    point.normal = normal;
+    const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
+    const D above = dot(hit - broadcast<D>(v0), normal);
+    point.position = to_real<Real>(along<Real>(hit, normal, -above));
+    // Two roundings to Real, that of the point and that of the point off the plane, at most half a unit of each
+    // coordinate; and in the tiers whose decisions are no finer than Real, the errors of the lines above.
+    using Scalar = typename RealTraits<Real>::Scalar;
+    const double unit = sizeof(Scalar) == sizeof(float) ? 0x1p-24 : 0x1p-53;
+    const double units = std::is_same_v<Real, D> ? 16 : 3;
+    const Vec3<D> reach = {absolute(hit.x) + absolute(D(v0.x)), absolute(hit.y) + absolute(D(v0.y)),
+                           absolute(hit.z) + absolute(D(v0.z))};
+    const Vec3<D> weight = {absolute(normal.x), absolute(normal.y), absolute(normal.z)};
+    point.clearance = constant<D>(units * unit) * dot(reach, weight);
+    return point;
+}
+
+}  // namespace spawn_detail
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Triangle& triangle, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>&) {
+    const auto normal = geometric_normal<Real>(triangle.v0, triangle.v1, triangle.v2);
+    return spawn_detail::plane_point(triangle.v0, normal, ray, t);
+}
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>&) {
+    const Mask<Real> first = is_in_first_half(quad, ray, t);
+    const auto a = geometric_normal<Real>(quad.v0, quad.v1, quad.v2);
+    const auto b = geometric_normal<Real>(quad.v0, quad.v2, quad.v3);
+    // both halves have the corner v0
+    return spawn_detail::plane_point(quad.v0, select(first, a, b), ray, t);
 }
 
 /// The point of primitive `id` at t of a ray that comes from `source` (NoSource or Source<Real>).
@@ -106,11 +155,8 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
                                               const From& source, const Double<Real>& t) {
     const Mask<Real> exits = leaves_inward<Real>(source, id);
     SurfacePoint<Real> point;
-    const auto take = [&](const auto& primitive)
-                          TANDEM_INLINE_LAMBDA { point = surface_point(primitive, ray, t, exits); };
-    visit_primitive(
-        scene, id, take, take, [&](const Placement& p) TANDEM_INLINE_LAMBDA { take(Ellipsoid{p}); },
-        [&](const Placement& p) TANDEM_INLINE_LAMBDA { take(Parallelepiped{p}); });
+    visit_primitive(scene, id, [&](const auto& primitive)
+                                   TANDEM_INLINE_LAMBDA { point = surface_point(primitive, ray, t, exits); });
     point.primitive = UInt<Real>(id);
     return point;
 }
@@ -124,6 +170,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Rea
         const SurfacePoint<Real> point = surface_point_of(scene, id, ray, source, hit.t);
         result.position = select(here, point.position, result.position);
         result.normal = select(here, point.normal, result.normal);
+        result.clearance = select(here, point.clearance, result.clearance);
         result.primitive = select(here, UInt<Real>(id), result.primitive);
     });
     return result;
@@ -136,12 +183,21 @@ struct SpawnedRay {
     Source<Real> source;
 };
 
+/// Where rays leave a point, to the side of `inside`.
+template <class Real>
+TANDEM_HD Vec3<Real> departure(const SurfacePoint<Real>& from, const Mask<Real>& inside) {
+    using D = Double<Real>;
+    if (!any(from.clearance > D(0.0))) return from.position;
+    const D height = select(inside, -from.clearance, from.clearance);
+    return to_real<Real>(spawn_detail::along<Real>(widen(from.position), from.normal, height));
+}
+
 /// A ray from a point of a surface. The side follows from the sign of direction . normal, in double; a direction in the
 /// tangent plane leaves outward.
 template <class Real>
 TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<Real>& direction) {
-    const Double<Real> outward = dot(widen(direction), from.normal);
-    return {{from.position, direction}, {from.primitive, outward < Double<Real>(0.0)}};
+    const Mask<Real> inside = dot(widen(direction), from.normal) < Double<Real>(0.0);
+    return {{departure(from, inside), direction}, {from.primitive, inside}};
 }
 
 /// A shadow ray, for Tracer::occluded(). Its light is at t = 1.
@@ -157,12 +213,14 @@ struct ShadowRay {
 template <class Real>
 TANDEM_HD ShadowRay<Real> spawn_shadow_ray(const SurfacePoint<Real>& from, const Vec3<Real>& to,
                                            const UInt<Real>& light) {
-    const SpawnedRay<Real> spawned = spawn_ray(from, to_real<Real>(widen(to) - widen(from.position)));
     ShadowRay<Real> shadow;
-    shadow.ray = spawned.ray;
-    static_cast<Source<Real>&>(shadow.source) = spawned.source;
+    shadow.source.primitive = from.primitive;
+    const Vec3<Double<Real>> to_light = widen(to) - widen(from.position);
+    shadow.source.inside = dot(to_light, from.normal) < Double<Real>(0.0);
     shadow.source.light = light;
-    shadow.active = is_traceable(spawned.ray);
+    shadow.ray.origin = departure(from, shadow.source.inside);
+    shadow.ray.direction = to_real<Real>(widen(to) - widen(shadow.ray.origin));
+    shadow.active = is_traceable(shadow.ray) && norm1(to_light) > Double<Real>(0.0);
     return shadow;
 }
 

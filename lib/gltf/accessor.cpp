@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "tandem/gltf/structure.h"
 
@@ -16,32 +18,68 @@ namespace {
 /// Elements that an accessor without a buffer view may have: they cost the file nothing, but memory here.
 constexpr std::size_t most_zeros = std::size_t{1} << 24;
 
-template <class Integer>
-float normalised(const unsigned char* bytes) {
-    Integer value;
+template <class Number>
+Number number_at(const unsigned char* bytes) {
+    Number value;
     std::memcpy(&value, bytes, sizeof(value));
-    const float largest = std::numeric_limits<Integer>::max();
-    return std::max(static_cast<float>(value) / largest, -1.0F);
+    return value;
 }
 
-float component_at(const unsigned char* bytes, int component_type) {
+template <class Integer>
+float float_at(const unsigned char* bytes, bool normalised) {
+    const auto value = static_cast<float>(number_at<Integer>(bytes));
+    const float largest = std::numeric_limits<Integer>::max();
+    return normalised ? std::max(value / largest, -1.0F) : value;
+}
+
+void decode(const unsigned char* bytes, int component_type, bool normalised, float& value) {
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return normalised<std::int8_t>(bytes);
+            value = float_at<std::int8_t>(bytes, normalised);
+            return;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return normalised<std::uint8_t>(bytes);
+            value = float_at<std::uint8_t>(bytes, normalised);
+            return;
         case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return normalised<std::int16_t>(bytes);
+            value = float_at<std::int16_t>(bytes, normalised);
+            return;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return normalised<std::uint16_t>(bytes);
-        default: {
-            float value = 0;
-            std::memcpy(&value, bytes, sizeof(value));
-            return value;
-        }
+            value = float_at<std::uint16_t>(bytes, normalised);
+            return;
+        default:
+            value = number_at<float>(bytes);
     }
 }
 
+void decode(const unsigned char* bytes, int component_type, bool, std::uint32_t& value) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            value = number_at<std::uint8_t>(bytes);
+            return;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            value = number_at<std::uint16_t>(bytes);
+            return;
+        default:
+            value = number_at<std::uint32_t>(bytes);
+    }
+}
+
+const char* words(Components components) {
+    switch (components) {
+        case Components::floats:
+            return "floats (5126)";
+        case Components::normalised:
+            return "floats (5126) or normalised bytes or shorts";
+        case Components::quantised:
+            return "floats (5126), bytes or shorts";
+        case Components::indices:
+            return "unsigned integers (5121, 5123 or 5125), not normalised";
+    }
+    return "others";
+}
+
+/// Reads elements as floats or as indices.
+template <class Value>
 class Reader {
   public:
     Reader(const Source& source, std::size_t index, const AccessorNeed& need)
@@ -53,7 +91,7 @@ class Reader {
           width_(component_count(need.type)),
           component_(component_bytes(static_cast<std::uint64_t>(accessor_.componentType))) {}
 
-    std::vector<float> run() {
+    std::vector<Value> run() {
         check_type();
         const bool zeros = accessor_.bufferView < 0;
         if (zeros && accessor_.count > most_zeros) {
@@ -65,7 +103,7 @@ class Reader {
             for (std::size_t i = 0; i < accessor_.count; ++i) read_element(from.bytes + i * from.stride, i);
         }
         if (const Json* sparse = find(json_, "sparse")) replace(*sparse);
-        check_finite();
+        if constexpr (std::is_floating_point_v<Value>) check_finite();
         return std::move(values_);
     }
 
@@ -82,11 +120,28 @@ class Reader {
         if (type != need_.type) {
             fail(fmt::format("is of type {}, but {} ({}) needs {}", type, need_.for_what, need_.used_at, need_.type));
         }
-        if (accessor_.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return;
-        if (need_.normalised && accessor_.normalized && component_ < 4) return;
-        fail(fmt::format("has components of type {}{}, but {} ({}) needs floats (5126){}", accessor_.componentType,
+        if (accepts_component()) return;
+        fail(fmt::format("has components of type {}{}, but {} ({}) needs {}", accessor_.componentType,
                          accessor_.normalized ? ", normalised" : "", need_.for_what, need_.used_at,
-                         need_.normalised ? " or normalised bytes or shorts" : ""));
+                         words(need_.components)));
+    }
+
+    bool accepts_component() const {
+        const bool is_float = accessor_.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool is_small = component_ < 4;
+        switch (need_.components) {
+            case Components::floats:
+                return is_float;
+            case Components::normalised:
+                return is_float || (is_small && accessor_.normalized);
+            case Components::quantised:
+                return is_float || is_small;
+            case Components::indices:
+                break;
+        }
+        return !accessor_.normalized && (accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                         accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                                         accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
     }
 
     /// check_structure() has made sure that all of it lies in the buffer.
@@ -98,7 +153,8 @@ class Reader {
 
     void read_element(const unsigned char* bytes, std::size_t element) {
         for (std::size_t c = 0; c < width_; ++c) {
-            values_[element * width_ + c] = component_at(bytes + c * component_, accessor_.componentType);
+            decode(bytes + c * component_, accessor_.componentType, accessor_.normalized,
+                   values_[element * width_ + c]);
         }
     }
 
@@ -131,19 +187,24 @@ class Reader {
     }
 
     const Source& source_;
-    const AccessorNeed& need_;
+    const AccessorNeed need_;
     const tinygltf::Accessor& accessor_;
     const Json& json_;
     std::string path_;
     std::size_t width_;
     std::size_t component_;
-    std::vector<float> values_;
+    std::vector<Value> values_;
 };
 
 }  // namespace
 
 std::vector<float> read_accessor(const Source& source, std::size_t index, const AccessorNeed& need) {
-    return Reader(source, index, need).run();
+    return Reader<float>(source, index, need).run();
+}
+
+std::vector<std::uint32_t> read_indices(const Source& source, std::size_t index, const std::string& used_at) {
+    return Reader<std::uint32_t>(source, index, {"SCALAR", Components::indices, "the indices of a mesh", used_at})
+        .run();
 }
 
 }  // namespace tandem::gltf

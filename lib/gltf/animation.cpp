@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tandem/gltf/accessor.h"
-#include "tandem/gltf/geometry.h"
+#include "tandem/gltf/budget.h"
 
 namespace tandem::gltf {
 
@@ -88,10 +88,12 @@ class AnimationReader {
         const auto output = static_cast<std::size_t>(sampler.output);
         budget_.spend(source_.document, path,
                       source_.model.accessors[input].count + source_.model.accessors[output].count);
-        read.times = read_accessor(source_, input, {"SCALAR", false, "the times of animation keys", where + ".input"});
+        read.times = read_accessor(source_, input,
+                                   {"SCALAR", Components::floats, "the times of animation keys", where + ".input"});
         const bool is_rotation = animated == AnimatedPath::rotation;
         read.values = read_accessor(
-            source_, output, {is_rotation ? "VEC4" : "VEC3", true, "the values of animation keys", where + ".output"});
+            source_, output,
+            {is_rotation ? "VEC4" : "VEC3", Components::normalised, "the values of animation keys", where + ".output"});
         const std::size_t groups = read.interpolation == Interpolation::cubic ? 3 : 1;
         const std::size_t given = read.values.size() / (is_rotation ? 4 : 3);
         if (given != groups * read.times.size()) {

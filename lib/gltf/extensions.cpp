@@ -7,9 +7,9 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> rendered = {
-    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing", "KHR_implicit_shapes",
-    "KHR_lights_punctual",   "TANDEM_environment",      "TANDEM_materials_phong",
+constexpr std::array<std::string_view, 7> rendered = {
+    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing", "KHR_implicit_shapes",    "KHR_lights_punctual",
+    "KHR_mesh_quantization", "TANDEM_environment",      "TANDEM_materials_phong",
 };
 
 struct Reason {
@@ -17,7 +17,7 @@ struct Reason {
     std::string_view reason;
 };
 
-constexpr std::string_view for_triangles = "it serves triangle meshes, which Tandem does not render yet";
+constexpr std::string_view for_triangles = "it serves triangle meshes in a way that Tandem does not read";
 constexpr std::string_view for_textures = "it serves textures, which Tandem does not render yet";
 constexpr std::string_view for_animation = "Tandem animates translation, rotation and scale of nodes only";
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tandem/gltf/extensions.h"
+#include "tandem/gltf/triangles.h"
 
 namespace tandem::gltf {
 
@@ -53,7 +54,6 @@ const std::map<std::string, Feature>& ignored_features() {
         {"materials[].emissiveFactor", {"emission", "Tandem does not render emission yet"}},
         {"materials[].alphaMode", {"alphaMode", no_alpha}},
         {"materials[].alphaCutoff", {"alphaCutoff", no_alpha}},
-        {"materials[].doubleSided", {"doubleSided", "Tandem shades both sides of every surface alike"}},
         {"extensions.KHR_lights_punctual.lights[].range", {"light range", "Phong's model has no fall-off"}},
         {"meshes[].primitives[].extensions.EXT_implicit_geometry.sphere.slice",
          {"implicit geometry slice", "Tandem renders whole spheres"}},
@@ -73,6 +73,11 @@ class Walker {
         for (std::size_t i = 0; used != nullptr && i < used->size(); ++i) {
             const auto name = (*used)[i].get<std::string>();
             if (met_.contains(name)) continue;
+            if (name == mesh_quantization) {
+                report_.add(Treatment::rendered, name, fmt::format("extensionsUsed[{}]", i),
+                            "integers stand for positions, normals and texture coordinates");
+                continue;
+            }
             report_.add(Treatment::ignored, name, fmt::format("extensionsUsed[{}]", i),
                         "the file lists it and uses it nowhere");
         }

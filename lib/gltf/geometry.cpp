@@ -7,6 +7,7 @@
 
 #include "tandem/gltf/accessor.h"
 #include "tandem/gltf/materials.h"
+#include "tandem/gltf/triangles.h"
 
 namespace tandem::gltf {
 
@@ -24,12 +25,6 @@ BoxShape box_from(const Json& box) {
     return {{(*size)[0].get<double>(), (*size)[1].get<double>(), (*size)[2].get<double>()}};
 }
 
-const char* mode_name(std::uint64_t mode) {
-    static constexpr const char* names[] = {"points",        "lines",          "line loop",   "line strip",
-                                            "triangle mesh", "triangle strip", "triangle fan"};
-    return mode < std::size(names) ? names[mode] : "mesh of unknown mode";
-}
-
 /// The values of one attribute, or none if the file has none.
 struct Attribute {
     std::vector<float> values;
@@ -41,19 +36,6 @@ struct Attribute {
 };
 
 }  // namespace
-
-Budget::Budget(const Source& source) : left_(10'000'000) {
-    std::size_t bytes = 0;
-    for (const tinygltf::Buffer& buffer : source.model.buffers) bytes += buffer.data.size();
-    left_ = std::max(left_, bytes);
-}
-
-void Budget::spend(const Document& document, const std::string& json_path, std::size_t amount) {
-    if (amount > left_) {
-        document.fail(json_path, "repeats the data of the file more than ten million times over; split the file");
-    }
-    left_ -= amount;
-}
 
 std::vector<Geometry> GeometryReader::read(std::size_t index) {
     const Json& node = source_.document.json["nodes"][index];
@@ -75,15 +57,22 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
     const Json& primitives = source_.document.json["meshes"][mesh_index]["primitives"];
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh_index, i);
-        const auto shape = read_shape(primitives[i], path);
+        const auto shape = read_shape(mesh_index, i, path);
         if (!shape) continue;
-        budget_.spend(source_.document, node_path + ".mesh", std::max<std::size_t>(1, instances.size()));
+        budget_.spend(source_.document, node_path + ".mesh",
+                      primitives_in(*shape) * std::max<std::size_t>(1, instances.size()));
         result.push_back({*shape, material_of(primitives[i], path), instances});
     }
     return result;
 }
 
-std::optional<GeometryReader::Shape> GeometryReader::read_shape(const Json& primitive, const std::string& path) {
+std::size_t GeometryReader::primitives_in(const Shape& shape) const {
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    return mesh == nullptr ? 1 : scene_.meshes[mesh->mesh].triangles.size() / 3;
+}
+
+std::optional<Shape> GeometryReader::read_shape(std::size_t mesh, std::size_t index, const std::string& path) {
+    const Json& primitive = source_.document.json["meshes"][mesh]["primitives"][index];
     const Json* geometry = find_extension(primitive, implicit_geometry);
     const Json* reference = find_extension(primitive, implicit_shapes);
     if (geometry != nullptr && reference != nullptr) {
@@ -95,14 +84,24 @@ std::optional<GeometryReader::Shape> GeometryReader::read_shape(const Json& prim
     if (reference != nullptr) shape = read_implicit_shape(*reference, path);
     const bool has_vertices = find(primitive, "attributes") != nullptr && !primitive["attributes"].empty();
     if (!shape && (has_vertices || (geometry == nullptr && reference == nullptr))) {
-        report_.add(Treatment::ignored, mode_name(primitive.value("mode", std::uint64_t{4})), path,
-                    "Tandem renders spheres and boxes only, for now");
+        return read_mesh(mesh, index, path);
     }
     return shape;
 }
 
-std::optional<GeometryReader::Shape> GeometryReader::read_implicit_geometry(const Json& geometry,
-                                                                            const std::string& path) {
+std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t index, const std::string& path) {
+    const Json& described = source_.document.json["meshes"][mesh];
+    const Json& primitive = described["primitives"][index];
+    if (!has_triangles(primitive, path, report_)) return std::nullopt;
+    const auto [known, is_new] = mesh_of_.try_emplace({mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size()));
+    if (is_new) {
+        scene_.meshes.push_back(read_triangles(source_, primitive, path, budget_));
+        scene_.meshes.back().name = described.value("name", std::string());
+    }
+    return MeshShape{known->second};
+}
+
+std::optional<Shape> GeometryReader::read_implicit_geometry(const Json& geometry, const std::string& path) {
     const std::string where = fmt::format("{}.extensions.{}", path, implicit_geometry);
     std::vector<std::string> kinds;
     for (const auto& [name, value] : geometry.items()) {
@@ -122,8 +121,7 @@ std::optional<GeometryReader::Shape> GeometryReader::read_implicit_geometry(cons
     return std::nullopt;
 }
 
-std::optional<GeometryReader::Shape> GeometryReader::read_implicit_shape(const Json& reference,
-                                                                         const std::string& path) {
+std::optional<Shape> GeometryReader::read_implicit_shape(const Json& reference, const std::string& path) {
     const auto index = reference["shape"].get<std::size_t>();
     const std::string shape_path = fmt::format("extensions.{}.shapes[{}]", implicit_shapes, index);
     const Json& shape = source_.document.json["extensions"][implicit_shapes]["shapes"][index];
@@ -155,7 +153,8 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
         const std::string where = fmt::format("{}.attributes.{}", path, name);
         const auto accessor = index->get<std::size_t>();
         budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
-        attribute = {read_accessor(source_, accessor, {type, true, "an instance attribute", where}), width};
+        attribute = {read_accessor(source_, accessor, {type, Components::normalised, "an instance attribute", where}),
+                     width};
         if (!counted.empty() && attribute.count() != count) {
             source_.document.fail(where, fmt::format("has {} instances, but {} has {}; make them equal",
                                                      attribute.count(), counted, count));
@@ -175,7 +174,7 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
     if (counted.empty()) {
         source_.document.fail(path + ".attributes", "has neither TRANSLATION nor ROTATION nor SCALE; add one");
     }
-    report_.add(Treatment::rendered, instancing_name, path, "every instance of the spheres and boxes of the mesh");
+    report_.add(Treatment::rendered, instancing_name, path, "every instance of the mesh");
     std::vector<Trs> instances(count);
     for (std::size_t i = 0; i < count; ++i) {
         if (translation.width != 0) instances[i].translation = translation.vec3(i);

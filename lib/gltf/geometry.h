@@ -1,28 +1,18 @@
-/// Meshes: spheres and boxes from two extensions, and their instances.
+/// Meshes: triangles, spheres and boxes from two extensions, and their instances.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "tandem/gltf/budget.h"
 #include "tandem/gltf/model.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem::gltf {
-
-/// Counts what a few words of JSON can multiply (one mesh at many nodes, one accessor in many channels), so that a
-/// small file cannot fill the memory.
-class Budget {
-  public:
-    /// Ten million, or as many as the file has bytes of data.
-    explicit Budget(const Source& source);
-
-    /// Throws InputError once more than the budget has been spent.
-    void spend(const Document& document, const std::string& json_path, std::size_t amount);
-
-  private:
-    std::size_t left_;
-};
 
 /// Reads the geometry of nodes. Materials that primitives do not name become one default material at the end.
 class GeometryReader {
@@ -37,9 +27,10 @@ class GeometryReader {
     void note_unused_shapes();
 
   private:
-    using Shape = std::variant<SphereShape, BoxShape>;
-
-    std::optional<Shape> read_shape(const Json& primitive, const std::string& path);
+    /// Of primitive `index` of a mesh of the file.
+    std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
+    std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
+    [[nodiscard]] std::size_t primitives_in(const Shape& shape) const;
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);
     std::vector<Trs> read_instances(const Json& instancing, const std::string& path);
@@ -50,6 +41,7 @@ class GeometryReader {
     ImportReport& report_;
     Budget budget_;
     std::optional<std::uint32_t> default_material_;
+    std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> mesh_of_;  ///< by mesh and primitive of the file
 };
 
 }  // namespace tandem::gltf

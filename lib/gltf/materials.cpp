@@ -40,6 +40,11 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
                        "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
                        "shininess 32");
         }
+        if (read.doubleSided) {
+            material.double_sided = true;
+            report.add(Treatment::rendered, "doubleSided", path + ".doubleSided",
+                       "faces of meshes turn to the side that a ray comes from; closed shapes have one side");
+        }
         materials.push_back(std::move(material));
     }
     return materials;

@@ -8,7 +8,8 @@
 
 namespace tandem {
 
-/// Radiance along `ray`, RGB, linear. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions.
+/// Radiance along `ray`, RGB, linear. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions, and `kinds`,
+/// the PrimitiveKinds that it finds.
 /// Lanes outside `active` return anything.
 template <class Real, class Tracer>
 TANDEM_HD Vec3<Real> radiance(const Tracer& tracer, const SceneView& scene, const Ray<Real>& ray,
@@ -20,7 +21,7 @@ TANDEM_HD Vec3<Real> radiance(const Tracer& tracer, const SceneView& scene, cons
     if (!all(found)) result = background(scene.environment, ray.direction);
     if (!any(found)) return result;
 
-    const Surface<Real> surface = surface_at(scene, ray, hit, found);
+    const Surface<Real> surface = surface_at<Tracer::kinds>(scene, ray, hit, found);
     const Vec3<D> direction = widen(ray.direction);
     const Vec3<D> origin = widen(ray.origin);
     const Vec3<D> position = {origin.x + hit.t * direction.x, origin.y + hit.t * direction.y,

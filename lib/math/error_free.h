@@ -78,6 +78,16 @@ TANDEM_HD Pair<D> divide(const Pair<D>& a, double n) {
     return fast_two_sum(high, (multiply_add(-high, D(n), a.high) + a.low) / D(n));
 }
 
+/// a / b, rounded to the nearest double but for quotients within 2^-48 of its last place of the middle between two; b
+/// is not 0.
+template <class D>
+TANDEM_HD D quotient(const Pair<D>& a, const Pair<D>& b) {
+    const D inverse = D(1.0) / b.high;
+    const D first = a.high * inverse;
+    const D rest = multiply_add(-first, b.high, a.high) + multiply_add(-first, b.low, a.low);
+    return multiply_add(rest, inverse, first);
+}
+
 /// The float nearest to high + low, |high| >= |low| or high = 0, low of any size below that; the sum need not be a
 /// pair in the strict sense.
 ///

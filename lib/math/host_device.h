@@ -7,6 +7,9 @@
 ///                         be the one that the linker keeps for a machine without it.
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
+/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it gets
+/// a
+///                         copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
 /// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles to float
 ///                         and back, also where it made the vector itself out of scalars, and with them the rounding.
@@ -33,9 +36,11 @@
 #if TANDEM_COMPILING_CUDA
 #define TANDEM_HD __host__ __device__ __forceinline__
 #define TANDEM_HD_RARE __host__ __device__ __noinline__
+#define TANDEM_HD_CALL static __host__ __device__ __noinline__
 #define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline
 #define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_CALL [[gnu::noinline]] static
 #define TANDEM_INLINE_LAMBDA __attribute__((always_inline))
 #endif

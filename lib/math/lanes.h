@@ -542,6 +542,19 @@ TANDEM_HD void multiply_wide(const Lanes<std::uint32_t, I>& a, const Lanes<std::
     low.part[0] = reinterpret_cast<Narrow>((even_product & low_word) | (odd_product << 32));
 }
 
+template <class T, class I>
+TANDEM_HD T lane(const Lanes<T, I>& value, int i) {
+    return value[i];
+}
+template <class I>
+TANDEM_HD bool lane(const LaneMask<I>& mask, int i) {
+    return mask[i];
+}
+template <class T, class I>
+TANDEM_HD void set_lane(Lanes<T, I>& value, int i, T lane_value) {
+    value.set(i, lane_value);
+}
+
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class I, class F>
 TANDEM_HD void for_each_value(const Lanes<std::uint32_t, I>& values, LaneMask<I> active, F f) {

@@ -43,6 +43,8 @@ struct RealTraits<double> : RealTraits<float> {
 };
 
 template <class Real>
+using Scalar = typename RealTraits<Real>::Scalar;
+template <class Real>
 using Mask = typename RealTraits<Real>::Mask;
 template <class Real>
 using Double = typename RealTraits<Real>::Double;
@@ -162,6 +164,16 @@ TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
     const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
     high = static_cast<std::uint32_t>(product >> 32);
     low = static_cast<std::uint32_t>(product);
+}
+
+/// The value of one lane, and another in its place. A number that is no packet has one lane.
+template <class T>
+TANDEM_HD T lane(const T& value, int) {
+    return value;
+}
+template <class T>
+TANDEM_HD void set_lane(T& value, int, const T& lane_value) {
+    value = lane_value;
 }
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.

@@ -14,6 +14,7 @@
 #else
 #define GLM_FORCE_INLINE
 #endif
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #if TANDEM_COMPILING_CUDA
 #pragma nv_diagnostic pop
@@ -25,7 +26,9 @@ template <class Real>
 using Vec3 = glm::vec<3, Real, glm::defaultp>;
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
-static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24, "vectors are packed; device buffers rely on it");
+using Vec2f = glm::vec<2, float, glm::defaultp>;
+static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24 && sizeof(Vec2f) == 8,
+              "vectors are packed; device buffers rely on it");
 
 /// Sum in the order ((x + y) + z).
 template <class Real>

@@ -6,14 +6,38 @@
 
 namespace tandem::oracle {
 
-Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
-
 namespace {
 
 /// t of the far side for a ray that is inside by its own account: in front, whatever rounding did to the origin.
 Real ahead(Real t) { return std::max<Real>(t, 0x1p-1022L); }
 
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Sphere& sphere, const Line& line, Start start) {
+    return hit_sphere(to_vector(sphere.centre), sphere.radius, line, start);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Box& box, const Line& line, Start start) {
+    return hit_box(to_vector(box.lower), to_vector(box.upper), line, start);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Ellipsoid& body, const Line& line, Start start) {
+    return hit_placed(body, false, line, start);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView&, const Parallelepiped& body, const Line& line, Start start) {
+    return hit_placed(body, true, line, start);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Triangle& triangle, const Line& line,
+                                    Start start) {
+    if (start != Start::anywhere) return std::nullopt;
+    return hit_face({{triangle.v0, triangle.v1, triangle.v2}, {0, 1, 2}}, triangle.attributes, scene.normals, line);
+}
+std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Quad& quad, const Line& line, Start start) {
+    if (start != Start::anywhere) return std::nullopt;
+    const auto first = hit_face({{quad.v0, quad.v1, quad.v2}, {0, 1, 2}}, quad.attributes, scene.normals, line);
+    const auto second = hit_face({{quad.v0, quad.v2, quad.v3}, {0, 2, 3}}, quad.attributes, scene.normals, line);
+    return !first || (second && second->t < first->t) ? second : first;
+}
+
 }  // namespace
+
+Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
 
 std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line, Start start) {
     if (start == Start::leaving_outward) return std::nullopt;
@@ -95,11 +119,7 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
 std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
                                         Start start) {
     std::optional<SurfaceHit> hit;
-    visit_primitive(
-        scene, id, [&](const Sphere& s) { hit = hit_sphere(to_vector(s.centre), s.radius, line, start); },
-        [&](const Box& b) { hit = hit_box(to_vector(b.lower), to_vector(b.upper), line, start); },
-        [&](const Placement& p) { hit = hit_placed(p, false, line, start); },
-        [&](const Placement& p) { hit = hit_placed(p, true, line, start); });
+    visit_primitive(scene, id, [&](const auto& primitive) { hit = hit_shape(scene, primitive, line, start); });
     return hit;
 }
 

@@ -28,7 +28,7 @@ struct Line {
 /// What lies at a crossing.
 struct SurfaceHit {
     Real t;
-    Vector normal;  ///< unit, outward
+    Vector normal;  ///< unit, outward; of a face the one for shading
 };
 
 /// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.
@@ -42,7 +42,17 @@ enum class Start { anywhere, leaving_outward, leaving_inward };
 /// `is_box`: the cube [-1, 1]^3 under the placement, else the unit sphere.
 [[nodiscard]] std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line,
                                                    Start start);
-/// Any primitive of a scene.
+/// A triangle of a face: three of its corners, and their numbers in it.
+struct FaceCorners {
+    Vec3f position[3];
+    std::uint32_t number[3];
+};
+
+/// A line in the plane of the triangle misses. Signs are exact, and t is the long double nearest to the exact one, if
+/// the coordinates do not differ by more than 2^30 or so. `normals`: of the scene.
+[[nodiscard]] std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttributes& attributes,
+                                                 const Vec3f* normals, const Line& line);
+/// Any primitive of a scene, with its normal for shading. A flat one that the line leaves is not met again.
 [[nodiscard]] std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
                                                       Start start);
 

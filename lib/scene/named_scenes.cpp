@@ -11,6 +11,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/sampler/philox.h"
+#include "tandem/scene/icosphere.h"
 
 namespace tandem {
 
@@ -26,8 +27,7 @@ Node camera_node(const Vec3d& position) {
     return node;
 }
 
-Node shape_node(std::string name, const Vec3d& position, std::variant<SphereShape, BoxShape> shape,
-                std::uint32_t material) {
+Node shape_node(std::string name, const Vec3d& position, Shape shape, std::uint32_t material) {
     Node node;
     node.name = std::move(name);
     node.trs.translation = position;
@@ -149,8 +149,7 @@ Scene crowd(std::string name) {
 }
 
 /// Adds a node that holds `instances` of one shape.
-void add_instances(Scene& scene, std::string name, std::variant<SphereShape, BoxShape> shape, std::uint32_t material,
-                   std::vector<Trs> instances) {
+void add_instances(Scene& scene, std::string name, Shape shape, std::uint32_t material, std::vector<Trs> instances) {
     if (instances.empty()) return;
     Node node;
     node.name = std::move(name);
@@ -184,7 +183,7 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
     static constexpr const char* kind_names[] = {"spheres", "boxes", "ellipsoids", "parallelepipeds"};
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const std::size_t kind = g / 8;
-        std::variant<SphereShape, BoxShape> shape = BoxShape{{2, 2, 2}};
+        Shape shape = BoxShape{{2, 2, 2}};
         if (kind == 0) shape = SphereShape{radius};
         if (kind == 2) shape = SphereShape{1};
         add_instances(scene, fmt::format("{}, colour {}", kind_names[kind], g % 8), shape,
@@ -193,11 +192,45 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
-/// "123" -> 123, within [1, most]; nothing if it is not a number or out of range.
-std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t most) {
+/// `count` faces of random shape, in one mesh per colour; `corners` is 3 or 4. Quads are parallelograms, but for the
+/// rounding of their corners. All are double-sided.
+Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t seed, std::uint32_t corners) {
+    Scene scene = crowd(name);
+    const double radius = 0.6 / std::cbrt(static_cast<double>(count));
+    scene.meshes.resize(scene.materials.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ObjectNumbers numbers(seed, i);
+        const Vec3d centre = numbers.in_cube();
+        const Vec3d a = numbers.in_cube() * radius, b = numbers.in_cube() * radius, c = numbers.in_cube() * radius;
+        Mesh& mesh = scene.meshes[i % scene.meshes.size()];
+        auto& indices = corners == 3 ? mesh.triangles : mesh.quads;
+        const Vec3d places[] = {a, b, corners == 3 ? c : -a, -b};
+        for (std::uint32_t k = 0; k < corners; ++k) {
+            indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back(narrow(centre + places[k]));
+        }
+    }
+    for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
+        if (scene.meshes[m].positions.empty()) continue;
+        scene.meshes[m].name = fmt::format("faces, colour {}", m);
+        scene.materials[m].double_sided = true;
+        scene.nodes.push_back(shape_node(scene.meshes[m].name, {0, 0, 0}, MeshShape{m}, m));
+    }
+    return scene;
+}
+
+Scene one_icosphere(const std::string& name, int level) {
+    Scene scene = crowd(name);
+    scene.meshes = {icosphere(level)};
+    scene.nodes.push_back(shape_node(scene.meshes[0].name, {0, 0, 0}, MeshShape{0}, 3));
+    return scene;
+}
+
+/// "123" -> 123, within [least, most]; nothing if it is not a number or out of range.
+std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t most, std::uint32_t least = 1) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > most) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most) return std::nullopt;
     return value;
 }
 
@@ -214,7 +247,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"paper", "hard/planet", "hard/telescope", "spheres/N[/SEED]", "boxes/N[/SEED]", "mixed/N[/SEED]"};
+    return {"paper",          "hard/planet",        "hard/telescope", "spheres/N[/SEED]", "boxes/N[/SEED]",
+            "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]", "icosphere/LEVEL"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -222,7 +256,10 @@ Scene named_scene(std::string_view name) {
     if (name == "hard/planet") return planet();
     if (name == "hard/telescope") return telescope();
     const std::vector<std::string_view> parts = split(name, '/');
-    if (parts.size() == 2 || parts.size() == 3) {
+    if (parts.size() == 2 && parts[0] == "icosphere") {
+        if (const auto level = parse_count(parts[1], 10, 0))
+            return one_icosphere(std::string(name), static_cast<int>(*level));
+    } else if (parts.size() == 2 || parts.size() == 3) {
         const auto count = parse_count(parts[1], 100'000'000);
         const auto seed = parts.size() == 3 ? parse_count(parts[2], 0xFFFFFFFFU) : std::optional<std::uint32_t>(1);
         const std::string full(name);
@@ -230,10 +267,12 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "spheres") return random_crowd(full, *count, *seed, {true, false, false, false});
             if (parts[0] == "boxes") return random_crowd(full, *count, *seed, {false, false, false, true});
             if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
+            if (parts[0] == "triangles") return random_faces(full, *count, *seed, 3);
+            if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
         }
     }
-    throw InputError(fmt::format("no scene is named '{}'; there are {} (N from 1 to 100000000)", name,
-                                 fmt::join(scene_names(), ", ")));
+    throw InputError(fmt::format("no scene is named '{}'; there are {} (N from 1 to 100000000, LEVEL from 0 to 10)",
+                                 name, fmt::join(scene_names(), ", ")));
 }
 
 }  // namespace tandem

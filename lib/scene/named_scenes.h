@@ -14,6 +14,8 @@ namespace tandem {
 ///   spheres/N  spheres/N/S   N spheres, uniform in [-1, 1]^3, radius 0.6 / cbrt(N); seed S (1)
 ///   boxes/N    boxes/N/S     N boxes of random size and orientation
 ///   mixed/N    mixed/N/S     spheres, boxes, ellipsoids and parallelepipeds by turns
+///   triangles/N  quads/N  and with /S    N single faces of random size and orientation, seen from both sides
+///   icosphere/LEVEL          a sphere of 20 * 4^LEVEL triangles, LEVEL from 0 to 10, with smooth normals
 ///   hard/planet              a sphere of 6400 km, seen from 1.75 m above it
 ///   hard/telescope           the paper's scene from 100 km away, with as narrow a view
 /// Throws InputError with the list of names.

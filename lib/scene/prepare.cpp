@@ -8,6 +8,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/place_mesh.h"
 #include "tandem/scene/render_origin.h"
 
 namespace tandem {
@@ -36,12 +37,17 @@ bool is_diagonal(const Matrix3& m) {
            m.row[2].y == 0;
 }
 
-/// A unit body under render_from_unit, whose linear part has the inverse unit_from_render.
-Placement place(const Transform& render_from_unit, const Matrix3& unit_from_render, bool is_box) {
-    const Matrix3& m = render_from_unit.linear;
+/// The unit sphere, or the cube [-1, 1]^3, in world space.
+struct Placed {
+    Transform world_from_unit;
+    Matrix3 unit_from_world;
+};
+
+Placement place(const Placed& body, const Vec3d& origin, bool is_box) {
+    const Matrix3& m = body.world_from_unit.linear;
     Placement placement;
-    placement.object_from_world = unit_from_render;
-    placement.centre = render_from_unit.translation;
+    placement.object_from_world = body.unit_from_world;
+    placement.centre = body.world_from_unit.translation - origin;
     const auto extent = [&](const Vec3d& row) {
         // support of the body along a world axis: l1 norm for the cube, l2 for the ball
         const double support = is_box ? norm1(row) : std::sqrt(dot(row, row));
@@ -76,7 +82,9 @@ class Preparer {
         result_.environment = scene_.environment;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
-            for (const Geometry& geometry : node.geometry) count += std::max<std::size_t>(1, geometry.instances.size());
+            for (const Geometry& geometry : node.geometry) {
+                count += primitives_in(geometry.shape) * std::max<std::size_t>(1, geometry.instances.size());
+            }
         }
         if (count >= no_primitive_limit) {
             throw InputError(
@@ -132,9 +140,27 @@ class Preparer {
     void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
         if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
             add_sphere(*sphere, geometry.material, world_from_object, node);
+        } else if (const auto* box = std::get_if<BoxShape>(&geometry.shape)) {
+            add_box(*box, geometry.material, world_from_object, node);
         } else {
-            add_box(std::get<BoxShape>(geometry.shape), geometry.material, world_from_object, node);
+            add_mesh(std::get<MeshShape>(geometry.shape), geometry.material, world_from_object, node);
         }
+    }
+
+    std::size_t primitives_in(const Shape& shape) const {
+        const auto* reference = std::get_if<MeshShape>(&shape);
+        if (reference == nullptr) return 1;
+        const Mesh& mesh = scene_.meshes[reference->mesh];
+        return mesh.triangles.size() / 3 + mesh.quads.size() / 4;
+    }
+
+    void add_mesh(const MeshShape& shape, std::uint32_t material, const Transform& world_from_object,
+                  std::size_t node) {
+        const Mesh& mesh = scene_.meshes[shape.mesh];
+        for (const Vec3f& position : mesh.positions) {
+            check_reach(transform_point(world_from_object, widen(position)), {0, 0, 0}, node);
+        }
+        surfaces_.push_back({&mesh, world_from_object, material, node});
     }
 
     void add_sphere(const SphereShape& shape, std::uint32_t material, const Transform& world_from_object,
@@ -144,7 +170,7 @@ class Preparer {
             const double radius = scale * shape.radius;
             if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
             check_reach(world_from_object.translation, {radius, radius, radius}, node);
-            spheres_.bodies.push_back({world_from_object.translation, radius});
+            balls_.push_back({world_from_object.translation, radius});
             spheres_.add(material, node);
             return;
         }
@@ -159,7 +185,7 @@ class Preparer {
             const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
                                   std::abs(m.row[2].z) * half.z};
             check_reach(world_from_object.translation, extent, node);
-            boxes_.bodies.push_back({world_from_object.translation, extent});
+            blocks_.push_back({world_from_object.translation, extent});
             boxes_.add(material, node);
             return;
         }
@@ -180,9 +206,8 @@ class Preparer {
                               : "a sphere that its transform flattens");
         }
         check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);
-        Kind<Placed>& kind = is_box ? parallelepipeds_ : ellipsoids_;
-        kind.bodies.push_back({world_from_unit, inverse(m)});
-        kind.add(material, node);
+        (is_box ? placed_boxes_ : placed_balls_).push_back({world_from_unit, inverse(m)});
+        (is_box ? parallelepipeds_ : ellipsoids_).add(material, node);
     }
 
     /// World space.
@@ -205,51 +230,46 @@ class Preparer {
         result_.origin = origin;
         result_.render_from_camera.translation -= origin;
         for (const Light& light : lights_) result_.lights.push_back({narrow(light.position - origin), light.intensity});
-        result_.spheres.reserve(spheres_.bodies.size());
-        for (const Ball& ball : spheres_.bodies) {
-            result_.spheres.push_back({narrow(ball.centre - origin), narrow(ball.radius)});
-        }
-        result_.boxes.reserve(boxes_.bodies.size());
-        for (const Block& block : boxes_.bodies) {
+        result_.spheres.reserve(balls_.size());
+        for (const Ball& ball : balls_) result_.spheres.push_back({narrow(ball.centre - origin), narrow(ball.radius)});
+        result_.boxes.reserve(blocks_.size());
+        for (const Block& block : blocks_) {
             const Vec3d centre = block.centre - origin;
             result_.boxes.push_back({narrow(centre - block.extent), narrow(centre + block.extent)});
         }
-        const auto place_all = [&](const Kind<Placed>& kind, bool is_box, std::vector<Placement>& placements) {
-            placements.reserve(kind.bodies.size());
-            for (Placed body : kind.bodies) {
-                body.world_from_unit.translation -= origin;
-                placements.push_back(place(body.world_from_unit, body.unit_from_world, is_box));
-            }
-        };
-        place_all(ellipsoids_, false, result_.ellipsoids);
-        place_all(parallelepipeds_, true, result_.parallelepipeds);
+        result_.ellipsoids.reserve(placed_balls_.size());
+        for (const Placed& body : placed_balls_) result_.ellipsoids.push_back({place(body, origin, false)});
+        result_.parallelepipeds.reserve(placed_boxes_.size());
+        for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
+        for (const PlacedSurface& surface : surfaces_) {
+            Transform render_from_object = surface.world_from_object;
+            render_from_object.translation -= origin;
+            const bool double_sided = scene_.materials[surface.material].double_sided;
+            const PlacedMesh placed = place_mesh(*surface.mesh, render_from_object, double_sided, result_);
+            triangles_.add(surface.material, surface.node, placed.triangles);
+            quads_.add(surface.material, surface.node, placed.quads);
+        }
     }
 
     Vec3d precise_origin() const {
         RenderOrigin origin(result_.render_from_camera.translation);
-        for (const Ball& ball : spheres_.bodies) origin.add_sphere(ball.centre, ball.radius);
-        for (const Block& block : boxes_.bodies) {
-            origin.add_box(block.centre - block.extent, block.centre + block.extent);
-        }
-        for (const Placed& body : ellipsoids_.bodies) {
-            origin.add_placed(body.world_from_unit, body.unit_from_world, false);
-        }
-        for (const Placed& body : parallelepipeds_.bodies) {
-            origin.add_placed(body.world_from_unit, body.unit_from_world, true);
-        }
+        for (const Ball& ball : balls_) origin.add_sphere(ball.centre, ball.radius);
+        for (const Block& block : blocks_) origin.add_box(block.centre - block.extent, block.centre + block.extent);
+        for (const Placed& body : placed_balls_) origin.add_placed(body.world_from_unit, body.unit_from_world, false);
+        for (const Placed& body : placed_boxes_) origin.add_placed(body.world_from_unit, body.unit_from_world, true);
+        for (const PlacedSurface& surface : surfaces_) origin.add_mesh(*surface.mesh, surface.world_from_object);
         for (const Light& light : lights_) origin.add_point(light.position);
         return origin.get();
     }
 
     void join_kinds() {
-        const auto join = [&](const auto& kind) {
-            result_.material_of.insert(result_.material_of.end(), kind.material.begin(), kind.material.end());
-            result_.node_of.insert(result_.node_of.end(), kind.node.begin(), kind.node.end());
+        const auto join = [this](const Owners& owners) {
+            result_.material_of.insert(result_.material_of.end(), owners.material.begin(), owners.material.end());
+            result_.node_of.insert(result_.node_of.end(), owners.node.begin(), owners.node.end());
         };
-        join(spheres_);
-        join(boxes_);
-        join(ellipsoids_);
-        join(parallelepipeds_);
+#define TANDEM_PRIMITIVE(Type, name, names) join(names##_);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     }
 
     void choose_camera() {
@@ -288,7 +308,7 @@ class Preparer {
         }
     }
 
-    // The bodies in world space, double.
+    // What is to be rounded to float once the origin is known: world space, double.
     struct Ball {
         Vec3d centre;
         double radius;
@@ -297,34 +317,38 @@ class Preparer {
         Vec3d centre;
         Vec3d extent;  ///< half of the edges
     };
-    struct Placed {
-        Transform world_from_unit;
-        Matrix3 unit_from_world;
+    struct PlacedSurface {
+        const Mesh* mesh;
+        Transform world_from_object;
+        std::uint32_t material;
+        std::size_t node;
     };
     struct Light {
         Vec3d position;
         Vec3f intensity;
     };
 
-    /// The primitives of one kind, with material and node.
-    template <class Body>
-    struct Kind {
-        std::vector<Body> bodies;
+    /// Material and node of the primitives of one kind.
+    struct Owners {
         std::vector<std::uint32_t> material;
         std::vector<std::uint32_t> node;
-        void add(std::uint32_t m, std::size_t n) {
-            material.push_back(m);
-            node.push_back(static_cast<std::uint32_t>(n));
+        void add(std::uint32_t m, std::size_t n, std::size_t count = 1) {
+            material.insert(material.end(), count, m);
+            node.insert(node.end(), count, static_cast<std::uint32_t>(n));
         }
     };
 
     const Scene& scene_;
     const PrepareOptions& options_;
     std::vector<Transform> world_from_node_;
-    Kind<Ball> spheres_;
-    Kind<Block> boxes_;
-    Kind<Placed> ellipsoids_, parallelepipeds_;
+    std::vector<Ball> balls_;
+    std::vector<Block> blocks_;
+    std::vector<Placed> placed_balls_, placed_boxes_;
+    std::vector<PlacedSurface> surfaces_;
     std::vector<Light> lights_;
+#define TANDEM_PRIMITIVE(Type, name, names) Owners names##_;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     PreparedScene result_;
 };
 

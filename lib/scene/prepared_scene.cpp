@@ -10,19 +10,19 @@ std::size_t primitive_count(const PreparedScene& scene) { return scene.material_
 
 SceneView view(const PreparedScene& scene) {
     const auto count = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
-    return {.spheres = scene.spheres.data(),
-            .boxes = scene.boxes.data(),
-            .ellipsoids = scene.ellipsoids.data(),
-            .parallelepipeds = scene.parallelepipeds.data(),
-            .material_of = scene.material_of.data(),
-            .materials = scene.materials.data(),
-            .lights = scene.lights.data(),
-            .sphere_count = count(scene.spheres),
-            .box_count = count(scene.boxes),
-            .ellipsoid_count = count(scene.ellipsoids),
-            .parallelepiped_count = count(scene.parallelepipeds),
-            .light_count = count(scene.lights),
-            .environment = scene.environment};
+    return {
+#define TANDEM_PRIMITIVE(Type, name, names) .names = scene.names.data(),
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+        .normals = scene.normals.data(),
+        .material_of = scene.material_of.data(),
+        .materials = scene.materials.data(),
+        .lights = scene.lights.data(),
+#define TANDEM_PRIMITIVE(Type, name, names) .name##_count = count(scene.names),
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+        .light_count = count(scene.lights),
+        .environment = scene.environment};
 }
 
 CameraView camera_view(const PreparedScene& scene, int width, int height) {
@@ -58,10 +58,11 @@ std::string scene_hash(const PreparedScene& scene) {
         hash.update_value(std::uint64_t{array.size()});
         hash.update(array.data(), array.size() * sizeof(array[0]));
     };
-    add(scene.spheres);
-    add(scene.boxes);
-    add(scene.ellipsoids);
-    add(scene.parallelepipeds);
+#define TANDEM_PRIMITIVE(Type, name, names) add(scene.names);
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    add(scene.normals);
+    add(scene.texcoords);
     add(scene.material_of);
     add(scene.materials);
     add(scene.lights);

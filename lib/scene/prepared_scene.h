@@ -17,19 +17,20 @@ namespace tandem {
 /// All coordinates are in render space: world space moved by `origin`, so that float is precise where the camera looks
 /// (scene/render_origin.h). The axes are those of the world.
 ///
-/// Primitive ids run over the arrays in this order: spheres, boxes, ellipsoids, parallelepipeds. Within a kind they
-/// follow the order of nodes, geometries and instances in the Scene.
+/// Primitive ids run over the arrays spheres, boxes, ... in the order of primitives.def. Within a kind they follow the
+/// order of nodes, geometries, instances and faces in the Scene.
 struct PreparedScene {
-    std::vector<Sphere> spheres;
-    std::vector<Box> boxes;
-    std::vector<Placement> ellipsoids;
-    std::vector<Placement> parallelepipeds;
+#define TANDEM_PRIMITIVE(Type, name, names) std::vector<Type> names;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    std::vector<Vec3f> normals;  ///< shading normals of the corners of faces (FaceAttributes): unit, world space, or 0
+    std::vector<Vec2f> texcoords;            ///< texture coordinates of the corners of faces
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;
     std::vector<PointLight> lights;
     Environment environment;
-    std::uint64_t dropped_primitives = 0;  ///< of the Scene: they have no extent and cannot be hit
+    std::uint64_t dropped_primitives = 0;  ///< faces of the Scene without area: no ray hits them
 
     Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
 
@@ -57,7 +58,7 @@ struct PreparedScene {
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
 /// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
-/// node_of, which serves messages, dropped_primitives and origin.
+/// node_of and dropped_primitives, which serve messages, nor over origin.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

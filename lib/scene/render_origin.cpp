@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tandem/math/ray.h"
 
@@ -29,6 +30,35 @@ Vec3d nearest_of_box(const Vec3d& lower, const Vec3d& upper, const Vec3d& p) {
         }
     }
     if (nearest == p && axis >= 0) nearest[axis] = face;
+    return nearest;
+}
+
+/// The point of the segment from a to b that is nearest to p.
+Vec3d nearest_of_segment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
+    const Vec3d along = b - a;
+    const double length2 = dot(along, along);
+    const double s = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0;
+    return a + along * s;
+}
+
+/// The point of a triangle that is nearest to p: below p, or on an edge.
+Vec3d nearest_of_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2, const Vec3d& p) {
+    const Vec3d normal = cross(v1 - v0, v2 - v0);
+    const double area2 = dot(normal, normal);
+    const auto inside = [&](const Vec3d& a, const Vec3d& b) { return dot(cross(b - a, p - a), normal) >= 0; };
+    if (area2 > 0 && inside(v0, v1) && inside(v1, v2) && inside(v2, v0)) {
+        return p - normal * (dot(p - v0, normal) / area2);
+    }
+    Vec3d nearest = v0;
+    double least = __builtin_huge_val();
+    for (const auto& [a, b] : {std::pair{v0, v1}, std::pair{v1, v2}, std::pair{v2, v0}}) {
+        const Vec3d candidate = nearest_of_segment(a, b, p);
+        const double distance = length(candidate - p);
+        if (distance < least) {
+            nearest = candidate;
+            least = distance;
+        }
+    }
     return nearest;
 }
 
@@ -62,6 +92,28 @@ void RenderOrigin::add_placed(const Transform& world_from_unit, const Matrix3& u
                              : distance > 0 ? camera * (1 / distance)
                                             : Vec3d{1, 0, 0};
     const Vec3d nearest = transform_point(world_from_unit, unit_point);
+    add_candidate(nearest, length(nearest - camera_));
+}
+
+void RenderOrigin::add_mesh(const Mesh& mesh, const Transform& world_from_object) {
+    const auto world = [&](std::uint32_t index) {
+        return transform_point(world_from_object, widen(mesh.positions[index]));
+    };
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const std::uint32_t* corner = &mesh.triangles[i];
+        add_triangle(world(corner[0]), world(corner[1]), world(corner[2]));
+    }
+    for (std::size_t i = 0; i < mesh.quads.size(); i += 4) {
+        const std::uint32_t* corner = &mesh.quads[i];
+        const Vec3d diagonal[2] = {world(corner[0]), world(corner[2])};
+        add_triangle(diagonal[0], world(corner[1]), diagonal[1]);
+        add_triangle(diagonal[0], diagonal[1], world(corner[3]));
+    }
+}
+
+void RenderOrigin::add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
+    for (const Vec3d& v : {v0, v1, v2}) add_extent(v, v);
+    const Vec3d nearest = nearest_of_triangle(v0, v1, v2, camera_);
     add_candidate(nearest, length(nearest - camera_));
 }
 

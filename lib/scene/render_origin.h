@@ -1,7 +1,7 @@
 /// Where the space that is rendered in has its origin.
 #pragma once
 
-#include "tandem/math/transform.h"
+#include "tandem/scene/scene.h"
 
 namespace tandem {
 
@@ -23,6 +23,8 @@ class RenderOrigin {
     void add_box(const Vec3d& lower, const Vec3d& upper);
     /// The unit sphere, or the cube [-1, 1]^3, under an invertible transform.
     void add_placed(const Transform& world_from_unit, const Matrix3& unit_from_world, bool is_box);
+    void add_mesh(const Mesh& mesh, const Transform& world_from_object);
+    void add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2);
     /// Something that has coordinates but no surface: a light.
     void add_point(const Vec3d& point);
 

@@ -94,6 +94,33 @@ class Problems {
                 "has a shininess outside [0, 1e8]");
     }
 
+    void check_mesh(std::size_t index) {
+        const Mesh& mesh = scene_.meshes[index];
+        const std::string where =
+            mesh.name.empty() ? fmt::format("mesh {}", index) : fmt::format("mesh '{}'", mesh.name);
+        const std::size_t vertices = mesh.positions.size();
+        const auto all_numbers = [](const std::vector<Vec3f>& vectors) {
+            return std::all_of(vectors.begin(), vectors.end(), [](const Vec3f& v) { return is_number(widen(v)); });
+        };
+        require(all_numbers(mesh.positions), where, "has a position that is not finite or beyond 1e18");
+        require(mesh.normals.empty() || mesh.normals.size() == vertices, where,
+                "has a number of normals that is not that of its positions");
+        require(all_numbers(mesh.normals), where, "has a normal that is not finite or beyond 1e18");
+        require(mesh.texcoords.empty() || mesh.texcoords.size() == vertices, where,
+                "has a number of texture coordinates that is not that of its positions");
+        require(std::all_of(mesh.texcoords.begin(), mesh.texcoords.end(),
+                            [](const Vec2f& v) { return std::isfinite(v.x) && std::isfinite(v.y); }),
+                where, "has a texture coordinate that is not finite");
+        require(mesh.triangles.size() % 3 == 0, where, "has a number of triangle indices that is not a multiple of 3");
+        require(mesh.quads.size() % 4 == 0, where, "has a number of quad indices that is not a multiple of 4");
+        for (const auto* indices : {&mesh.triangles, &mesh.quads}) {
+            const auto bad =
+                std::find_if(indices->begin(), indices->end(), [&](std::uint32_t i) { return i >= vertices; });
+            if (bad == indices->end()) continue;
+            found_.push_back(fmt::format("{} has a face with vertex {}, but {} positions", where, *bad, vertices));
+        }
+    }
+
     void check_channel(std::size_t index) {
         const AnimationChannel& channel = scene_.animation[index];
         std::string where = fmt::format("animation channel {}", index);
@@ -150,10 +177,13 @@ class Problems {
         if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
             require(is_number(sphere->radius) && sphere->radius > 0, where,
                     "has a sphere whose radius is not above 0 and up to 1e18");
-        } else {
-            const Vec3d size = std::get<BoxShape>(geometry.shape).size;
+        } else if (const auto* box = std::get_if<BoxShape>(&geometry.shape)) {
+            const Vec3d& size = box->size;
             require(is_number(size) && size.x >= 0 && size.y >= 0 && size.z >= 0, where,
                     "has a box whose size is not three numbers from 0 to 1e18");
+        } else {
+            require(std::get<MeshShape>(geometry.shape).mesh < scene_.meshes.size(), where,
+                    "shows a mesh that does not exist");
         }
         for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
             check_trs(geometry.instances[i], fmt::format("{}, instance {},", where, i));
@@ -196,6 +226,7 @@ std::vector<std::string> validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) problems.check_node(i);
     problems.check_hierarchy();
     for (std::size_t i = 0; i < scene.materials.size(); ++i) problems.check_material(i);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) problems.check_mesh(i);
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();
     return problems.take();

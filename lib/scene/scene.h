@@ -36,9 +36,28 @@ struct BoxShape {
     Vec3d size{1, 1, 1};
 };
 
+/// Triangles and quadrilaterals between shared vertices, in the space of a node. Faces run counter-clockwise seen from
+/// their front; a transform that mirrors keeps it so. A quad is two triangles, (v0, v1, v2) and (v0, v2, v3). Faces
+/// without area are dropped, and counted (PreparedScene::dropped_primitives).
+struct Mesh {
+    std::string name{};
+    std::vector<Vec3f> positions{};
+    std::vector<Vec3f> normals{};            ///< for shading, per vertex, unit; empty: each face has its own
+    std::vector<Vec2f> texcoords{};          ///< per vertex, kept for textures to come; may be empty
+    std::vector<std::uint32_t> triangles{};  ///< three vertices each
+    std::vector<std::uint32_t> quads{};      ///< four vertices each
+};
+
+/// A mesh of the scene: index into Scene::meshes.
+struct MeshShape {
+    std::uint32_t mesh = 0;
+};
+
+using Shape = std::variant<SphereShape, BoxShape, MeshShape>;
+
 /// A shape with a material (index into Scene::materials), once at its node or once per instance.
 struct Geometry {
-    std::variant<SphereShape, BoxShape> shape;
+    Shape shape;
     std::uint32_t material = 0;
     std::vector<Trs> instances{};  ///< node_from_instance; empty means one, at the node itself
 };
@@ -60,9 +79,12 @@ struct PointLightSource {
     float intensity = 1;
 };
 
+/// `double_sided`: faces of meshes turn their normal to the side that a ray comes from. Without it their back sees no
+/// light but the ambient one. The other shapes are closed and have no back.
 struct Material {
     std::string name;
     PhongMaterial phong;
+    bool double_sided = false;
 };
 
 /// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
@@ -97,6 +119,7 @@ struct Scene {
     std::string name;
     std::vector<Node> nodes;
     std::vector<Material> materials;
+    std::vector<Mesh> meshes;
     std::vector<AnimationChannel> animation;
     Environment environment;
     double frames_per_second = 24;
@@ -109,7 +132,7 @@ struct Scene {
 /// Number of frames from 0 to the last key of the animation, without repeating it; 1 for a still scene.
 [[nodiscard]] std::int32_t frame_count(const Scene& scene);
 
-/// What is wrong with the scene, one sentence each, naming the node, material or channel; empty if nothing is.
+/// What is wrong with the scene, one sentence each, naming the node, material, mesh or channel; empty if nothing is.
 [[nodiscard]] std::vector<std::string> validate(const Scene& scene);
 
 }  // namespace tandem

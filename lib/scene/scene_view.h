@@ -3,6 +3,7 @@
 
 #include "tandem/camera/camera.h"
 #include "tandem/geometry/affine.h"
+#include "tandem/geometry/quad.h"
 #include "tandem/light/environment.h"
 #include "tandem/light/point_light.h"
 #include "tandem/material/phong.h"
@@ -11,42 +12,67 @@ namespace tandem {
 
 /// Pointers are to memory of the side that reads them. Ids as in PreparedScene.
 struct SceneView {
-    const Sphere* spheres;
-    const Box* boxes;
-    const Placement* ellipsoids;
-    const Placement* parallelepipeds;
+#define TANDEM_PRIMITIVE(Type, name, names) const Type* names;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    const Vec3f* normals;  ///< of the corners of faces (FaceAttributes)
     const std::uint32_t* material_of;
     const PhongMaterial* materials;
     const PointLight* lights;
-    std::uint32_t sphere_count;
-    std::uint32_t box_count;
-    std::uint32_t ellipsoid_count;
-    std::uint32_t parallelepiped_count;
+#define TANDEM_PRIMITIVE(Type, name, names) std::uint32_t name##_count;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
     std::uint32_t light_count;
     Environment environment;
 };
 
 TANDEM_HD std::uint32_t primitive_count(const SceneView& scene) {
-    return scene.sphere_count + scene.box_count + scene.ellipsoid_count + scene.parallelepiped_count;
+    std::uint32_t count = 0;
+#define TANDEM_PRIMITIVE(Type, name, names) count += scene.name##_count;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    return count;
 }
 
-/// Calls one of four functions with the index of primitive `id` within its kind.
-template <class OnSphere, class OnBox, class OnEllipsoid, class OnParallelepiped>
-TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, OnSphere on_sphere, OnBox on_box,
-                               OnEllipsoid on_ellipsoid, OnParallelepiped on_parallelepiped) {
-    if (id < scene.sphere_count) return on_sphere(scene.spheres[id]);
-    id -= scene.sphere_count;
-    if (id < scene.box_count) return on_box(scene.boxes[id]);
-    id -= scene.box_count;
-    if (id < scene.ellipsoid_count) return on_ellipsoid(scene.ellipsoids[id]);
-    on_parallelepiped(scene.parallelepipeds[id - scene.ellipsoid_count]);
+/// Sets of kinds, as bits. A tracer that serves some kinds only has the code for the others left out.
+struct PrimitiveKinds {
+    enum Place {
+#define TANDEM_PRIMITIVE(Type, name, names) name##_place,
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    };
+#define TANDEM_PRIMITIVE(Type, name, names) static constexpr std::uint32_t name = 1U << name##_place;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    static constexpr std::uint32_t all = 0U
+#define TANDEM_PRIMITIVE(Type, name, names) | name
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+        ;
+    static constexpr std::uint32_t faces = triangle | quad;
+    static constexpr std::uint32_t bodies = all & ~faces;
+};
+
+TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
+
+/// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
+TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
+    // the last kind that there may be needs no comparison
+#define TANDEM_PRIMITIVE(Type, name, names)                                         \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                            \
+        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);    \
+        if (later == 0 || id < scene.name##_count) return visitor(scene.names[id]); \
+        id -= scene.name##_count;                                                   \
+    }
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
 }
 
 /// World-space bounds of primitive `id`, not padded.
 TANDEM_HD Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
     Aabb result;
-    const auto take = [&](const auto& primitive) TANDEM_INLINE_LAMBDA { result = bounds(primitive); };
-    visit_primitive(scene, id, take, take, take, take);
+    visit_primitive(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA { result = bounds(primitive); });
     return result;
 }
 

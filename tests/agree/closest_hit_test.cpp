@@ -11,7 +11,7 @@
 namespace tandem {
 namespace {
 
-constexpr std::size_t rays_per_scene = 110'000;  // ten scenes: over a million rays
+constexpr std::size_t rays_per_scene = 110'000;  // fifteen scenes: over a million rays
 constexpr std::uint64_t scene_seed = 20;
 constexpr std::uint64_t ray_seed = 21;
 
@@ -159,6 +159,69 @@ TEST_P(ClosestHit, GivesTiesToTheLowestId) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         EXPECT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i;
         EXPECT_EQ(hits[i].primitive, expected[i]) << "ray " << i;
+    }
+}
+
+// The same for faces that meet and for faces that lie on each other: exact ties, since all numbers are small integers.
+TEST_P(ClosestHit, GivesTiesBetweenFacesToTheLowestId) {
+    Scene scene;
+    scene.materials.emplace_back();
+    Mesh grid, cover;
+    for (std::uint32_t i = 0; i < 17 * 17; ++i) {
+        grid.positions.push_back({static_cast<float>(i % 17), static_cast<float>(i / 17), 5});
+    }
+    for (std::uint32_t i = 0; i < 16 * 16; ++i) {
+        const std::uint32_t corner = i / 16 * 17 + i % 16;
+        if (i % 2 == 0) {
+            grid.quads.insert(grid.quads.end(), {corner, corner + 1, corner + 18, corner + 17});
+        } else {
+            grid.triangles.insert(grid.triangles.end(),
+                                  {corner, corner + 1, corner + 18, corner + 17, corner, corner + 18});
+        }
+    }
+    cover.positions = {{-100, -90, 5}, {300, -80, 5}, {3, 200, 5}};  // over all of it, once more and twice more
+    cover.triangles = {0, 1, 2, 1, 0, 2};
+    scene.meshes = {grid, cover};
+    Node node;
+    node.camera = PerspectiveCamera{};
+    node.geometry = {{MeshShape{0}, 0, {}}, {MeshShape{1}, 0, {}}};
+    scene.nodes = {node};
+    const PreparedScene prepared = prepare(scene);
+    std::vector<Ray<float>> rays;
+    for (const Vec3f& corner : grid.positions) {  // at corners, edges, diagonals and insides
+        for (const Vec3f& beside :
+             {Vec3f{0, 0, 0}, Vec3f{0.5F, 0, 0}, Vec3f{0, 0.25F, 0}, Vec3f{0.5F, 0.5F, 0}, Vec3f{0.25F, 0.75F, 0}}) {
+            for (const Vec3f& origin : {Vec3f{corner.x, corner.y, 1}, Vec3f{1000, -2000, -4096}, Vec3f{7, 3, 9}}) {
+                rays.push_back({origin, corner + beside - origin});
+            }
+        }
+    }
+    std::vector<Hit> hits(rays.size()), reference(rays.size());
+    trace(*backend_, prepared, rays, hits);
+    trace(*make_backend("oracle"), prepared, rays, reference);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i << " " << rays[i].direction.x;
+        ASSERT_EQ(bits_of(hits[i].t), bits_of(reference[i].t)) << "ray " << i;
+    }
+}
+
+// A closed mesh lets nothing out: rays from inside at its vertices and edges.
+TEST_P(ClosestHit, IsNeverLostThroughAMesh) {
+    const PreparedScene scene = prepare(named_scene("icosphere/3"));
+    std::vector<Ray<float>> rays;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        const Vec3f origin = t.v1 * (i % 3 == 0 ? 0.0F : -0.9F);
+        for (const Vec3f& target : {t.v0, (t.v0 + t.v1) * 0.5F, t.v0 * 0.7F + t.v2 * 0.3F}) {
+            rays.push_back({origin, target - origin});
+        }
+    }
+    std::vector<Hit> hits(rays.size()), reference(rays.size());
+    trace(*backend_, scene, rays, hits);
+    trace(*make_backend("oracle"), scene, rays, reference);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_NE(hits[i].primitive, no_primitive) << "ray " << i;
+        ASSERT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i;
     }
 }
 

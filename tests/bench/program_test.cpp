@@ -32,13 +32,15 @@ Outcome run_bench(const std::string& arguments) {
 TEST(BenchProgram, BadUsageIsStatusTwo) {
     for (const char* arguments :
          {"", "nonsense", "versus --size 12", "versus named:nothing", "parity --frames 5-4", "versus --rays parallel",
-          "versus --backends tape", "targets --only nothing", "paper --spp 0"}) {
+          "versus --backends tape", "targets --only nothing", "paper --spp 0", "hard --cases Z1",
+          "hard --check /nowhere/answers", "hard --rays 1"}) {
         EXPECT_EQ(run_bench(arguments).status, 2) << arguments;
     }
 }
 
 TEST(BenchProgram, HelpAndListsAreStatusZero) {
-    for (const char* arguments : {"--help", "parity --help", "versus --help", "paper --help", "targets --help"}) {
+    for (const char* arguments :
+         {"--help", "parity --help", "versus --help", "paper --help", "targets --help", "hard --help"}) {
         EXPECT_EQ(run_bench(arguments).status, 0) << arguments;
     }
     const Outcome list = run_bench("targets --list");

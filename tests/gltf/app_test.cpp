@@ -38,11 +38,13 @@ TEST_F(App, InfoSaysWhatAFileHolds) {
     const Run info = run("info " + rich());
     EXPECT_EQ(info.status, 0);
     EXPECT_EQ(info.err, "");
-    for (const char* line : {"scene \"small\"", "primitives: 4 (1 spheres, 3 boxes, 0 ellipsoids, 0 parallelepipeds)",
-                             "\"crowd\", 3 boxes, animated", "\"eye\", perspective, 45.84 degrees high",
-                             "\"lamp\", point, colour (1, 1, 1), intensity 2", "\"clay\", ambient (0.08, 0.08, 0.08)",
-                             "animation: 2 channels, 6 keys, 48 frames at 24 a second",
-                             "  rendered: EXT_mesh_gpu_instancing at nodes[2]"}) {
+    for (const char* line :
+         {"scene \"small\"",
+          "primitives: 4 (1 spheres, 3 boxes, 0 ellipsoids, 0 parallelepipeds, 0 triangles, 0 quads)",
+          "\"crowd\", 3 boxes, animated", "\"eye\", perspective, 45.84 degrees high",
+          "\"lamp\", point, colour (1, 1, 1), intensity 2", "\"clay\", ambient (0.08, 0.08, 0.08)",
+          "animation: 2 channels, 6 keys, 48 frames at 24 a second",
+          "  rendered: EXT_mesh_gpu_instancing at nodes[2]"}) {
         EXPECT_TRUE(contains(info.out, line));
     }
 }

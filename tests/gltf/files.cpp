@@ -40,6 +40,15 @@ std::size_t TestFile::add_floats(const std::string& type, const std::vector<floa
     return add_bytes(type, 5126, values.size() / width, bytes_of(values));
 }
 
+std::size_t TestFile::add_indices(int component_type, const std::vector<std::uint32_t>& values) {
+    const std::size_t width = component_type == 5121 ? 1 : component_type == 5123 ? 2 : 4;
+    std::string bytes;
+    for (const std::uint32_t value : values) bytes += word(value).substr(0, width);  // little endian
+    const std::size_t accessor = add_bytes("SCALAR", component_type, values.size(), bytes);
+    json["accessors"][accessor]["normalized"] = false;
+    return accessor;
+}
+
 std::string TestFile::text() const {
     Json document = json;
     if (!data.empty() && !document.contains("buffers")) {
@@ -95,25 +104,21 @@ TestFile rich_file() {
     return file;
 }
 
+TestFile mesh_file() {
+    TestFile file = small_file();
+    file.json["nodes"][1]["name"] = "sheet";
+    const std::size_t positions = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
+    const std::size_t indices = file.add_indices(5123, {0, 1, 2, 2, 1, 3});
+    file.json["meshes"][0] = {
+        {"name", "sheet"},
+        {"primitives", {{{"material", 0}, {"attributes", {{"POSITION", positions}}}, {"indices", indices}}}}};
+    return file;
+}
+
 std::string make_glb(std::string json, std::string chunk) {
     std::string chunks = chunk_of(0x4E4F534A, std::move(json), ' ');
     if (!chunk.empty()) chunks += chunk_of(0x004E4942, std::move(chunk), '\0');
     return word(0x46546C67) + word(2) + word(static_cast<std::uint32_t>(12 + chunks.size())) + chunks;
-}
-
-std::string base64(const std::string& bytes) {
-    static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-        }
-    }
-    return text;
 }
 
 std::string read_bytes(const std::filesystem::path& file) {

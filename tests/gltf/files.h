@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/base64.h"
 #include "support/input_error.h"
 #include "tandem/gltf/import.h"
 
@@ -24,6 +25,8 @@ struct TestFile {
     std::size_t add_floats(const std::string& type, const std::vector<float>& values);
     /// The same for components of any type, which are normalised if they are integers.
     std::size_t add_bytes(const std::string& type, int component_type, std::size_t count, const std::string& bytes);
+    /// Indices of a mesh as components of 5121, 5123 or 5125.
+    std::size_t add_indices(int component_type, const std::vector<std::uint32_t>& values);
 
     /// As .gltf, with the buffer, if there are bytes, as a data URI.
     [[nodiscard]] std::string text() const;
@@ -38,10 +41,11 @@ struct TestFile {
 /// ball and crowd.
 [[nodiscard]] TestFile rich_file();
 
+/// A camera "eye" and a node "sheet" with a mesh of six vertices and two triangles.
+[[nodiscard]] TestFile mesh_file();
+
 /// A .glb of a JSON text and a binary chunk; none if it is empty.
 [[nodiscard]] std::string make_glb(std::string json, std::string chunk);
-
-[[nodiscard]] std::string base64(const std::string& bytes);
 
 /// The bytes of numbers, little endian.
 template <class Number>

@@ -136,6 +136,8 @@ TEST_F(Fuzz, PaperScene) {
 
 TEST_F(Fuzz, CompactText) { run(test::Json::parse(test::rich_file().text()).dump(), ".gltf", 3000); }
 
+TEST_F(Fuzz, Meshes) { run(test::mesh_file().glb(), ".glb", 3000); }
+
 TEST_F(Fuzz, Binary) { run(test::rich_file().glb(), ".glb", 3000); }
 
 }  // namespace

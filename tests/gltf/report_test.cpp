@@ -64,7 +64,7 @@ TEST_F(Report, EveryLineHasAPathAndAReason) {
     }
 }
 
-TEST_F(Report, NamesTriangleMeshesTexturesAndSkins) {
+TEST_F(Report, NamesTexturesSkinsAndMorphTargets) {
     TestFile file = small_file();
     const std::size_t places = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
     const Json attributes = {{"POSITION", places}};
@@ -84,7 +84,7 @@ TEST_F(Report, NamesTriangleMeshesTexturesAndSkins) {
     file.json["materials"][0]["normalTexture"] = {{"index", 0},
                                                   {"extensions", {{"KHR_texture_transform", Json::object()}}}};
     for (const char* sentence :
-         {"ignored: triangle mesh at meshes[1].primitives[0]: ", "ignored: lines at meshes[1].primitives[1]: ",
+         {"rendered: triangle mesh at meshes[1].primitives[0]: ", "ignored: lines at meshes[1].primitives[1]: ",
           "ignored: morph targets at meshes[1].primitives[0].targets: ",
           "ignored: morph weights at meshes[1].weights: ", "ignored: node skin at nodes[1].skin: ",
           "ignored: skin at skins[0]: ", "ignored: image at images[0]: ", "ignored: texture sampler at samplers[0]: ",

@@ -14,11 +14,16 @@ PreparedScene one_of_each() {
     scene.boxes = {{{0, 0, 0}, {1, 1, 1}}};
     scene.ellipsoids.resize(1);
     scene.parallelepipeds.resize(1);
-    for (auto* placements : {&scene.ellipsoids, &scene.parallelepipeds}) {
-        (*placements)[0] = {{}, {1, 2, 3}, {{1, 2, 3}, 2}, {1, 1, 1}};
+    for (Placement* placement :
+         {static_cast<Placement*>(&scene.ellipsoids[0]), static_cast<Placement*>(&scene.parallelepipeds[0])}) {
+        *placement = {{}, {1, 2, 3}, {{1, 2, 3}, 2}, {1, 1, 1}};
     }
-    scene.material_of = {0, 0, 0, 0};
-    scene.node_of = {0, 1, 2, 3};
+    scene.triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
+    scene.quads = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 3, 0}}};
+    scene.normals.assign(7, Vec3f{0, 0, 1});
+    scene.texcoords.assign(7, Vec2f{0, 1});
+    scene.material_of = {0, 0, 0, 0, 0, 0};
+    scene.node_of = {0, 1, 2, 3, 4, 5};
     scene.materials.resize(1);
     scene.lights = {{{1, 1, 1}, {2, 2, 2}}};
     return scene;
@@ -37,6 +42,14 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"ellipsoid bound", [](PreparedScene& s) { s.ellipsoids[0].bounding_sphere.radius = 7; }},
         {"ellipsoid extent", [](PreparedScene& s) { s.ellipsoids[0].half_extent.y = 7; }},
         {"parallelepiped map", [](PreparedScene& s) { s.parallelepipeds[0].object_from_world.row[0].x = 7; }},
+        {"triangle corner", [](PreparedScene& s) { s.triangles[0].v2.y = 7; }},
+        {"triangle normals", [](PreparedScene& s) { s.triangles[0].attributes.normals = 1; }},
+        {"triangle texture", [](PreparedScene& s) { s.triangles[0].attributes.texcoords = 1; }},
+        {"triangle sides", [](PreparedScene& s) { s.triangles[0].attributes.double_sided = 1; }},
+        {"quad corner", [](PreparedScene& s) { s.quads[0].v3.x = -7; }},
+        {"quad sides", [](PreparedScene& s) { s.quads[0].attributes.double_sided = 1; }},
+        {"normal", [](PreparedScene& s) { s.normals[6].x = 1; }},
+        {"texture coordinates", [](PreparedScene& s) { s.texcoords[6].x = 1; }},
         {"material index", [](PreparedScene& s) { s.material_of[3] = 1; }},
         {"ambient", [](PreparedScene& s) { s.materials[0].ambient.x = 0.5F; }},
         {"diffuse", [](PreparedScene& s) { s.materials[0].diffuse.y = 0.5F; }},
@@ -73,6 +86,7 @@ TEST(SceneHash, LeavesOutWhatOnlyServesMessages) {
     PreparedScene scene = one_of_each();
     const std::string before = scene_hash(scene);
     scene.node_of[2] = 9;
+    scene.dropped_primitives = 9;
     EXPECT_EQ(scene_hash(scene), before);
 }
 

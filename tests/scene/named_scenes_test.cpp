@@ -33,6 +33,20 @@ TEST(NamedScenes, CrowdsHaveWhatTheirNamesSay) {
     EXPECT_EQ(mixed.materials.size(), 8U);
 }
 
+TEST(NamedScenes, FacesAreWhatTheirNamesSay) {
+    const auto triangles = prepare(named_scene("triangles/100"));
+    EXPECT_EQ(triangles.triangles.size(), 100U);
+    EXPECT_EQ(triangles.triangles[0].attributes.double_sided, 1U);
+    EXPECT_EQ(prepare(named_scene("quads/3")).quads.size(), 3U);
+    const auto ball = prepare(named_scene("icosphere/2"));
+    EXPECT_EQ(ball.triangles.size(), 320U);
+    EXPECT_EQ(ball.normals.size(), 960U);
+    EXPECT_EQ(ball.dropped_primitives, 0U);
+    for (const char* name : {"icosphere", "icosphere/", "icosphere/11", "icosphere/-1", "icosphere/2/1", "quads/0"}) {
+        EXPECT_TRUE(contains(test::input_error([&] { (void)named_scene(name); }), "icosphere/LEVEL")) << name;
+    }
+}
+
 TEST(NamedScenes, SeedsMakeOtherScenesAndNamesTheSame) {
     const auto hash = [](const char* name) { return scene_hash(prepare(named_scene(name))); };
     EXPECT_EQ(hash("mixed/50"), hash("mixed/50/1"));

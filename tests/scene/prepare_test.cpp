@@ -17,7 +17,7 @@ using test::small_scene;
 Quaternion about_z(double radians) { return {0, 0, std::sin(radians / 2), std::cos(radians / 2)}; }
 
 /// small_scene() with another thing at "body".
-PreparedScene prepare_body(std::variant<SphereShape, BoxShape> shape, const Trs& trs) {
+PreparedScene prepare_body(Shape shape, const Trs& trs) {
     Scene scene = small_scene();
     scene.nodes[1].geometry[0].shape = shape;
     scene.nodes[1].trs = trs;
@@ -115,6 +115,115 @@ TEST(Prepare, InstancesComeUnderTheirNode) {
     EXPECT_EQ(prepared.spheres[0].centre, Vec3f(2, 10, 0));
     EXPECT_EQ(prepared.spheres[1].radius, 6);
     EXPECT_EQ(prepared.node_of, (std::vector<std::uint32_t>{1, 1}));
+}
+
+/// small_scene() with a mesh at "body".
+Scene mesh_scene(Mesh mesh) {
+    Scene scene = small_scene();
+    mesh.name = "sheet";
+    scene.meshes = {std::move(mesh)};
+    scene.nodes[1].geometry[0].shape = MeshShape{0};
+    return scene;
+}
+
+/// A square in the xy plane, front towards z, as two triangles.
+Mesh square() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.triangles = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+TEST(PrepareMesh, SharedVerticesHaveTheSameBits) {
+    Scene scene = mesh_scene(square());
+    scene.nodes[1].trs = {{0.1, 1e3, 7}, {0.1, 0.2, 0.3, 0.9}, {3, 0.7, 1}};
+    const auto prepared = prepare(scene);
+    ASSERT_EQ(prepared.triangles.size(), 2U);
+    const Transform world = to_transform(scene.nodes[1].trs);
+    EXPECT_EQ(prepared.triangles[0].v1, narrow(transform_point(world, {1, 0, 0})));
+    EXPECT_EQ(prepared.triangles[0].v0, prepared.triangles[1].v0);
+    EXPECT_EQ(prepared.triangles[0].v2, prepared.triangles[1].v1);
+    EXPECT_TRUE(prepared.normals.empty());
+    EXPECT_EQ(prepared.triangles[0].attributes.normals, no_attributes);
+}
+
+TEST(PrepareMesh, AMirrorTurnsTheCornersRound) {
+    Mesh mesh = square();
+    mesh.quads = {0, 1, 2, 3};
+    mesh.normals.assign(4, {0, 0, 1});
+    for (const double sign : {1.0, -1.0}) {
+        Scene scene = mesh_scene(mesh);
+        scene.nodes[1].trs.scale = {sign, 2, 0.5};
+        const auto prepared = prepare(scene);
+        for (const Triangle& t : prepared.triangles) EXPECT_EQ(triangle_normal(t.v0, t.v1, t.v2), Vec3d(0, 0, 1));
+        const Quad& q = prepared.quads[0];
+        EXPECT_EQ(triangle_normal(q.v0, q.v1, q.v2), Vec3d(0, 0, 1));
+        EXPECT_EQ(q.v2, Vec3f(static_cast<float>(sign), 2, 0)) << "the diagonal stays";
+        for (const Vec3f& n : prepared.normals) EXPECT_EQ(n, Vec3f(0, 0, 1));
+    }
+}
+
+TEST(PrepareMesh, NormalsGoByTheInverseTranspose) {
+    Mesh mesh = square();
+    mesh.normals.assign(4, narrow(normalize(Vec3d{1, 0, 1})));
+    Scene scene = mesh_scene(mesh);
+    scene.nodes[1].trs.scale = {2, 1, 1};  // the surface gets flatter, the normal steeper
+    EXPECT_NEAR(prepare(scene).normals[0].x, std::sqrt(0.2), 1e-7);
+    EXPECT_NEAR(prepare(scene).normals[0].z, std::sqrt(0.8), 1e-7);
+    scene.nodes[1].trs.scale = {1, 1, 0};  // flattened onto the plane: its normal is what is left
+    EXPECT_EQ(prepare(scene).normals[0], Vec3f(0, 0, 1));
+    scene.nodes[1].trs.scale = {-1e-120, 1e-120, 1e-120};
+    scene.nodes[1].trs.scale = scene.nodes[1].trs.scale * 1e100;
+    EXPECT_NEAR(prepare(scene).normals[0].x, -std::sqrt(0.5), 1e-7);
+}
+
+TEST(PrepareMesh, AttributesStandByCorner) {
+    Mesh mesh = square();
+    mesh.quads = {3, 2, 1, 0};
+    mesh.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+    mesh.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const auto prepared = prepare(mesh_scene(mesh));
+    ASSERT_EQ(prepared.normals.size(), 10U);
+    ASSERT_EQ(prepared.texcoords.size(), 10U);
+    EXPECT_EQ(prepared.triangles[1].attributes.normals, 3U);
+    EXPECT_EQ(prepared.normals[5], mesh.normals[3]);
+    EXPECT_EQ(prepared.quads[0].attributes.texcoords, 6U);
+    EXPECT_EQ(prepared.texcoords[7], mesh.texcoords[2]);
+}
+
+TEST(PrepareMesh, FacesWithoutAreaAreDroppedAndCounted) {
+    Mesh mesh = square();
+    mesh.positions.push_back({0.5F, 0.5F, 0});
+    mesh.triangles = {0, 1, 2, 0, 0, 1, 0, 4, 2, 3, 3, 3};
+    mesh.quads = {0, 1, 2, 3,   // good
+                  0, 1, 1, 3,   // its first half is flat: the triangle (0, 1, 3)
+                  0, 1, 2, 2,   // its second half is: (0, 1, 2)
+                  0, 4, 2, 4,   // both are
+                  0, 1, 0, 1};  // both are
+    Scene scene = mesh_scene(mesh);
+    const auto prepared = prepare(scene);
+    EXPECT_EQ(prepared.triangles.size(), 3U);
+    EXPECT_EQ(prepared.quads.size(), 1U);
+    EXPECT_EQ(prepared.dropped_primitives, 5U);
+    EXPECT_EQ(prepared.material_of.size(), 4U);
+    EXPECT_EQ(prepared.triangles[1].v2, Vec3f(0, 1, 0));
+    EXPECT_EQ(prepared.triangles[2].v2, Vec3f(1, 1, 0));
+    scene.nodes[1].trs.scale = {1, 0, 1};  // everything becomes a line
+    EXPECT_EQ(prepare(scene).dropped_primitives, 9U);
+    EXPECT_EQ(primitive_count(prepare(scene)), 0U);
+}
+
+TEST(PrepareMesh, InstancesAndSides) {
+    Scene scene = mesh_scene(square());
+    scene.materials[0].double_sided = true;
+    scene.nodes[1].geometry[0].instances = {{{1, 0, 0}, {}, {1, 1, 1}}, {{0, 0, 5}, {}, {2, 2, 2}}};
+    const auto prepared = prepare(scene);
+    ASSERT_EQ(prepared.triangles.size(), 4U);
+    EXPECT_EQ(prepared.triangles[3].v2, Vec3f(0, 2, 5));
+    EXPECT_EQ(prepared.triangles[3].attributes.double_sided, 1U);
+    EXPECT_EQ(prepared.node_of, (std::vector<std::uint32_t>{1, 1, 1, 1}));
+    scene.nodes[1].trs.scale = {1e18, 1e18, 1e18};
+    EXPECT_TRUE(contains(input_error([&] { (void)prepare(scene); }), "node 1 'body' has something farther than 1e18"));
 }
 
 TEST(Prepare, IdsRunOverTheKindsInOrder) {

@@ -50,6 +50,19 @@ TEST(RenderOrigin, IsOnASurfaceAlsoFromWithin) {
     EXPECT_NEAR(turned.get().x, 1e6, 16);
 }
 
+TEST(RenderOrigin, IsTheNearestPointOfATriangle) {
+    const Vec3d a = {1e6, 0, 0}, b = {1e6 + 300, 0, 0}, c = {1e6, 300, 0};
+    const auto nearest = [&](const Vec3d& camera) {
+        RenderOrigin origin(camera);
+        origin.add_triangle(a, b, c);
+        return origin.get();
+    };
+    EXPECT_NEAR(nearest({1e6 + 100, 100, 1}).x, 1e6 + 100, 8) << "below the camera";
+    EXPECT_NEAR(nearest({1e6 + 100, 100, 1}).z, 0, 8);
+    EXPECT_NEAR(nearest({1e6 + 100, -1, 0}).x, 1e6 + 100, 8) << "on an edge";
+    EXPECT_NEAR(nearest({1e6 + 301, 0, 0}).x, 1e6 + 300, 8) << "a corner";
+}
+
 // The promise: no surface point's coordinate is over 16 times its distance from the camera.
 TEST(RenderOrigin, KeepsCoordinatesWithin16TimesTheDistance) {
     for (std::uint64_t number = 0; number < 20'000; ++number) {

@@ -64,6 +64,57 @@ INSTANTIATE_TEST_SUITE_P(
                  s.nodes[1].geometry[0].shape = BoxShape{{1, -1, 1}};
              },
              "a box whose size"},
+        Flaw{"mesh", [](Scene& s) { s.nodes[1].geometry[0].shape = MeshShape{0}; }, "shows a mesh that does not exist"},
+        Flaw{"position",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{nan_f, 0, 0}}}};
+             },
+             "mesh 'cup' has a position"},
+        Flaw{"far_position",
+             [](Scene& s) {
+                 s.meshes = {{"", {{2e18F, 0, 0}}}};
+             },
+             "mesh 0 has a position"},
+        Flaw{"normal_count",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}}};
+             },
+             "mesh 'cup' has a number of normals"},
+        Flaw{"normal",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {{0, 0, nan_f}}}};
+             },
+             "mesh 'cup' has a normal"},
+        Flaw{"texcoord_count",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{0, 0}, {0, 1}}}};
+             },
+             "mesh 'cup' has a number of texture coordinates"},
+        Flaw{"texcoord",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{0, nan_f}}}};
+             },
+             "mesh 'cup' has a texture coordinate"},
+        Flaw{"triangle_count",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {0, 0, 0, 0}}};
+             },
+             "mesh 'cup' has a number of triangle indices that is not a multiple of 3"},
+        Flaw{"quad_count",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {}, {0, 0, 0}}};
+             },
+             "mesh 'cup' has a number of quad indices that is not a multiple of 4"},
+        Flaw{"triangle_index",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {0, 0, 1}}};
+             },
+             "mesh 'cup' has a face with vertex 1, but 1 positions"},
+        Flaw{"quad_index",
+             [](Scene& s) {
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {}, {0, 9, 0, 0}}};
+             },
+             "mesh 'cup' has a face with vertex 9"},
         Flaw{"instance",
              [](Scene& s) {
                  s.nodes[1].geometry[0].instances = {{}, {{inf, 0, 0}, {}, {1, 1, 1}}};

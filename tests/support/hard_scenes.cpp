@@ -27,6 +27,16 @@ class Random {
     std::mt19937_64 engine_;
 };
 
+/// A triangle, or a quad that need not be flat, with corners up to `size` from the origin.
+Mesh one_face(Random& random, double size, bool is_triangle) {
+    Mesh mesh;
+    for (std::uint32_t corner = 0; corner < (is_triangle ? 3 : 4); ++corner) {
+        mesh.positions.push_back(narrow(random.in_cube(size)));
+        (is_triangle ? mesh.triangles : mesh.quads).push_back(corner);
+    }
+    return mesh;
+}
+
 }  // namespace
 
 std::vector<HardScene> hard_scenes() {
@@ -39,7 +49,12 @@ std::vector<HardScene> hard_scenes() {
             {"astronomical", 1e15, 1e16, 2, 96},
             {"mixed sizes", 100, 0, 5, 96},
             {"crowd", 1, 0, 2, 2000},
-            {"few", 1, 0, 1, 8}};
+            {"few", 1, 0, 1, 8},
+            {"faces", 1, 0, 1.5, 96, true},
+            {"far faces", 1, 1e6, 0.5, 96, true},
+            {"tiny faces", 1e-6, 1e-3, 1, 96, true},
+            {"huge faces", 1e9, 0, 3, 96, true},
+            {"few faces", 1, 0, 1, 8, true}};
 }
 
 PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
@@ -57,7 +72,10 @@ PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
         };
         node.trs.translation = middle + random.in_cube(parameters.scale);
         Geometry geometry;
-        if (i % 2 == 0) {
+        if (parameters.faces) {
+            geometry.shape = MeshShape{static_cast<std::uint32_t>(scene.meshes.size())};
+            scene.meshes.push_back(one_face(random, 10 * size(), i % 2 == 0));
+        } else if (i % 2 == 0) {
             geometry.shape = SphereShape{size()};
         } else {
             const double x = size(), y = size(), z = size();

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/exact_geometry.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
 
 namespace tandem {
 namespace {

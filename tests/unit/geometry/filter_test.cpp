@@ -6,9 +6,10 @@
 
 #include <vector>
 
+#include "support/exact_geometry.h"
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
+#include "unit/geometry/adversarial_triangles.h"
 #include "unit/math/lane_operations.h"
 
 namespace tandem {
@@ -52,6 +53,17 @@ void check(const Box& box, const Ray<float>& ray, const std::string& where, int&
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
 }
 
+void check(const Triangle& triangle, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
+    if (!is_traceable(ray)) return;
+    double t = 0;
+    bool passes = may_touch_triangle(make_filter_ray(ray), triangle.v0, triangle.v1, triangle.v2);
+    if (!passes) ++rejected;
+    if (!first_in_front(triangle, ray, t)) return;
+    for (const auto& packet : packets()) passes = passes && packet.may_touch_triangle(&triangle.v0.x, &ray.origin.x);
+    ++hits;
+    ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
+}
+
 TEST(Filter, NeverRejectsASphereThatIsHit) {
     int hits = 0, rejected = 0;
     for (int kind = 0; kind < static_cast<int>(std::size(test::sphere_kinds)); ++kind) {
@@ -82,6 +94,22 @@ TEST(Filter, NeverRejectsABoxThatIsHit) {
     EXPECT_GT(rejected, 50000);
 }
 
+TEST(Filter, NeverRejectsATriangleThatIsHit) {
+    int hits = 0, rejected = 0;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < rays_per_kind; ++number) {
+            const auto c = test::triangle_case(kind, number);
+            const auto where = [&] {
+                return "triangle_case(" + std::to_string(kind) + ", " + std::to_string(number) + ")";
+            };
+            check(c.triangle, c.ray, where(), hits, rejected);
+            if (HasFatalFailure()) return;
+        }
+    }
+    EXPECT_GT(hits, 300000);
+    EXPECT_GT(rejected, 50000);
+}
+
 // Sizes, distances and lengths over all magnitudes that a scene may hold, each on its own: products under- and
 // overflow here. Lines through a point of the body's surface or just inside it.
 TEST(Filter, HoldsOverAllMagnitudes) {
@@ -102,6 +130,11 @@ TEST(Filter, HoldsOverAllMagnitudes) {
         check(Sphere{narrow(centre), static_cast<float>(size)}, ray, where, hits, rejected);
         const Vec3d half = {size * random.uniform(0.0, 1.0), size, size * random.uniform(0.0, 1.0)};
         check(Box{narrow(centre - half), narrow(centre + half)}, ray, where, hits, rejected);
+        // the target lies on an edge, or nearly
+        const Vec3d along = test::any_unit(random) * (size * random.uniform(0.0, 1.0));
+        const Vec3d aside = test::any_unit(random) * (size * std::exp2(random.uniform(-20.0, 0.0)));
+        check(Triangle{narrow(target - along), narrow(target + along), narrow(target + aside)}, ray, where, hits,
+              rejected);
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(hits, 400000);
@@ -113,6 +146,7 @@ TEST(Filter, NanPasses) {
     const auto f = make_filter_ray(Ray<float>{{nan, 0, 0}, {0, 0, 1}});
     EXPECT_TRUE(may_touch_sphere(f, {0, 0, 0}, 1));
     EXPECT_TRUE(may_touch_box(f, {-1, -1, -1}, {1, 1, 1}));
+    EXPECT_TRUE(may_touch_triangle(f, {-1, -1, -1}, {1, 1, 1}, {1, 0, 0}));
 }
 
 }  // namespace

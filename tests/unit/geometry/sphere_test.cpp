@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "support/exact_geometry.h"
 #include "tandem/geometry/crossing.h"
 #include "unit/geometry/adversarial_rays.h"
-#include "unit/geometry/exact_geometry.h"
 
 namespace tandem {
 namespace {

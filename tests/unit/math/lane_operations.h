@@ -18,9 +18,10 @@ struct LaneOperations {
     int count;
     int lanes;
     /// The reject filters; their decisions may differ between instruction sets. A sphere is centre and radius, a box
-    /// its lower and upper corner, a ray its origin and direction; true if every lane passes the filter.
+    /// its lower and upper corner, a triangle its corners, a ray its origin and direction; true if every lane passes.
     bool (*may_touch_sphere)(const float* sphere, const float* ray);
     bool (*may_touch_box)(const float* box, const float* ray);
+    bool (*may_touch_triangle)(const float* triangle, const float* ray);
 };
 
 /// Does this processor run the functions for x86-64-v3 and v4?

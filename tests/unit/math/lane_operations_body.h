@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/geometry/intersect.h"
+#include "tandem/geometry/quad.h"
 #include "tandem/math/exact_math.h"
 #include "tandem/math/lanes.h"
 #include "tandem/sampler/philox.h"
@@ -78,17 +79,17 @@ TANDEM_HD UInt<Real> low_word(const UInt<Real>& a, const UInt<Real>& b) {
     return low;
 }
 
-/// The sphere and the box between them use most of what geometry does.
+/// The bodies and the faces between them use most of what geometry does.
 template <class Real, class Meeting>
 TANDEM_HD Double<Real> first_parameter(const Meeting& meeting) {
     Double<Real> t;
     const auto hit = first_in_front<Real>(meeting, t);
     return select(hit, t, Double<Real>(-1.0));
 }
-template <class Real>
-TANDEM_HD Double<Real> first_parameter(const Sphere& sphere, const Ray<Real>& ray) {
+template <class Real, class Primitive>
+TANDEM_HD Double<Real> first_parameter(const Primitive& primitive, const Ray<Real>& ray) {
     Double<Real> t;
-    const auto hit = first_in_front(sphere, ray, t);
+    const auto hit = first_in_front(primitive, ray, t);
     return select(hit, t, Double<Real>(-1.0));
 }
 template <class Real>
@@ -109,6 +110,16 @@ bool lanes_may_touch_sphere(const float* sphere, const float* ray) {
 template <class Real>
 bool lanes_may_touch_box(const float* box, const float* ray) {
     return all(may_touch_box(filter_ray<Real>(ray), {box[0], box[1], box[2]}, {box[3], box[4], box[5]}));
+}
+template <class Real>
+bool lanes_may_touch_triangle(const float* v, const float* ray) {
+    return all(may_touch_triangle(filter_ray<Real>(ray), {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}));
+}
+/// Small enough that rays of small numbers, and of zeros, meet its edges and its plane.
+template <class Real>
+TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) {
+    const auto at = barycentrics(t.v0, t.v1, t.v2, ray, Mask<Real>(true));
+    return at.u + at.v * at.v;
 }
 
 #define TANDEM_LANE_OPERATIONS(OPERATION)                                                                            \
@@ -190,6 +201,9 @@ bool lanes_may_touch_box(const float* box, const float* ray) {
     OPERATION(F, sphere, first_parameter<Real>(sphere_roots(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c))))                \
     OPERATION(F, sphere_hit, first_parameter<Real>(Sphere{{1, 2, -1}, 3}, ray_of(a, b, c)))                          \
     OPERATION(F, box, first_parameter<Real>(cross_box(Box{{-1, 0, 1}, {1, 1, 1}}, ray_of(a, b, c))))                 \
+    OPERATION(F, triangle, first_parameter<Real>(Triangle{{1, 2, -1}, {-3, 0, 1}, {0, -4, 0}}, ray_of(a, b, c)))     \
+    OPERATION(F, barycentrics, barycentric_sum<Real>(Triangle{{1, 2, -1}, {-3, 0, 1}, {0, -4, 0}}, ray_of(a, b, c))) \
+    OPERATION(F, quad, first_parameter<Real>(Quad{{1, 2, -1}, {-3, 0, 1}, {0, -4, 0}, {2, -3, 1}}, ray_of(a, b, c))) \
     OPERATION(D, inverse_square_root, inverse_square_root(select(absolute(a) >= D(0x1p-1022), absolute(a), D(2.0)))) \
     OPERATION(D, difference_of_products, difference_of_products(a, b, c, a))
 
@@ -215,8 +229,12 @@ LaneOperations all_operations() {
 #define TANDEM_LIST_OPERATION(Type, name, expression) {#Type " " #name, &Type##_##name<Real>},
     static constexpr LaneOperation table[] = {TANDEM_LANE_OPERATIONS(TANDEM_LIST_OPERATION)};
 #undef TANDEM_LIST_OPERATION
-    return {table, sizeof(table) / sizeof(table[0]), RealTraits<Real>::lanes, &lanes_may_touch_sphere<Real>,
-            &lanes_may_touch_box<Real>};
+    return {table,
+            sizeof(table) / sizeof(table[0]),
+            RealTraits<Real>::lanes,
+            &lanes_may_touch_sphere<Real>,
+            &lanes_may_touch_box<Real>,
+            &lanes_may_touch_triangle<Real>};
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/exact_geometry.h"
 #include "support/random.h"
-#include "unit/geometry/exact_geometry.h"
 
 namespace tandem {
 namespace {

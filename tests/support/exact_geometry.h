@@ -84,6 +84,36 @@ inline bool nearly_tied(const BigVector& origin, const BigVector& direction, con
     return false;
 }
 
+inline BigVector cross(const BigVector& a, const BigVector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline BigVector operator*(const Big& s, const BigVector& v) { return {s * v.x, s * v.y, s * v.z}; }
+
+struct TriangleHit {
+    Big t;
+    Big u, v;  ///< barycentric coordinates of the second and the third corner
+};
+
+/// The same for a closed triangle. A line in its plane misses. The point of the line in the plane is
+/// origin + (height / speed) direction; everything is multiplied by speed, so that nothing is divided before the end.
+inline std::optional<TriangleHit> hit_triangle(const BigVector& origin, const BigVector& direction, const BigVector& v0,
+                                               const BigVector& v1, const BigVector& v2) {
+    const BigVector normal = cross(v1 - v0, v2 - v0);
+    const Big speed = dot(direction, normal);
+    const Big height = dot(v0 - origin, normal);
+    if (speed == 0) return std::nullopt;
+    const BigVector point = along(speed * origin, direction, height);
+    // twice the area of (point, edge), as far as it lies on the inner side
+    const auto area = [&](const BigVector& from, const BigVector& to) {
+        return Big(dot(cross(to - from, point - speed * from), normal) / speed);
+    };
+    const Big opposite_v1 = area(v2, v0), opposite_v2 = area(v0, v1);
+    if (opposite_v1 < 0 || opposite_v2 < 0 || area(v1, v2) < 0) return std::nullopt;
+    const Big whole = dot(normal, normal);
+    const TriangleHit hit = {height / speed, opposite_v1 / whole, opposite_v2 / whole};
+    return hit.t > 0 ? std::optional<TriangleHit>(hit) : std::nullopt;
+}
+
 /// Distance of a float from the exact value in units of its last place there.
 inline double error_in_ulps(float value, const Big& exact) {
     const float nearest = mpfr_get_flt(exact.backend().data(), MPFR_RNDN);

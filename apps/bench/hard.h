@@ -1,0 +1,27 @@
+/// tandem-bench hard: the corpus of hard cases on any backend and tier, and the answers of other renderers.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "backend_source.h"
+#include "tandem/report/report.h"
+
+namespace tandem::bench {
+
+struct HardOptions {
+    std::vector<std::string> cases;  ///< "A1", "B*"; empty means all
+    std::vector<std::string> backends = {"cpu", "cuda"};
+    std::vector<std::string> tiers;  ///< empty means all
+    std::size_t rays = 50'000;       ///< per case
+    std::string export_folder;       ///< write the ray cases there and try nothing
+    std::string answers;             ///< score what another renderer answered, and try nothing
+};
+
+/// Tries the cases, or exports or checks; fills `report`. True if every mark of lib/accuracy/marks.def was held;
+/// answers of others are held to those of strict. Throws EnvironmentError in a build without the corpus, which needs
+/// MPFR.
+[[nodiscard]] bool run_hard(const HardOptions& options, const BackendSource& source, Report& report);
+
+}  // namespace tandem::bench

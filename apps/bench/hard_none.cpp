@@ -1,0 +1,14 @@
+// A build without the libraries of the corpus.
+#include "hard.h"
+#include "tandem/error/error.h"
+
+namespace tandem::bench {
+
+bool run_hard(const HardOptions&, const BackendSource&, Report&) {
+    throw EnvironmentError(
+        "this build has no corpus of hard cases: its exact answers need MPFR, GMP and Boost.Multiprecision (on Debian "
+        "and "
+        "Ubuntu libmpfr-dev, libgmp-dev and libboost-dev); install them and configure again");
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,25 @@
+/// How much a small file may ask for.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "tandem/gltf/model.h"
+
+namespace tandem::gltf {
+
+/// Counts what a few words of JSON can multiply (one mesh at many nodes, one accessor in many channels), so that a
+/// small file cannot fill the memory.
+class Budget {
+  public:
+    /// Ten million, or as many as the file has bytes of data.
+    explicit Budget(const Source& source);
+
+    /// Throws InputError once more than the budget has been spent.
+    void spend(const Document& document, const std::string& json_path, std::size_t amount);
+
+  private:
+    std::size_t left_;
+};
+
+}  // namespace tandem::gltf

@@ -1,0 +1,28 @@
+/// Triangle meshes.
+#pragma once
+
+#include <string>
+
+#include "tandem/gltf/budget.h"
+#include "tandem/gltf/model.h"
+#include "tandem/gltf/report.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::gltf {
+
+/// The extension that a file lists to store attributes as integers. It puts nothing into the JSON otherwise.
+inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
+
+/// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
+/// which attributes are ignored.
+[[nodiscard]] bool has_triangles(const Json& primitive, const std::string& path, ImportReport& report);
+
+/// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and normals and
+/// the first texture coordinates where there are some.
+///
+/// Throws InputError if a count is not that of whole triangles, an index is out of range, the attributes do not have
+/// as many elements as POSITION, or an accessor is of the wrong type. Integers stand for positions only in files that
+/// use KHR_mesh_quantization.
+[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::string& path, Budget& budget);
+
+}  // namespace tandem::gltf

@@ -1,0 +1,94 @@
+// Triangles for the oracle. What x87 precision cannot decide is decided in the compiler's numbers of 113 bits.
+#include <cmath>
+
+#include "tandem/oracle/oracle_geometry.h"
+
+namespace tandem::oracle {
+
+namespace {
+
+__extension__ using Wide = __float128;
+
+template <class Number>
+struct Vector3 {
+    Number x, y, z;
+};
+template <class Number>
+Vector3<Number> difference(const Vector& a, const Vector& b) {
+    return {Number(a.x) - Number(b.x), Number(a.y) - Number(b.y), Number(a.z) - Number(b.z)};
+}
+/// Six times the volume of the tetrahedron of three edges.
+template <class Number>
+Number determinant(const Vector3<Number>& a, const Vector3<Number>& b, const Vector3<Number>& c) {
+    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+template <class Number>
+Number size(const Vector3<Number>& a) {
+    const auto magnitude = [](Number x) { return x < 0 ? -x : x; };
+    return magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
+}
+
+/// Volumes between a line and the edges of a triangle, opposite to its corners: the line crosses the triangle if they
+/// have one sign.
+template <class Number>
+struct Crossing {
+    Number volume[3];
+    Number height;     ///< volume between the origin and the triangle
+    Number magnitude;  ///< of what volumes are sums of
+
+    Crossing(const Vector (&corner)[3], const Line& line) {
+        const Vector3<Number> d = difference<Number>(line.direction, {0, 0, 0});
+        const Vector3<Number> seen[3] = {difference<Number>(corner[0], line.origin),
+                                         difference<Number>(corner[1], line.origin),
+                                         difference<Number>(corner[2], line.origin)};
+        for (int i = 0; i < 3; ++i) volume[i] = determinant(d, seen[(i + 1) % 3], seen[(i + 2) % 3]);
+        height = determinant(seen[0], seen[1], seen[2]);
+        const Number farthest = size(seen[0]) + size(seen[1]) + size(seen[2]);
+        magnitude = size(d) * farthest * farthest;
+    }
+
+    /// Is a volume above `least`, and another below -`least`?
+    [[nodiscard]] bool passes_by(Number least) const {
+        bool above = false, below = false;
+        for (const Number v : volume) {
+            above = above || v > least;
+            below = below || v < -least;
+        }
+        return above && below;
+    }
+};
+
+Vector interpolate(const FaceCorners& corners, const Vec3f* normals, const Vector& weight) {
+    const auto at = [&](int i) { return to_vector(normals[corners.number[i]]); };
+    return at(0) * weight.x + at(1) * weight.y + at(2) * weight.z;
+}
+
+}  // namespace
+
+std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttributes& attributes, const Vec3f* normals,
+                                   const Line& line) {
+    const Vector corner[3] = {to_vector(corners.position[0]), to_vector(corners.position[1]),
+                              to_vector(corners.position[2])};
+    const Crossing<Real> rough(corner, line);
+    if (rough.passes_by(rough.magnitude * 0x1p-58L)) return std::nullopt;
+    const Crossing<Wide> fine(corner, line);
+    const Wide whole = fine.volume[0] + fine.volume[1] + fine.volume[2];
+    if (whole == 0 || fine.passes_by(0)) return std::nullopt;
+    const auto t = static_cast<Real>(fine.height / whole);
+    if (!(t > 0)) return std::nullopt;
+
+    const Vector to_second = corner[1] - corner[0], to_third = corner[2] - corner[0];
+    const Vector own =
+        unit({to_second.y * to_third.z - to_second.z * to_third.y, to_second.z * to_third.x - to_second.x * to_third.z,
+              to_second.x * to_third.y - to_second.y * to_third.x});
+    Vector normal = own;
+    if (attributes.normals != no_attributes) {
+        const auto weight = [&](int i) { return static_cast<Real>(fine.volume[i] / whole); };
+        const Vector sum = interpolate(corners, normals + attributes.normals, {weight(0), weight(1), weight(2)});
+        if (inner(sum, sum) > 0x1p-40L) normal = unit(sum);
+    }
+    if (attributes.double_sided != 0 && inner(own, line.direction) > 0) normal = normal * -1;
+    return SurfaceHit{t, normal};
+}
+
+}  // namespace tandem::oracle

@@ -1,0 +1,224 @@
+// Group B: rays and boxes. The oracle is exact arithmetic on the same floats. Most rays are the kinds of
+// unit/geometry/adversarial_rays.h, here through whole backends.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "hard/corpus/groups.h"
+#include "hard/corpus/lots.h"
+#include "support/exact_geometry.h"
+#include "tandem/error/error.h"
+#include "tandem/scene/prepare.h"
+#include "unit/geometry/adversarial_rays.h"
+
+namespace tandem::hard {
+
+namespace {
+
+using test::any_unit;
+
+constexpr const char* exact = "exact arithmetic";
+const Box unit = {{-1, -1, -1}, {1, 1, 1}};
+
+int kind_named(const std::string& name) {
+    for (int kind = 0; kind < static_cast<int>(std::size(test::box_kinds)); ++kind) {
+        if (name == test::box_kinds[kind]) return kind;
+    }
+    throw std::logic_error("no kind of box is called " + name);
+}
+
+/// The rays of a kind of adversarial_rays.h, sorted by their boxes.
+std::vector<Lot> of_kind(const std::string& name, std::size_t rays) {
+    const int kind = kind_named(name);
+    std::vector<Box> boxes;
+    std::vector<std::vector<Ray<float>>> rays_of;
+    for (std::uint64_t number = 0; number < rays; ++number) {
+        const test::BoxCase c = test::box_case(kind, number);
+        std::size_t at = 0;
+        while (at < boxes.size() && std::memcmp(&boxes[at], &c.box, sizeof(Box)) != 0) ++at;
+        if (at == boxes.size()) {
+            boxes.push_back(c.box);
+            rays_of.emplace_back();
+        }
+        rays_of[at].push_back(c.ray);
+    }
+    std::vector<Lot> lots;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        Random random(i);
+        const double reach = static_cast<double>(norm1(boxes[i].lower) + norm1(boxes[i].upper));
+        std::size_t next = 0;
+        add_lots(lots, random, {}, {boxes[i]}, 64 * reach, rays_of[i].size(), [&] { return rays_of[i][next++]; });
+    }
+    return lots;
+}
+
+std::function<std::vector<Lot>(Random&, std::size_t)> kind(const char* name) {
+    return [name](Random&, std::size_t rays) { return of_kind(name, rays); };
+}
+
+/// The four rays of the literature, along both faces of every axis, with both zeros.
+std::vector<Lot> along_faces(Random&, std::size_t rays) {
+    std::vector<Lot> lots = of_kind("zero direction components", rays);
+    Lot& first = lots.front();
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0F, 1.0F}) {
+            for (const float zero : {0.0F, -0.0F}) {
+                Ray<float> ray = {{0.25F, 0.25F, 0.25F}, {zero, zero, zero}};
+                ray.origin[axis] = side;
+                ray.origin[(axis + 1) % 3] = -3;
+                ray.direction[(axis + 1) % 3] = 1;
+                first.rays.push_back(ray);
+            }
+        }
+    }
+    return lots;
+}
+
+/// Inside, with components of the direction that are zeros of either sign.
+std::vector<Lot> inside_with_zeros(Random& random, std::size_t rays) {
+    std::vector<Lot> lots;
+    add_lots(lots, random, {}, {unit}, 16, rays, [&] {
+        Ray<float> ray = {{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)}, {}};
+        for (int i = 0; i < 3; ++i) ray.direction[i] = random.coin() ? 0.0F : -0.0F;
+        ray.direction[static_cast<int>(random.below(3))] = random.coin() ? 1.0F : -1.0F;
+        return ray;
+    });
+    return lots;
+}
+
+/// Boxes of all shapes, sixteen of them, rays at their faces, edges and corners from all distances.
+std::vector<Lot> last_bits(Random&, std::size_t rays) {
+    std::vector<Lot> lots;
+    const int kind = kind_named("edges, by the last bits");
+    for (std::uint64_t number = 0; number < std::min<std::size_t>(rays, 64); ++number) {
+        const test::BoxCase c = test::box_case(kind, number);
+        lots.push_back({scene_of({}, {c.box}), {c.ray}});
+    }
+    return lots;
+}
+
+/// The axis of the face, where no other comes within 2^-50; exact on edges and corners: the lowest.
+Score face_normals(Random&, std::size_t calls) {
+    using test::big;
+    Score score;
+    for (const char* name : {"corners, exact", "edges, dyadic", "inside and outside", "on a face"}) {
+        for (std::uint64_t number = 0; number < calls / 4; ++number) {
+            const test::BoxCase c = test::box_case(kind_named(name), number);
+            const auto exact_hit =
+                test::hit_box(big(c.ray.origin), big(c.ray.direction), big(c.box.lower), big(c.box.upper));
+            if (!exact_hit || !is_traceable(c.ray)) continue;
+            const auto crossing = cross_box(c.box, c.ray);
+            const Vec3d normal = face_normal<float>(crossing, widen(c.ray.direction));
+            const double along = normal[exact_hit->axis] * static_cast<double>(c.ray.direction[exact_hit->axis]);
+            const bool right = norm1(normal) == 1.0 && (exact_hit->entering ? along < 0 : along > 0);
+            const bool open = !right && test::nearly_tied(big(c.ray.origin), big(c.ray.direction), big(c.box.lower),
+                                                          big(c.box.upper), *exact_hit);
+            score.unjudged += open;
+            score.decide(!right && !open, [&] { return to_literal(c.ray); });
+        }
+    }
+    return score;
+}
+
+/// 32 x 32 boxes that touch; rays at the edges and corners that they share, from before the wall. The lowest id of
+/// those that share the point is right.
+std::vector<Lot> wall(Random& random, std::size_t rays) {
+    std::vector<Box> boxes;
+    for (int y = 0; y < 32; ++y) {
+        for (int x = 0; x < 32; ++x) {
+            const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+            boxes.push_back({{fx, fy, 0}, {fx + 1, fy + 1, 1}});
+        }
+    }
+    Lot lot = {scene_of({}, boxes), {}};
+    lot.rays = make_rays(rays, [&] {
+        const auto grid = [&] { return static_cast<float>(1 + random.below(31)); };
+        const auto place = [&] { return static_cast<float>(random.below(32 * 256)) / 256; };
+        Vec3f target = {grid(), random.coin() ? grid() : place(), 0};
+        if (random.coin()) std::swap(target.x, target.y);
+        const Vec3f origin = {place(), place(), -1 - static_cast<float>(random.below(256)) / 16};
+        return Ray<float>{origin, target - origin};
+    });
+    return {lot};
+}
+
+/// Turned and stretched 1 : 1000 : 1,000,000; judged in the space of the body, through the matrix as it was prepared.
+std::vector<Lot> placed(Random& random, std::size_t rays) {
+    std::vector<Lot> lots;
+    for (int i = 0; i < 8; ++i) {
+        Scene scene = scene_of(shell(random, {0, 0, 0}, 1e4));
+        Node node{.name = "body"};
+        node.trs.translation = any_unit(random) * random.uniform(0.0, 100.0);
+        node.trs.rotation = test::any_turn(random);
+        node.trs.scale = {1e-3, 1, 1e3};
+        node.geometry.push_back(
+            {i % 2 == 0 ? std::variant<SphereShape, BoxShape>(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
+        const Transform world_from_body = to_transform(node.trs);
+        scene.nodes.push_back(node);
+        lots.push_back({scene, make_rays(rays / 8, [&] {
+                            const Vec3d target = transform_point(world_from_body, any_unit(random) * 0.9);
+                            const Vec3d origin = any_unit(random) * random.uniform(0.0, 3000.0);
+                            return Ray<float>{narrow(origin), narrow(target - origin)};
+                        })});
+    }
+    return lots;
+}
+
+/// Boxes inside out, or with numbers that are none, never become primitives.
+Score bad_boxes(Random&, std::size_t) {
+    Score score;
+    const double nan = std::nan(""), infinity = HUGE_VAL;
+    for (const double bad : {-1.0, nan, infinity, -infinity, 2e18}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Scene scene = scene_of({}, {unit});
+            std::get<BoxShape>(scene.nodes[1].geometry[0].shape).size[axis] = bad;
+            bool refused = false;
+            try {
+                (void)prepare(scene);
+            } catch (const InputError& error) {
+                refused = std::string(error.what()).find("primitive 0") != std::string::npos;
+            }
+            score.decide(!refused, fmt::format("a box of size {} along axis {} was taken", bad, axis));
+        }
+    }
+    return score;
+}
+
+}  // namespace
+
+std::vector<HardCase> box_cases() {
+    return {
+        {"B1", "Along a face, direction components of 0 and -0",
+         "0 times infinity is NaN, and what follows hangs on the order of arguments of min and max", exact,
+         RayCase{along_faces}},
+        {"B2", "From inside, direction components of 0 and -0", "b inv - o inv is infinity less infinity", exact,
+         RayCase{inside_with_zeros}},
+        {"B3", "Subnormal direction components", "their reciprocal is infinite", exact,
+         RayCase{kind("subnormal direction components")}},
+        {"B4", "Corners, hit exactly", "a strict comparison loses three rays of four", exact,
+         RayCase{kind("corners, exact")}},
+        {"B5", "Edges, hit exactly", "a reciprocal rounds, and one ray in twenty is lost", exact,
+         RayCase{kind("edges, dyadic")}},
+        {"B6", "Edges, within 1e-6", "rounding in float decides", exact, RayCase{kind("edges, close")}},
+        {"B7", "Boxes of no thickness, and of one ulp", "a strict comparison loses them", exact,
+         RayCase{kind("flat and thin")}},
+        {"B8", "From inside a box of 1e-3 at 1000", "b inv - o inv cancels", exact, RayCase{kind("small and far out")}},
+        {"B9", "From up to 10^6 away", "the rounding of the origin's distance is as large as the box's edges", exact,
+         RayCase{kind("from far away")}},
+        {"B10", "The face at edges and corners", "the largest component of the point is noise there", exact,
+         FunctionCase{face_normals}},
+        {"B11", "From a face: out, along, in", "the face is hit again at t near 0", exact, RayCase{kind("on a face")}},
+        {"B12", "A wall of 32 x 32 touching boxes, at shared edges",
+         "each box misses by its own rounding, and light leaks; the id is random",
+         "exact arithmetic; the lowest id of equal t", RayCase{wall, true}},
+        {"B13", "Turned and stretched 1 : 10^3 : 10^6", "the inverse matrix and the place round in float",
+         "exact arithmetic in the body's space", RayCase{placed}},
+        {"B14", "Boxes inside out, or not finite", "always hit, or never, at random", "rule: refused at load",
+         FunctionCase{bad_boxes}},
+        {"B15", "Edges that lines pass within 2^-70", "quotients that differ round to the same double", exact,
+         RayCase{last_bits}},
+    };
+}
+
+}  // namespace tandem::hard

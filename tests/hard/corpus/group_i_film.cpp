@@ -1,0 +1,141 @@
+// Group I: sums over many samples. There is no variance, no resuming and no filter yet, so I4, I8 and I10 have nothing
+// to try; orders of summation (I5, I6) are those of group L.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "hard/corpus/groups.h"
+#include "hard/corpus/lots.h"
+#include "hard/corpus/pictures.h"
+#include "tandem/integrator/pixel_job.h"
+#include "tandem/light/environment.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem::hard {
+
+namespace {
+
+/// Samples of the one pixel: the number of rays times 200, a million in the tests.
+RenderJob long_sum(const Subject& subject, std::size_t rays) {
+    const std::size_t most = std::size_t{1} << 24;
+    return {.width = 1,
+            .height = 1,
+            .samples = static_cast<int>(std::min(most, 200 * rays)),
+            .seed = 3,
+            .frame = 0,
+            .tier = subject.tier};
+}
+
+void measure_mean(Score& score, double sum, long double right) {
+    const double error = static_cast<double>(std::abs(sum - right) / right);
+    const auto line = [&] { return fmt::format("a sum of {} in place of {}", sum, static_cast<double>(right)); };
+    score.decide(!(error <= 1e-6), line);
+    score.measure(error * 0x1p24, line);
+}
+
+Scene sky(const Vec3f& bottom, const Vec3f& top) {
+    Scene scene = scene_of({});
+    scene.environment = {bottom, top, {1, 1, 1}};
+    return scene;
+}
+
+Score tenths(const Subject& subject, Random&, std::size_t rays) {
+    Score score;
+    const RenderJob job = long_sum(subject, rays);
+    const Film film = picture_of(subject.backend, prepare(sky({0.1F, 0, 0}, {0.1F, 0, 0})), job, score);
+    measure_mean(score, film.sums()[0].x, static_cast<long double>(0.1F) * job.samples);
+    return score;
+}
+
+/// A sky from 0 to 1: the same samples added in extended precision.
+Score uniform(const Subject& subject, Random&, std::size_t rays) {
+    Score score;
+    const RenderJob job = long_sum(subject, rays);
+    const PreparedScene scene = prepare(sky({0, 0, 0}, {1, 1, 1}));
+    const Film film = picture_of(subject.backend, scene, job, score);
+    const PixelJob pixel = make_pixel_job(scene, job);
+    long double right = 0;
+    for (std::uint32_t sample = 0; sample < pixel.samples; ++sample) {
+        const auto random = random_block<float>(pixel.seed, pixel.frame, 0, sample, Dimension::film);
+        const Ray<float> ray = camera_ray<float>(pixel.camera, 0, 0, to_unit_interval<float>(random.word[0]),
+                                                 to_unit_interval<float>(random.word[1]));
+        right += background(scene.environment, ray.direction).x;
+    }
+    measure_mean(score, film.sums()[0].x, right);
+    return score;
+}
+
+/// A disc of radiance `bright` that fills about 1e-4 of the pixel before a sky of 1, both exact in float.
+Scene firefly(float bright) {
+    Scene scene = scene_of({{{0, 0, -100}, 0.475F}});
+    scene.materials[0].phong = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 1};
+    scene.environment = {{1, 1, 1}, {1, 1, 1}, {bright, bright, bright}};
+    return scene;
+}
+
+/// The sum of n samples, k of them 10^4 and the others 1, is a whole number with remainder n modulo 9999.
+Score fireflies(const Subject& subject, Random&, std::size_t rays) {
+    Score score;
+    const RenderJob job = long_sum(subject, rays);
+    const double sum = picture_of(subject.backend, prepare(firefly(1e4F)), job, score).sums()[0].x;
+    const double bright = (sum - job.samples) / 9999;
+    const double share = bright / job.samples;
+    score.decide(!(bright == std::floor(bright) && share > 0.5e-4 && share < 2e-4),
+                 fmt::format("{} samples sum to {}", job.samples, sum));
+    return score;
+}
+
+/// The same with 10^30: finite, and none is dropped.
+Score enormous_fireflies(const Subject& subject, Random&, std::size_t rays) {
+    Score score;
+    const RenderJob job = long_sum(subject, rays);
+    const double bright = double{1e30F};
+    const double sum = picture_of(subject.backend, prepare(firefly(1e30F)), job, score).sums()[0].x;
+    const double share = sum / bright / job.samples;
+    score.decide(!(share > 0.5e-4 && share < 2e-4), fmt::format("{} samples sum to {}", job.samples, sum));
+    return score;
+}
+
+/// A light too bright for float: every sample that meets the sphere is infinite or NaN, is dropped, and is counted; the
+/// sky around it stays as it is.
+Score not_finite(const Subject& subject, Random&, std::size_t) {
+    Scene scene = scene_of({{{0, 0, -5}, 1}});
+    Node lamp{.name = "lamp", .light = PointLightSource{{3e38F, 3e38F, 3e38F}, 3e38F}};
+    scene.nodes.push_back(lamp);
+    const PreparedScene prepared = prepare(scene);
+    const PreparedScene empty = prepare(scene_of({}));
+    RenderJob job = small_picture(subject);
+    const auto resident = subject.backend.load(prepared, subject.tier);
+    RenderResult with = subject.backend.render(resident, job);
+    Score score;
+    const Film without = picture_of(subject.backend, empty, job, score);
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < without.pixel_count(); ++i) {
+        const Vec3d& sum = with.film.sums()[i];
+        const bool finite = std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+        score.decide(!finite || sum.x > without.sums()[i].x, [&] { return fmt::format("pixel {} is {}", i, sum.x); });
+        lost += sum.x < without.sums()[i].x;
+    }
+    const std::uint64_t counted = with.stats.counters.invalid_samples;
+    score.decide(!(counted >= lost && lost > 0), fmt::format("{} pixels lost samples, {} were counted", lost, counted));
+    return score;
+}
+
+}  // namespace
+
+std::vector<HardCase> film_cases() {
+    return {
+        {"I1", "A million samples of 0.1", "a float sum is off by 1 %, at 10^8 by 79 %", "closed form",
+         RenderCase{tenths}},
+        {"I2", "A million samples between 0 and 1", "a float sum stays at 2^24",
+         "the same samples in extended precision", RenderCase{uniform}},
+        {"I3", "Samples of 10^4, one in 10^4", "a running mean is off by 128 %", "whole numbers",
+         RenderCase{fireflies}},
+        {"I7", "Infinite and NaN samples", "one of them is the pixel's value for ever", "rule: dropped and counted",
+         RenderCase{not_finite}},
+        {"I9", "Samples of 10^30", "they overflow, or are dropped", "rule: finite, kept",
+         RenderCase{enormous_fireflies}},
+    };
+}
+
+}  // namespace tandem::hard

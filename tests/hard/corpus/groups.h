@@ -1,0 +1,19 @@
+/// The groups of the corpus, a file each. To add a group: a function here, a file, a line in corpus().
+#pragma once
+
+#include "hard/corpus/hard_case.h"
+
+namespace tandem::hard {
+
+[[nodiscard]] std::vector<HardCase> sphere_cases();     // A
+[[nodiscard]] std::vector<HardCase> box_cases();        // B
+[[nodiscard]] std::vector<HardCase> face_cases();       // C
+[[nodiscard]] std::vector<HardCase> structure_cases();  // D
+[[nodiscard]] std::vector<HardCase> shading_cases();    // G
+[[nodiscard]] std::vector<HardCase> camera_cases();     // H
+[[nodiscard]] std::vector<HardCase> film_cases();       // I
+[[nodiscard]] std::vector<HardCase> transform_cases();  // J
+[[nodiscard]] std::vector<HardCase> input_cases();      // K
+[[nodiscard]] std::vector<HardCase> parity_cases();     // L
+
+}  // namespace tandem::hard

@@ -1,0 +1,39 @@
+/// Scenes of single bodies, and lots of rays against them.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "hard/corpus/hard_case.h"
+#include "support/aim.h"
+#include "tandem/geometry/box.h"
+
+namespace tandem::hard {
+
+/// Bodies whose prepared form is exactly these: the spheres first, then the boxes; numbers are their ids. With a camera
+/// at the origin and one material. Throws std::logic_error for a box whose middle and size are no doubles.
+[[nodiscard]] Scene scene_of(const std::vector<Sphere>& spheres, const std::vector<Box>& boxes = {});
+
+/// `count` small spheres on a shell around `centre`, so that a structure is built and its bounds are tried: a scene of
+/// one primitive has no bounds to go wrong (D10).
+[[nodiscard]] std::vector<Sphere> shell(Random& random, const Vec3d& centre, double radius, int count = 64);
+
+template <class Make>
+std::vector<Ray<float>> make_rays(std::size_t count, Make make) {
+    std::vector<Ray<float>> rays;
+    rays.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) rays.push_back(make());
+    return rays;
+}
+
+/// Two lots: the bodies alone, and within a shell. `make` makes a ray.
+template <class Make>
+void add_lots(std::vector<Lot>& lots, Random& random, std::vector<Sphere> spheres, const std::vector<Box>& boxes,
+              double shell_radius, std::size_t rays, Make make) {
+    lots.push_back({scene_of(spheres, boxes), make_rays(rays / 2, make)});
+    const std::vector<Sphere> around = shell(random, {0, 0, 0}, shell_radius);
+    spheres.insert(spheres.end(), around.begin(), around.end());
+    lots.push_back({scene_of(spheres, boxes), make_rays(rays - rays / 2, make)});
+}
+
+}  // namespace tandem::hard

@@ -1,0 +1,108 @@
+// Every hard case on every backend and tier, against the marks of lib/accuracy.
+// Hard/HardCase.HoldsItsMark/A1_cpu_strict is one of them.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "hard/corpus/hard_case.h"
+#include "tandem/accuracy/marks.h"
+
+namespace tandem::hard {
+namespace {
+
+constexpr std::size_t rays_per_case = 5000;
+
+constexpr Tier tiers[] = {
+#define TANDEM_TIER(name, promise) Tier::name,
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+};
+
+struct Trial {
+    const HardCase* hard_case;
+    std::string backend;  ///< "host" for functions
+    Tier tier;
+};
+
+std::vector<Trial> all_trials() {
+    std::vector<Trial> trials;
+    for (const HardCase& hard_case : corpus()) {
+        for (const Tier tier : tiers) {
+            if (find_mark(hard_case.id, tier) == nullptr) continue;
+            for (const char* backend : {"cpu", "cuda"}) {
+                if (!hard_case.on_host()) trials.push_back({&hard_case, backend, tier});
+            }
+            if (hard_case.on_host()) trials.push_back({&hard_case, "host", tier});
+        }
+    }
+    return trials;
+}
+
+std::string name_of(const Trial& trial) {
+    return trial.hard_case->id + "_" + trial.backend + "_" + to_string(trial.tier);
+}
+
+void PrintTo(const Trial& trial, std::ostream* out) { *out << trial.hard_case->title; }
+
+class HardCase : public testing::TestWithParam<Trial> {};
+
+TEST_P(HardCase, HoldsItsMark) {
+    const auto& [hard_case, backend_name, tier] = GetParam();
+    Score score;
+    if (hard_case->on_host()) {
+        score = try_functions(*hard_case, tier, rays_per_case);
+    } else {
+        const std::string reason = why_unavailable(backend_name);
+        if (!reason.empty()) GTEST_SKIP() << backend_name << ": " << reason;
+        const auto backend = make_backend(backend_name);
+        const auto another = [name = backend_name](const BackendOptions& options) {
+            return make_backend(name, options);
+        };
+        score = hard_case->has_rays()
+                    ? try_rays(*hard_case, answered_lots(*hard_case, rays_per_case), *backend, tier)
+                    : try_pictures(*hard_case, {backend_name, tier, *backend, another}, rays_per_case);
+    }
+    const Mark& mark = *find_mark(hard_case->id, tier);
+    const auto tried = static_cast<double>(score.tried);
+    EXPECT_GT(score.tried, 0U);
+    EXPECT_LE(score.unjudged, score.tried / 10) << "the generator has lost its aim";
+    EXPECT_LE(static_cast<double>(score.wrong), mark.wrong * tried)
+        << hard_case->title << "; of " << score.tried << "; the first: " << score.first_failure;
+    EXPECT_LE(static_cast<double>(score.leaks), mark.leaks * tried) << score.first_failure;
+    EXPECT_LE(score.worst_ulps(), mark.ulps) << score.worst_description();
+    EXPECT_EQ(score.nans, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hard, HardCase, testing::ValuesIn(all_trials()),
+                         [](const testing::TestParamInfo<Trial>& info) { return name_of(info.param); });
+
+TEST(Corpus, NamesEachCaseOnceAndHasMarksForAll) {
+    std::set<std::string> ids;
+    for (const auto& hard_case : corpus()) {
+        EXPECT_TRUE(ids.insert(hard_case.id).second) << hard_case.id;
+        EXPECT_NE(find_mark(hard_case.id, Tier::strict), nullptr) << hard_case.id << " has no mark";
+        for (const std::string& text : {hard_case.title, hard_case.why, hard_case.oracle}) {
+            EXPECT_FALSE(text.empty()) << hard_case.id;
+        }
+    }
+    for (const Mark& mark : marks()) EXPECT_TRUE(ids.contains(std::string(mark.case_id))) << mark.case_id;
+    EXPECT_GE(ids.size(), 70U);
+}
+
+TEST(Corpus, MakesTheSameRaysEveryTime) {
+    for (const char* id : {"A4", "B12", "D2"}) {
+        const auto& hard_case = *select_cases({id}).front();
+        const auto first = answered_lots(hard_case, 200), second = answered_lots(hard_case, 200);
+        ASSERT_EQ(first.size(), second.size());
+        for (std::size_t lot = 0; lot < first.size(); ++lot) {
+            EXPECT_EQ(scene_hash(first[lot].prepared), scene_hash(second[lot].prepared));
+            ASSERT_EQ(first[lot].rays.size(), second[lot].rays.size());
+            for (std::size_t i = 0; i < first[lot].rays.size(); ++i) {
+                EXPECT_EQ(to_literal(first[lot].rays[i]), to_literal(second[lot].rays[i]));
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tandem::hard

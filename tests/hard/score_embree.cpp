@@ -1,0 +1,83 @@
+// How another renderer answers to the corpus, for real: Embree's own spheres. Reads an exported folder and writes
+// answers.
+//
+//   tandem-bench hard --export DIR
+//   score_embree DIR DIR/answers
+//   tandem-bench hard --check DIR/answers
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/run_main.h"
+#include "embree_native.h"
+#include "hard/corpus/exchange.h"
+#include "hard/corpus/npy.h"
+#include "tandem/gltf/import.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Embree as Debian packages it ends the process for other rays: it asserts |origin| and |direction| up to 1.844e18.
+bool embree_takes(const Ray<float>& ray) { return is_traceable(ray); }
+
+/// False if the scene holds what Embree has no geometry for.
+bool answer_lot(const fs::path& folder, const fs::path& answers, const std::string& name, std::size_t count) {
+    const PreparedScene scene = prepare(import_gltf(folder / (name + ".gltf")).scene, {.origin = Vec3d{0, 0, 0}});
+    if (scene.spheres.size() != primitive_count(scene)) return false;
+    const std::vector<Ray<float>> rays = hard::read_rays(folder.string(), name, count);
+    std::vector<Ray<float>> taken;
+    for (const Ray<float>& ray : rays) {
+        if (embree_takes(ray)) taken.push_back(ray);
+    }
+    std::vector<Hit> hits(taken.size());
+    bench::EmbreeNative embree(scene.spheres, 0);
+    embree.trace(taken, hits);
+    std::vector<std::int32_t> ids;
+    std::vector<float> t;
+    std::size_t next = 0;
+    for (const Ray<float>& ray : rays) {
+        const bool is_taken = embree_takes(ray);
+        const Hit hit = is_taken ? hits[next++] : Hit{};
+        ids.push_back(!is_taken                       ? hard::refused_id
+                      : hit.primitive == no_primitive ? hard::miss_id
+                                                      : static_cast<std::int32_t>(hit.primitive));
+        t.push_back(hit.t);
+    }
+    hard::write_npy((answers / (name + ".id.npy")).string(), ids);
+    hard::write_npy((answers / (name + ".t.npy")).string(), t);
+    return true;
+}
+
+int run(int count, char** words) {
+    if (count != 3) throw InputError("usage: score_embree DIR ANSWERS");
+    const fs::path folder(words[1]), answers(words[2]);
+    fs::create_directories(answers);
+    std::ifstream file(folder / "manifest.json");
+    if (!file)
+        throw InputError(fmt::format("{}: no manifest.json here; tandem-bench hard --export writes one", words[1]));
+    const nlohmann::json manifest = nlohmann::json::parse(file);
+    for (const auto& hard_case : manifest.at("cases")) {
+        std::size_t skipped = 0;
+        for (const auto& lot : hard_case.at("lots")) {
+            skipped += !answer_lot(folder, answers, lot.at("name"), lot.at("rays"));
+        }
+        if (skipped > 0) {
+            fmt::print("{}: {} scenes are not of spheres alone\n", hard_case.at("id").get<std::string>(), skipped);
+        }
+    }
+    fmt::print("{} answered\n", bench::EmbreeNative::version());
+    return exit_done;
+}
+
+}  // namespace
+}  // namespace tandem
+
+int main(int count, char** words) {
+    return tandem::run_main("score_embree", [&] { return tandem::run(count, words); });
+}
