@@ -21,9 +21,10 @@ Json camera_of(const Camera& camera) {
             {"orthographic", {{"xmag", ymag}, {"ymag", ymag}, {"znear", 0.0}, {"zfar", 1.0}}}};
 }
 
-Json shape_of(const std::variant<SphereShape, BoxShape>& shape) {
+Json shape_of(const Shape& shape) {
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) return {{"sphere", {{"radius", sphere->radius}}}};
-    return {{"box", {{"size", array(std::get<BoxShape>(shape).size)}}}};
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return {{"box", {{"size", array(box->size)}}}};
+    throw std::logic_error("to_gltf() writes no meshes");
 }
 
 void place(Json& json, const Node& node) {

@@ -28,13 +28,13 @@ Placement any_placement(Random& random, bool is_box) {
     scene.materials.emplace_back();
     Node body;
     body.matrix = Transform{turn() * scale * turn(), test::any_unit(random) * random.uniform(0.0, 1000.0)};
-    body.geometry.push_back(
-        {is_box ? std::variant<SphereShape, BoxShape>(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
+    body.geometry.push_back({is_box ? Shape(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
     Node eye;
     eye.camera = PerspectiveCamera{};
     scene.nodes = {body, eye};
     const PreparedScene prepared = prepare(scene);
-    return is_box ? prepared.parallelepipeds.at(0) : prepared.ellipsoids.at(0);
+    if (is_box) return prepared.parallelepipeds.at(0);
+    return prepared.ellipsoids.at(0);
 }
 
 /// A ray at a point of the body or beside it, from up to 2^10 sizes away or from inside.
