@@ -199,8 +199,8 @@ TEST_P(ClosestHit, GivesTiesBetweenFacesToTheLowestId) {
         }
     }
     std::vector<Hit> hits(rays.size()), reference(rays.size());
-    const auto oracle = make_backend("oracle");
     backend_->trace(*load(prepared), rays, hits);
+    const auto oracle = make_backend("oracle");
     oracle->trace(*oracle->load(prepared), rays, reference);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i << " " << rays[i].direction.x;
@@ -220,8 +220,8 @@ TEST_P(ClosestHit, IsNeverLostThroughAMesh) {
         }
     }
     std::vector<Hit> hits(rays.size()), reference(rays.size());
-    const auto oracle = make_backend("oracle");
     backend_->trace(*load(scene), rays, hits);
+    const auto oracle = make_backend("oracle");
     oracle->trace(*oracle->load(scene), rays, reference);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_NE(hits[i].primitive, no_primitive) << "ray " << i;
