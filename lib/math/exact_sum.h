@@ -6,6 +6,7 @@
 /// Source: U. Kulisch, "Very fast and exact accumulation of products", Computing 91, 2011.
 #pragma once
 
+#include <initializer_list>
 #include <limits>
 
 #include "tandem/math/vec.h"
