@@ -122,7 +122,8 @@ std::size_t export_cases(const std::vector<const HardCase*>& cases, std::size_t 
         if (!hard_case->has_rays()) continue;
         Json lots = Json::array();
         const std::vector<AnsweredLot> answered = answered_lots(*hard_case, rays);
-        if (!std::all_of(answered.begin(), answered.end(), [](const auto& lot) { return fits_gltf(lot.scene); })) continue;
+        if (!std::all_of(answered.begin(), answered.end(), [](const auto& lot) { return fits_gltf(lot.scene); }))
+            continue;
         for (const AnsweredLot& lot : answered) {
             const std::string name = fmt::format("{}-{}", hard_case->id, lots.size());
             write_lot(lot, root, name);
