@@ -206,8 +206,7 @@ class Trials {
 
 bool run_export(const HardOptions& options, Report& report) {
     const auto cases = hard::select_cases(options.cases);
-    hard::export_cases(cases, options.rays, options.export_folder);
-    const auto count = std::count_if(cases.begin(), cases.end(), [](const HardCase* c) { return c->has_rays(); });
+    const std::size_t count = hard::export_cases(cases, options.rays, options.export_folder);
     report.summary = "Scenes, rays and right answers for another renderer.";
     report.blocks.emplace_back(Callout{
         Callout::Kind::good, fmt::format("{} cases are in {}. Write the answers to {}/answers, then run "

@@ -19,7 +19,7 @@ constexpr std::uint32_t place_stream = 31, turn_stream = 32, scale_stream = 33, 
 
 struct Kind {
     const char* name;
-    std::variant<SphereShape, BoxShape> shape;
+    Shape shape;
     bool scaled;  ///< unevenly
     bool turned;
 };

@@ -6,6 +6,7 @@
 /// Source: U. Kulisch, "Very fast and exact accumulation of products", Computing 91, 2011.
 #pragma once
 
+#include <initializer_list>
 #include <limits>
 
 #include "tandem/math/vec.h"
@@ -24,12 +25,17 @@ class ExactSum {
   public:
     /// Adds a * b * c, or takes it away.
     TANDEM_HD void add(const T& a, const T& b, const T& c, bool take_away = false) {
-        const Decoded x = decode(a), y = decode(b), z = decode(c);
+        const Decoded factors[3] = {decode(a), decode(b), decode(c)};
         std::uint32_t product[3 * limbs] = {1};
         int used = 1;
-        for (const Decoded* factor : {&x, &y, &z}) used = multiply(product, used, *factor);
-        add_shifted(product, used, x.shift + y.shift + z.shift,
-                    (x.negative != y.negative) != (z.negative != take_away));
+        int shift = 0;
+        bool negative = take_away;
+        for (const Decoded& factor : factors) {
+            used = multiply(product, used, factor);
+            shift += factor.shift;
+            negative = negative != factor.negative;
+        }
+        add_shifted(product, used, shift, negative);
     }
 
     /// -1, 0 or 1.

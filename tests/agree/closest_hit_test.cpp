@@ -7,6 +7,8 @@
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "tandem/oracle/oracle.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {
@@ -197,8 +199,9 @@ TEST_P(ClosestHit, GivesTiesBetweenFacesToTheLowestId) {
         }
     }
     std::vector<Hit> hits(rays.size()), reference(rays.size());
-    trace(*backend_, prepared, rays, hits);
-    trace(*make_backend("oracle"), prepared, rays, reference);
+    backend_->trace(*load(prepared), rays, hits);
+    const auto oracle = make_backend("oracle");
+    oracle->trace(*oracle->load(prepared), rays, reference);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i << " " << rays[i].direction.x;
         ASSERT_EQ(bits_of(hits[i].t), bits_of(reference[i].t)) << "ray " << i;
@@ -217,8 +220,9 @@ TEST_P(ClosestHit, IsNeverLostThroughAMesh) {
         }
     }
     std::vector<Hit> hits(rays.size()), reference(rays.size());
-    trace(*backend_, scene, rays, hits);
-    trace(*make_backend("oracle"), scene, rays, reference);
+    backend_->trace(*load(scene), rays, hits);
+    const auto oracle = make_backend("oracle");
+    oracle->trace(*oracle->load(scene), rays, reference);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         ASSERT_NE(hits[i].primitive, no_primitive) << "ray " << i;
         ASSERT_EQ(hits[i].primitive, reference[i].primitive) << "ray " << i;

@@ -37,7 +37,8 @@ class Fast : public test::ExactBackend {
 };
 
 TEST_P(Fast, IsNearStrictInScenesThatFloatCanHold) {
-    for (const char* name : {"paper", "spheres/500", "boxes/200", "mixed/300"}) {
+    for (const char* name :
+         {"paper", "spheres/500", "boxes/200", "mixed/300", "triangles/300", "quads/50", "icosphere/3"}) {
         const PreparedScene scene = prepare(named_scene(name));
         const RenderResult fast = draw(scene, Tier::fast);
         const FilmDifference difference = compare(fast.film, draw(scene, Tier::strict).film);

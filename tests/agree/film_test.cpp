@@ -37,7 +37,8 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
     BackendOptions least;
     least.instruction_set = "x86-64-v2";
     least.threads = 1;
-    for (const char* name : {"paper", "spheres/7", "mixed/64", "mixed/500", "boxes/100"}) {
+    for (const char* name :
+         {"paper", "spheres/7", "mixed/64", "mixed/500", "boxes/100", "triangles/300", "quads/9", "icosphere/3"}) {
         const PreparedScene scene = prepare(named_scene(name), {.frame = 11, .camera = ""});
         const Film expected = render_with("cpu", least, scene, job());
         const RenderResult result = backend_->render(load(scene), job());
@@ -80,7 +81,7 @@ TEST_P(FilmBits, ChangeWithSeedAndFrame) {
 }
 
 TEST_P(FilmBits, AreNearTheOracle) {
-    for (const char* name : {"paper", "mixed/64"}) {
+    for (const char* name : {"paper", "mixed/64", "triangles/60", "quads/60", "icosphere/1"}) {
         const PreparedScene scene = prepare(named_scene(name));
         const Film film = backend_->render(load(scene), job()).film;
         const Film oracle = render_with("oracle", {}, scene, job());

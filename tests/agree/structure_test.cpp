@@ -190,6 +190,8 @@ TEST(FewTracer, GivesTheBitsOfTheLoop) {
     }
     EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("spheres/9")))));
     EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("mixed/4")))));
+    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("triangles/1")))));
+    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("quads/1")))));
 }
 
 TEST(BvhDefects, AreFound) {

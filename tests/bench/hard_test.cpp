@@ -56,15 +56,15 @@ TEST(Hard, UnknownNamesAreRefused) {
             (void)run_hard(options, loop_source(), report);
         });
     };
-    EXPECT_TRUE(test::contains(refused([](auto& o) { o.cases = {"Q7"}; }), "no hard case is named 'Q7'"));
-    EXPECT_TRUE(test::contains(refused([](auto& o) { o.tiers = {"sloppy"}; }), "sloppy"));
-    EXPECT_TRUE(test::contains(refused([](auto& o) { o.export_folder = o.answers = "x"; }), "one at a time"));
+    EXPECT_TRUE(test::contains(refused([](auto& o) { o.cases = {std::string("Q7")}; }), "no hard case is named 'Q7'"));
+    EXPECT_TRUE(test::contains(refused([](auto& o) { o.tiers = {std::string("sloppy")}; }), "sloppy"));
+    EXPECT_TRUE(test::contains(refused([](auto& o) { o.export_folder = o.answers = std::string("x"); }), "one at a time"));
     EXPECT_TRUE(test::contains(refused([](auto& o) {
                                    o.cases = {"L1"};
                                    o.tiers = {"fast"};
                                }),
                                "none of these cases"));
-    EXPECT_TRUE(test::contains(refused([](auto& o) { o.answers = "/nowhere/answers"; }), "manifest.json"));
+    EXPECT_TRUE(test::contains(refused([](auto& o) { o.answers = std::string("/nowhere/answers"); }), "manifest.json"));
 }
 
 TEST(Hard, ExportsForOthers) {

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "gltf/files.h"
+#include "tandem/render/backend.h"
+#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {
@@ -43,7 +45,7 @@ TEST(RealFiles, BesideTheCheckout) {
     const auto box = import_gltf(*folder / "CornellBox.glb");
     EXPECT_EQ(box.scene.nodes.size(), 4U);
     EXPECT_EQ(box.scene.materials.size(), 5U);
-    EXPECT_TRUE(contains(test::sentences(box.report), "ignored: triangle mesh at meshes[0].primitives[0] (6 uses)"));
+    EXPECT_TRUE(contains(test::sentences(box.report), "rendered: triangle mesh at meshes[0].primitives[0] (6 uses)"));
     const auto helmet = import_gltf(*folder / "FlightHelmet/FlightHelmet.gltf");
     EXPECT_EQ(helmet.scene.nodes.size(), 6U);
     EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[0] (15 uses)"));
@@ -51,6 +53,53 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_EQ(fox.scene.nodes.size(), 26U);
     EXPECT_EQ(fox.scene.animation.size(), 21U);
     EXPECT_TRUE(contains(test::sentences(fox.report), "ignored: further animation at animations[1] (2 uses)"));
+}
+
+/// `scene` seen from `eye` towards -z, with a light there.
+PreparedScene seen_from(Scene scene, const Vec3d& eye) {
+    Node node;
+    node.trs.translation = eye;
+    node.camera = PerspectiveCamera{0.8};
+    node.light = PointLightSource{};
+    scene.nodes.push_back(node);
+    return prepare(scene);
+}
+
+RenderResult draw(const std::string& backend, const PreparedScene& scene) {
+    RenderJob job;
+    job.width = 80;
+    job.height = 60;
+    job.samples = 1;
+    const auto renderer = make_backend(backend);
+    return renderer->render(renderer->load(scene, job.tier), job);
+}
+
+TEST(RealFiles, AreDrawn) {
+    const auto folder = shared_files();
+    if (!folder) GTEST_SKIP() << "no folder shared/gltf beside the checkout, and TANDEM_SHARED does not name one";
+    const struct {
+        const char* file;
+        Vec3d eye;
+        std::size_t triangles, least_pixels;
+    } cases[] = {{"CornellBox.glb", {-278, 273, 800}, 36, 2000},
+                 {"FlightHelmet/FlightHelmet.gltf", {0, 0.35, 1.2}, 94722, 800},
+                 {"Fox.glb", {0, 40, 200}, 576, 100}};
+    for (const auto& c : cases) {
+        const PreparedScene scene = seen_from(import_gltf(*folder / c.file).scene, c.eye);
+        EXPECT_EQ(scene.triangles.size(), c.triangles) << c.file;
+        EXPECT_EQ(scene.dropped_primitives, 0U) << c.file;
+        const RenderResult result = draw("cpu", scene);
+        EXPECT_EQ(result.stats.counters.invalid_samples, 0U) << c.file;
+        std::size_t drawn = 0;  // the background is bluer than it is red; the materials here are grey, red and green
+        for (const Vec3d& sum : result.film.sums()) drawn += sum.z <= sum.x || sum.z < sum.y;
+        EXPECT_GE(drawn, c.least_pixels) << c.file;
+        if (c.triangles > 100) continue;  // for brute force
+        const RenderResult expected = draw("oracle", scene);
+        for (std::size_t i = 0; i < result.film.pixel_count(); ++i) {
+            const Vec3d difference = result.film.sums()[i] - expected.film.sums()[i];
+            ASSERT_LE(norm1(difference), 1e-5) << c.file << ", pixel " << i;
+        }
+    }
 }
 
 TEST(RealFiles, AssimpsTestModels) {

@@ -30,7 +30,7 @@ void answer_rightly(const test::TemporaryFolder& folder) {
 }
 
 void export_to(const test::TemporaryFolder& folder, const std::vector<std::string>& ids, std::size_t rays = 40) {
-    export_cases(select_cases(ids), rays, folder.file(""));
+    (void)export_cases(select_cases(ids), rays, folder.file(""));
 }
 
 TEST(Exchange, ScenesReadBackAsTheSameBits) {
@@ -38,7 +38,8 @@ TEST(Exchange, ScenesReadBackAsTheSameBits) {
     std::size_t scenes = 0;
     for (const HardCase* hard_case : select_cases({})) {
         if (!hard_case->has_rays() || hard_case->id == "K11" || hard_case->id == "D9") continue;  // large, and alike
-        for (const AnsweredLot& lot : answered_lots(*hard_case, 24)) {
+        for (const AnsweredLot& lot : answered_lots(*hard_case, 48)) {
+            if (!fits_gltf(lot.scene)) continue;
             write_file(folder.file("scene.gltf"), std::string_view(to_gltf(lot.scene)), Durability::written);
             const PreparedScene read = prepare(import_gltf(folder.file("scene.gltf")).scene, {.origin = Vec3d{0, 0, 0}});
             ASSERT_EQ(scene_hash(read), scene_hash(lot.prepared)) << hard_case->id;

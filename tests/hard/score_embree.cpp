@@ -1,15 +1,17 @@
-// How another renderer answers to the corpus, for real: Embree's own spheres. Reads an exported folder and writes
-// answers.
+// How another renderer answers to the corpus, for real: Embree's own spheres and triangles. Reads an exported folder
+// and writes answers.
 //
 //   tandem-bench hard --export DIR
-//   score_embree DIR DIR/answers
-//   tandem-bench hard --check DIR/answers
+//   score_embree DIR DIR/plain
+//   score_embree DIR DIR/robust robust      # with RTC_SCENE_FLAG_ROBUST
+//   tandem-bench hard --check DIR/plain
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "common/run_main.h"
 #include "embree_native.h"
@@ -26,18 +28,28 @@ namespace fs = std::filesystem;
 /// Embree as Debian packages it ends the process for other rays: it asserts |origin| and |direction| up to 1.844e18.
 bool embree_takes(const Ray<float>& ray) { return is_traceable(ray); }
 
+/// The hits of Embree's own geometry; false if it has none for some primitive of the scene.
+bool trace_natively(const PreparedScene& scene, bench::EmbreeFlags flags, const std::vector<Ray<float>>& rays,
+                    std::vector<Hit>& hits) {
+    const auto trace = [&](const auto& primitives) {
+        if (primitives.size() != primitive_count(scene)) return false;
+        bench::EmbreeNative(primitives, 0, flags).trace(rays, hits);
+        return true;
+    };
+    return trace(std::span(scene.spheres)) || trace(std::span(scene.triangles));
+}
+
 /// False if the scene holds what Embree has no geometry for.
-bool answer_lot(const fs::path& folder, const fs::path& answers, const std::string& name, std::size_t count) {
+bool answer_lot(const fs::path& folder, const fs::path& answers, bench::EmbreeFlags flags, const std::string& name,
+                std::size_t count) {
     const PreparedScene scene = prepare(import_gltf(folder / (name + ".gltf")).scene, {.origin = Vec3d{0, 0, 0}});
-    if (scene.spheres.size() != primitive_count(scene)) return false;
     const std::vector<Ray<float>> rays = hard::read_rays(folder.string(), name, count);
     std::vector<Ray<float>> taken;
     for (const Ray<float>& ray : rays) {
         if (embree_takes(ray)) taken.push_back(ray);
     }
     std::vector<Hit> hits(taken.size());
-    bench::EmbreeNative embree(scene.spheres, 0);
-    embree.trace(taken, hits);
+    if (!trace_natively(scene, flags, taken, hits)) return false;
     std::vector<std::int32_t> ids;
     std::vector<float> t;
     std::size_t next = 0;
@@ -55,7 +67,9 @@ bool answer_lot(const fs::path& folder, const fs::path& answers, const std::stri
 }
 
 int run(int count, char** words) {
-    if (count != 3) throw InputError("usage: score_embree DIR ANSWERS");
+    const bool robust = count == 4 && std::string(words[3]) == "robust";
+    if (count != 3 && !robust) throw InputError("usage: score_embree DIR ANSWERS [robust]");
+    const bench::EmbreeFlags flags = robust ? bench::EmbreeFlags::robust : bench::EmbreeFlags::plain;
     const fs::path folder(words[1]), answers(words[2]);
     fs::create_directories(answers);
     std::ifstream file(folder / "manifest.json");
@@ -65,10 +79,11 @@ int run(int count, char** words) {
     for (const auto& hard_case : manifest.at("cases")) {
         std::size_t skipped = 0;
         for (const auto& lot : hard_case.at("lots")) {
-            skipped += !answer_lot(folder, answers, lot.at("name"), lot.at("rays"));
+            skipped += !answer_lot(folder, answers, flags, lot.at("name"), lot.at("rays"));
         }
         if (skipped > 0) {
-            fmt::print("{}: {} scenes are not of spheres alone\n", hard_case.at("id").get<std::string>(), skipped);
+            fmt::print("{}: {} scenes are not of spheres or triangles alone\n", hard_case.at("id").get<std::string>(),
+                       skipped);
         }
     }
     fmt::print("{} answered\n", bench::EmbreeNative::version());

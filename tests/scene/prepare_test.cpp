@@ -222,7 +222,7 @@ TEST(PrepareMesh, InstancesAndSides) {
     EXPECT_EQ(prepared.triangles[3].v2, Vec3f(0, 2, 5));
     EXPECT_EQ(prepared.triangles[3].attributes.double_sided, 1U);
     EXPECT_EQ(prepared.node_of, (std::vector<std::uint32_t>{1, 1, 1, 1}));
-    scene.nodes[1].trs.scale = {1e18, 1e18, 1e18};
+    scene.nodes[1].trs.scale = {9e17, 9e17, 9e17};
     EXPECT_TRUE(contains(input_error([&] { (void)prepare(scene); }), "node 1 'body' has something farther than 1e18"));
 }
 

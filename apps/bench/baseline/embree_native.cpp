@@ -54,7 +54,13 @@ Hit trace_one(RTCScene scene, const Ray<float>& ray) {
 }  // namespace
 
 struct EmbreeNative::State {
-    explicit State(int threads) : arena(threads == 0 ? tbb::task_arena::automatic : threads) {}
+    State(int threads, EmbreeFlags flags) : arena(threads == 0 ? tbb::task_arena::automatic : threads) {
+        // The number of threads is the arena's: Embree joins it for the build.
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) throw EnvironmentError("Embree cannot make a device");
+        scene = rtcNewScene(device);
+        if (flags == EmbreeFlags::robust) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    }
     ~State() {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);
@@ -62,17 +68,29 @@ struct EmbreeNative::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
+    /// Takes the geometry, which has its buffers, into the scene and builds it.
+    void build(RTCGeometry geometry, std::size_t primitives) {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        const auto start = std::chrono::steady_clock::now();
+        arena.execute([&] { rtcJoinCommitScene(scene); });
+        build_seconds = seconds_since(start);
+        const RTCError error = rtcGetDeviceError(device);
+        if (error != RTC_ERROR_NONE) {
+            throw EnvironmentError(fmt::format("Embree cannot build a scene of {} primitives: error {}", primitives,
+                                               static_cast<int>(error)));
+        }
+    }
+
     tbb::task_arena arena;
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     double build_seconds = 0;
 };
 
-EmbreeNative::EmbreeNative(std::span<const Sphere> spheres, int threads) : state_(std::make_unique<State>(threads)) {
-    // The number of threads is the arena's: Embree joins it for the build.
-    state_->device = rtcNewDevice(nullptr);
-    if (state_->device == nullptr) throw EnvironmentError("Embree cannot make a device");
-    state_->scene = rtcNewScene(state_->device);
+EmbreeNative::EmbreeNative(std::span<const Sphere> spheres, int threads, EmbreeFlags flags)
+    : state_(std::make_unique<State>(threads, flags)) {
     RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
     auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
                                                                  4 * sizeof(float), spheres.size()));
@@ -82,17 +100,23 @@ EmbreeNative::EmbreeNative(std::span<const Sphere> spheres, int threads) : state
         vertices[4 * i + 2] = spheres[i].centre.z;
         vertices[4 * i + 3] = spheres[i].radius;
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(state_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    const auto start = std::chrono::steady_clock::now();
-    state_->arena.execute([&] { rtcJoinCommitScene(state_->scene); });
-    state_->build_seconds = seconds_since(start);
-    const RTCError error = rtcGetDeviceError(state_->device);
-    if (error != RTC_ERROR_NONE) {
-        throw EnvironmentError(fmt::format("Embree cannot build a scene of {} spheres: error {}", spheres.size(),
-                                           static_cast<int>(error)));
+    state_->build(geometry, spheres.size());
+}
+
+EmbreeNative::EmbreeNative(std::span<const Triangle> triangles, int threads, EmbreeFlags flags)
+    : state_(std::make_unique<State>(threads, flags)) {
+    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                 sizeof(Vec3f), 3 * triangles.size()));
+    auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles.size()));
+    for (std::size_t i = 0; vertices != nullptr && corners != nullptr && i < triangles.size(); ++i) {
+        vertices[3 * i] = triangles[i].v0;
+        vertices[3 * i + 1] = triangles[i].v1;
+        vertices[3 * i + 2] = triangles[i].v2;
+        for (std::size_t k = 0; k < 3; ++k) corners[3 * i + k] = static_cast<std::uint32_t>(3 * i + k);
     }
+    state_->build(geometry, triangles.size());
 }
 
 EmbreeNative::~EmbreeNative() = default;

@@ -1,4 +1,4 @@
-/// Raw Embree over spheres, as a program without Tandem would use it: a baseline for rays per second.
+/// Raw Embree, as a program without Tandem would use it: a baseline for rays per second, and for right answers.
 #pragma once
 
 #include <memory>
@@ -7,16 +7,21 @@
 
 #include "tandem/geometry/hit.h"
 #include "tandem/geometry/sphere.h"
+#include "tandem/geometry/triangle.h"
 #include "tandem/math/ray.h"
 
 namespace tandem::bench {
 
-/// Embree's own sphere geometry (RTC_GEOMETRY_TYPE_SPHERE_POINT) and one rtcIntersect1 per ray, blocks of rays shared
-/// among the threads by TBB. Its hits are Embree's: approximate, and different from processor to processor.
+/// What an Embree scene is asked to be: fast, or to lose fewer rays between triangles (RTC_SCENE_FLAG_ROBUST).
+enum class EmbreeFlags { plain, robust };
+
+/// Embree's own geometry (RTC_GEOMETRY_TYPE_SPHERE_POINT, _TRIANGLE) and one rtcIntersect1 per ray, blocks of rays
+/// shared among the threads by TBB. Its hits are Embree's: approximate, and different from processor to processor.
 class EmbreeNative {
   public:
     /// threads: 0 means one per core. Builds the scene. Throws EnvironmentError if Embree does.
-    EmbreeNative(std::span<const Sphere> spheres, int threads);
+    EmbreeNative(std::span<const Sphere> spheres, int threads, EmbreeFlags flags = EmbreeFlags::plain);
+    EmbreeNative(std::span<const Triangle> triangles, int threads, EmbreeFlags flags = EmbreeFlags::plain);
     ~EmbreeNative();
     EmbreeNative(const EmbreeNative&) = delete;
     EmbreeNative& operator=(const EmbreeNative&) = delete;

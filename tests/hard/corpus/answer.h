@@ -26,10 +26,9 @@ struct Answer {
 ///
 /// Judged are, for spheres and boxes, all decisions: their numbers are floats and the ray's too, so nothing is in
 /// doubt. Two surfaces within 2^-48 of each other leave the primitive open, but not where they are equal by the same
-/// arithmetic (boxes with a face in one plane, equal spheres), or from t correctly rounded (triangles and quads): there the
-/// lowest id is right. For ellipsoids and
-/// parallelepipeds the ray goes through a matrix of doubles: where bodies 2^-30 smaller and larger differ, the
-/// decision, or t, is left open.
+/// arithmetic (boxes with a face in one plane, equal spheres), or from t correctly rounded (triangles and quads): there
+/// the lowest id is right. For ellipsoids and parallelepipeds the ray goes through a matrix of doubles: where bodies
+/// 2^-30 smaller and larger differ, the decision, or t, is left open.
 [[nodiscard]] std::vector<Answer> exact_answers(const PreparedScene& scene, std::span<const Ray<float>> rays);
 
 }  // namespace tandem::hard

@@ -114,14 +114,17 @@ std::vector<Hit> read_answers(const fs::path& id_file, const fs::path& t_file, s
 
 }  // namespace
 
-void export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, const std::string& folder) {
+std::size_t export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, const std::string& folder) {
     const fs::path root(folder);
     make_folder(root / "exact");
     Json manifest = {{"format", format_version}, {"cases", Json::array()}};
     for (const HardCase* hard_case : cases) {
         if (!hard_case->has_rays()) continue;
         Json lots = Json::array();
-        for (const AnsweredLot& lot : answered_lots(*hard_case, rays)) {
+        const std::vector<AnsweredLot> answered = answered_lots(*hard_case, rays);
+        if (!std::all_of(answered.begin(), answered.end(), [](const auto& lot) { return fits_gltf(lot.scene); }))
+            continue;
+        for (const AnsweredLot& lot : answered) {
             const std::string name = fmt::format("{}-{}", hard_case->id, lots.size());
             write_lot(lot, root, name);
             lots.push_back({{"name", name}, {"rays", lot.rays.size()}, {"primitives", primitive_count(lot.prepared)}});
@@ -134,6 +137,7 @@ void export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, c
                                      {"lots", lots}});
     }
     write_file((root / manifest_name).string(), std::string_view(manifest.dump(1) + "\n"), Durability::written);
+    return manifest["cases"].size();
 }
 
 std::vector<Ray<float>> read_rays(const std::string& folder, const std::string& lot, std::size_t rays) {

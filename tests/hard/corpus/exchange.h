@@ -9,9 +9,9 @@
 
 namespace tandem::hard {
 
-/// Writes the ray cases among `cases` to `folder`, which is made if it is not there: scenes, rays, right answers, and
-/// manifest.json last. Throws InputError where it cannot write.
-void export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, const std::string& folder);
+/// Writes the ray cases among `cases` whose scenes glTF can hold to `folder`, which is made if it is not there: scenes,
+/// rays, right answers, and manifest.json last. Returns how many. Throws InputError where it cannot write.
+std::size_t export_cases(const std::vector<const HardCase*>& cases, std::size_t rays, const std::string& folder);
 
 /// Ids in files of answers that are no primitives: a miss, and a ray that was not answered.
 inline constexpr std::int32_t miss_id = -1;

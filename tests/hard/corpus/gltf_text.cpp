@@ -47,8 +47,8 @@ class Numbers {
         if (bytes_.empty()) return;
         document["accessors"] = accessors_;
         document["bufferViews"] = views_;
-        document["buffers"] = {{{"byteLength", bytes_.size()},
-                                {"uri", "data:application/octet-stream;base64," + test::base64(bytes_)}}};
+        document["buffers"] = {
+            {{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + test::base64(bytes_)}}};
     }
 
   private:

@@ -152,8 +152,7 @@ std::vector<Lot> placed(Random& random, std::size_t rays) {
         node.trs.translation = any_unit(random) * random.uniform(0.0, 100.0);
         node.trs.rotation = test::any_turn(random);
         node.trs.scale = {1e-3, 1, 1e3};
-        node.geometry.push_back(
-            {i % 2 == 0 ? std::variant<SphereShape, BoxShape>(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
+        node.geometry.push_back({i % 2 == 0 ? Shape(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
         const Transform world_from_body = to_transform(node.trs);
         scene.nodes.push_back(node);
         lots.push_back({scene, make_rays(rays / 8, [&] {

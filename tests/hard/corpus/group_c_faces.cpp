@@ -1,5 +1,5 @@
-// Group C: rays and triangles and quads. The oracle is exact arithmetic on the same floats; a closed mesh lets nothing out.
-// Contraction (C3) is for tests/lint: no build of ours may contract.
+// Group C: rays and triangles and quads. The oracle is exact arithmetic on the same floats; a closed mesh lets nothing
+// out. Contraction (C3) is for tests/lint: no build of ours may contract.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -104,8 +104,7 @@ std::vector<Lot> needles(Random& random, std::size_t rays) {
         [&] {
             const Vec3d a = in_ball(random, 1), along = any_unit(random);
             const Vec3d across = any_across(random, along) * 1e-5;
-            return Triangle{narrow(a), narrow(a + along),
-                            narrow(a + along * random.uniform(0.0, 1.0) + across)};
+            return Triangle{narrow(a), narrow(a + along), narrow(a + along * random.uniform(0.0, 1.0) + across)};
         },
         [&](const Triangle& triangle) {
             const Vec3f from = narrow(any_unit(random) * random.uniform(2.0, 10.0));
@@ -216,13 +215,13 @@ std::vector<Lot> coplanar(Random& random, std::size_t rays) {
             mesh.triangles.push_back(i);
             mesh.positions.push_back(corner());
         }
-        lots.push_back({scene_of(mesh), make_rays(rays / 2, [&] {
-                            Vec3f target = mesh.positions[random.below(3 * 64)];
-                            if (random.coin()) target = (target + mesh.positions[random.below(3 * 64)]) * 0.5F;
-                            const Vec3f from = {static_cast<float>(random.below(64)),
-                                                static_cast<float>(random.below(64)), 512};
-                            return Ray<float>{from, target - from};
-                        })});
+        lots.push_back(
+            {scene_of(mesh), make_rays(rays / 2, [&] {
+                 Vec3f target = mesh.positions[random.below(3 * 64)];
+                 if (random.coin()) target = (target + mesh.positions[random.below(3 * 64)]) * 0.5F;
+                 const Vec3f from = {static_cast<float>(random.below(64)), static_cast<float>(random.below(64)), 512};
+                 return Ray<float>{from, target - from};
+             })});
     }
     return lots;
 }
@@ -261,14 +260,16 @@ std::vector<HardCase> face_cases() {
          exact, RayCase{grazing}},
         {"C7", "The ground: 2000 km, seen from 1.7 m", "t as a mean of the corners' heights cancels: off by 9 %", exact,
          RayCase{ground}},
-        {"C8", "From 10^-5 to 10^-8 above a triangle", "t cancels: off by more than itself", exact, RayCase{just_above}},
+        {"C8", "From 10^-5 to 10^-8 above a triangle", "t cancels: off by more than itself", exact,
+         RayCase{just_above}},
         {"C9", "Faces without area, and almost", "they are hit at random, and have a normal of NaN",
          "exact arithmetic: dropped and counted", FunctionCase{flat_faces}},
         {"C10", "Quads, flat, folded, crossed, with a corner twice", "the diagonal is another, or lets light through",
          "exact arithmetic on the two triangles", RayCase{quads}},
         {"C11", "Triangles upon each other in one plane", "which is seen flickers",
          "exact arithmetic; the lowest id of equal t", RayCase{coplanar}},
-        {"C12", "Coordinates at edges and vertices", "u + v is above 1, or u below 0", exact, FunctionCase{coordinates}},
+        {"C12", "Coordinates at edges and vertices", "u + v is above 1, or u below 0", exact,
+         FunctionCase{coordinates}},
     };
 }
 

@@ -32,7 +32,7 @@ std::vector<Lot> small_and_far(Random& random, std::size_t rays) {
         Node node{.name = "body", .parent = 1};
         const Vec3d place = any_unit(random) * random.uniform(0.0, 2000.0);
         node.trs = {place, test::any_turn(random), {100, 70, 50}};
-        node.geometry.push_back({i % 2 == 0 ? std::variant<SphereShape, BoxShape>(SphereShape{1}) : BoxShape{}, 0, {}});
+        node.geometry.push_back({i % 2 == 0 ? Shape(SphereShape{1}) : BoxShape{}, 0, {}});
         scene.nodes.push_back(node);
         places.push_back(middle + place * 1e-3);
     }
@@ -86,7 +86,7 @@ Score determinants(Random&, std::size_t) {
             Node node{.name = "pressed"};
             node.trs.rotation = {0.3, 0.2, 0.1, 1};
             node.trs.scale = {1, 1, flat};
-            node.geometry.push_back({is_box ? std::variant<SphereShape, BoxShape>(BoxShape{}) : SphereShape{1}, 0, {}});
+            node.geometry.push_back({is_box ? Shape(BoxShape{}) : SphereShape{1}, 0, {}});
             scene.nodes.push_back(node);
             bool refused = false;
             try {

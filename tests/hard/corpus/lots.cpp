@@ -9,7 +9,7 @@ Scene scene_of(const std::vector<Sphere>& spheres, const std::vector<Box>& boxes
     scene.name = "hard case";
     scene.materials.push_back({"grey", {}});
     scene.nodes.push_back({.name = "eye", .camera = PerspectiveCamera{}});
-    const auto add = [&](const Vec3d& place, std::variant<SphereShape, BoxShape> shape) {
+    const auto add = [&](const Vec3d& place, Shape shape) {
         Node node{.name = "primitive " + std::to_string(scene.nodes.size() - 1)};
         node.trs.translation = place;
         node.geometry.push_back({shape, 0, {}});
