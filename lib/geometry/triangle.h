@@ -307,9 +307,40 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
     return at;
 }
 
-/// Unit normal, on the side from which the corners run counter-clockwise.
+namespace triangle_detail {
+
+/// The triangle's area, twice, seen along a coordinate axis, without rounding: (v1 - v0) x (v2 - v0), one component.
+TANDEM_HD ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec3f& axis) {
+    ExactSum<float> sum;
+    add_determinant(sum, v0, v1, axis);
+    add_determinant(sum, v1, v2, axis);
+    add_determinant(sum, v2, v0, axis);
+    return sum;
+}
+
+/// The direction of (v1 - v0) x (v2 - v0), from exact components; below 2^33 in size. Zero where the area is.
+TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
+    const ScaledPair x = shadow(v0, v1, v2, {1, 0, 0}).leading();
+    const ScaledPair y = shadow(v0, v1, v2, {0, 1, 0}).leading();
+    const ScaledPair z = shadow(v0, v1, v2, {0, 0, 1}).leading();
+    const auto larger = [](const ScaledPair& a, const ScaledPair& b) {
+        if (b.mantissa.high == 0.0) return a;
+        return a.mantissa.high == 0.0 || a.exponent < b.exponent ? b : a;
+    };
+    const ScaledPair unit = {{1.0, 0.0}, larger(larger(x, y), z).exponent};
+    return {quotient(x, unit), quotient(y, unit), quotient(z, unit)};
+}
+
+}  // namespace triangle_detail
+
+/// Unit normal, on the side from which the corners run counter-clockwise. Within 2^-28; the area is not zero.
 TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
-    return normalize(accurate_cross(widen(v1) - widen(v0), widen(v2) - widen(v0)));
+    const Vec3d e1 = widen(v1) - widen(v0);
+    const Vec3d e2 = widen(v2) - widen(v0);
+    const Vec3d direction = accurate_cross(e1, e2);
+    // the edges' own rounding, 2^-53 of each, is all of the error, until the edges are all but parallel
+    if (norm1(direction) > 0x1p-20 * (norm1(e1) * norm1(e2))) return normalize(direction);
+    return normalize(triangle_detail::exact_normal_direction(v0, v1, v2));
 }
 
 /// The same for all lanes; in the tier fast in float.
@@ -328,14 +359,9 @@ TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, 
     const Vec3d e1 = widen(v1) - widen(v0);
     const Vec3d e2 = widen(v2) - widen(v0);
     if (norm1(cross(e1, e2)) > triangle_detail::volume_error * (norm1(e1) * norm1(e2))) return false;
-    // the area's shadow on each coordinate plane is det(v0, v1, axis) + det(v1, v2, axis) + det(v2, v0, axis)
     const Vec3f axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (const Vec3f& axis : axes) {
-        ExactSum<float> shadow;
-        add_determinant(shadow, v0, v1, axis);
-        add_determinant(shadow, v1, v2, axis);
-        add_determinant(shadow, v2, v0, axis);
-        if (shadow.sign() != 0) return false;
+        if (triangle_detail::shadow(v0, v1, v2, axis).sign() != 0) return false;
     }
     return true;
 }

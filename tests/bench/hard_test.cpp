@@ -58,7 +58,8 @@ TEST(Hard, UnknownNamesAreRefused) {
     };
     EXPECT_TRUE(test::contains(refused([](auto& o) { o.cases = {std::string("Q7")}; }), "no hard case is named 'Q7'"));
     EXPECT_TRUE(test::contains(refused([](auto& o) { o.tiers = {std::string("sloppy")}; }), "sloppy"));
-    EXPECT_TRUE(test::contains(refused([](auto& o) { o.export_folder = o.answers = std::string("x"); }), "one at a time"));
+    EXPECT_TRUE(
+        test::contains(refused([](auto& o) { o.export_folder = o.answers = std::string("x"); }), "one at a time"));
     EXPECT_TRUE(test::contains(refused([](auto& o) {
                                    o.cases = {"L1"};
                                    o.tiers = {"fast"};
