@@ -176,8 +176,8 @@ struct EmbreeTracer {
     template <class Real>
     TANDEM_HD static RTCRay single_ray(const QueryContext<Real>& query, float tfar) {
         const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
-        return {p.origin.x,    p.origin.y, p.origin.z, 0,          p.direction.x, p.direction.y,
-                p.direction.z, 0,          tfar,       0xFFFFFFFF, 0,             0};
+        return {p.origin.x, p.origin.y, p.origin.z, 0, p.direction.x, p.direction.y, p.direction.z, 0,
+                tfar,       0xFFFFFFFF, 0,          0};
     }
 
     template <class PacketRay, class Real>

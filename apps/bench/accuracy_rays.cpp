@@ -84,10 +84,9 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
         o.resident = entry.backend->load(kind.scene, entry.name.tier);
         o.answers.hits.resize(kind.rays.size());
         o.answers.wide_t.resize(kind.rays.size());
-        entry.backend->trace(*o.resident, {.rays = kind.rays,
-                                           .hits = o.answers.hits,
-                                           .wide_t = o.answers.wide_t,
-                                           .counters = &o.row.counters});
+        entry.backend->trace(
+            *o.resident,
+            {.rays = kind.rays, .hits = o.answers.hits, .wide_t = o.answers.wide_t, .counters = &o.row.counters});
         o.errors = compare(o.answers, truth);
     }
     std::vector<Hit> scratch(kind.rays.size());

@@ -56,8 +56,7 @@ class TargetRun {
                 naive_render(build, naive_job(), threads, buffer().data());
                 return watch.seconds();
             },
-            fmt::format("Tandem CPU, {} threads", threads),
-            [&] { return render_seconds(*cpu, job); });
+            fmt::format("Tandem CPU, {} threads", threads), [&] { return render_seconds(*cpu, job); });
     }
 
     /// Our rays per second over raw Embree's.

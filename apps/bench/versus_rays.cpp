@@ -89,7 +89,9 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
         RayContender contender{ray_row(options, "raw Embree, rtcIntersect1", "embree"), {}, {}};
         contender.row.variant = EmbreeNative::version() + ", RTC_GEOMETRY_TYPE_SPHERE_POINT";
         phase(contender.row, "build").seconds = {native->build_seconds()};
-        contender.trace = [&native](auto some_rays, auto hits, RenderCounters&) { return native->trace(some_rays, hits); };
+        contender.trace = [&native](auto some_rays, auto hits, RenderCounters&) {
+            return native->trace(some_rays, hits);
+        };
         contenders.push_back(std::move(contender));
         timing.has_native = true;
     }

@@ -38,8 +38,8 @@ struct FrameRecord {
     bool skipped = false;  ///< the file was there already; the metadata are the file's
     FrameSeconds seconds;
     RenderCounters counters;
-    std::size_t nan_values = 0;         ///< EncodedImage
-    std::string variant;                ///< RenderStats
+    std::size_t nan_values = 0;  ///< EncodedImage
+    std::string variant;         ///< RenderStats
 };
 
 /// Calls `on_frame` for each frame that is done, in order, on the calling thread, as soon as its file is there.

@@ -1,10 +1,10 @@
-/// Rays that leave surfaces. No offset and no least t keeps such a ray from the surface that it starts on: it says which
-/// primitive that is and on which side it leaves, and each kind of primitive knows what follows. Right at every scale,
-/// however near the next surface is (docs/numerics.md).
+/// Rays that leave surfaces. No offset and no least t keeps such a ray from the surface that it starts on: it says
+/// which primitive that is and on which side it leaves, and each kind of primitive knows what follows. Right at every
+/// scale, however near the next surface is (docs/numerics.md).
 ///
 /// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
-/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met again
-/// by a ray that leaves them. A new kind adds one overload of first_or_far().
+/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met
+/// again by a ray that leaves them. A new kind adds one overload of first_or_far().
 #pragma once
 
 #include "tandem/geometry/affine.h"
@@ -38,8 +38,8 @@ struct ShadowSource : Source<Real> {
 
 namespace source_detail {
 
-/// The far crossing of a ray that goes inward is in front of it; where rounding has put the origin behind the surface it
-/// would not be, and comes at once.
+/// The far crossing of a ray that goes inward is in front of it; where rounding has put the origin behind the surface
+/// it would not be, and comes at once.
 template <class Real>
 TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
     return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
@@ -57,9 +57,9 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 
 }  // namespace source_detail
 
-// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it again.
-// t is within 1 ulp of float of where the line through the ray enters or leaves the body. The root at the origin is not
-// formed, so that nothing has to tell the two apart.
+// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it
+// again. t is within 1 ulp of float of where the line through the ray enters or leaves the body. The root at the origin
+// is not formed, so that nothing has to tell the two apart.
 
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
@@ -83,8 +83,7 @@ TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Ma
     return first_or_far(cross_box(box, ray), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                  Double<Real>& t) {
+TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
     return first_or_far(ellipsoid_roots(body, ray), own, t);
 }
 template <class Real>

@@ -1,11 +1,11 @@
 /// Points of surfaces, and the rays that leave from them.
 ///
-/// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's along
-/// the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding still leaves
-/// it beside the surface, by up to half the distance of numbers there; that is harmless, because the ray carries what it
-/// leaves (ray_source.h). Only the neighbours of a face in a mesh are primitives of their own: a ray that leaves a face
-/// starts so far from its plane, on the ray's side, that rounding cannot put it behind. All that lies behind the plane,
-/// and so the rest of a flat or convex mesh, is then out of its way.
+/// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's
+/// along the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding
+/// still leaves it beside the surface, by up to half the distance of numbers there; that is harmless, because the ray
+/// carries what it leaves (ray_source.h). Only the neighbours of a face in a mesh are primitives of their own: a ray
+/// that leaves a face starts so far from its plane, on the ray's side, that rounding cannot put it behind. All that
+/// lies behind the plane, and so the rest of a flat or convex mesh, is then out of its way.
 #pragma once
 
 #include <type_traits>
@@ -19,7 +19,8 @@ namespace tandem {
 template <class Real>
 struct SurfacePoint {
     Vec3<Real> position;
-    Vec3<Double<Real>> normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
+    Vec3<Double<Real>>
+        normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
     UInt<Real> primitive = UInt<Real>(no_primitive);
     Double<Real> clearance = Double<Real>(0.0);  ///< for a face: from its plane to where rays leave
 };
@@ -40,7 +41,8 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
     using D = Double<Real>;
     const Vec3<D> centre = constant<D>(placement.centre);
     const Vec3<D> offset = along<Real>(widen(ray.origin) - centre, widen(ray.direction), t);
-    return to_real<Real>(Vec3<D>{centre.x + offset.x * scale, centre.y + offset.y * scale, centre.z + offset.z * scale});
+    return to_real<Real>(
+        Vec3<D>{centre.x + offset.x * scale, centre.y + offset.y * scale, centre.z + offset.z * scale});
 }
 
 }  // namespace spawn_detail
@@ -155,8 +157,9 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
                                               const From& source, const Double<Real>& t) {
     const Mask<Real> exits = leaves_inward<Real>(source, id);
     SurfacePoint<Real> point;
-    visit_primitive(scene, id, [&](const auto& primitive)
-                                   TANDEM_INLINE_LAMBDA { point = surface_point(primitive, ray, t, exits); });
+    visit_primitive(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+        point = surface_point(primitive, ray, t, exits);
+    });
     point.primitive = UInt<Real>(id);
     return point;
 }
@@ -206,7 +209,8 @@ struct ShadowRay {
     Ray<Real> ray;
     ShadowSource<Real> source;
     Double<Real> t_max = Double<Real>(1.0);
-    Mask<Real> active;  ///< false where the light is at the very point: such a ray has no direction, and brings no light
+    Mask<Real>
+        active;  ///< false where the light is at the very point: such a ray has no direction, and brings no light
 };
 
 /// The shadow ray to a point of a light. `light`: the light's own primitive, or no_primitive.

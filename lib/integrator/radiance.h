@@ -8,9 +8,8 @@
 
 namespace tandem {
 
-/// Radiance along `ray`, RGB, linear. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions, and `kinds`,
-/// the PrimitiveKinds that it finds.
-/// Lanes outside `active` return anything.
+/// Radiance along `ray`, RGB, linear. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions, and
+/// `kinds`, the PrimitiveKinds that it finds. Lanes outside `active` return anything.
 template <class Real, class Tracer>
 TANDEM_HD Vec3<Real> radiance(const Tracer& tracer, const SceneView& scene, const Ray<Real>& ray,
                               const Mask<Real>& active) {

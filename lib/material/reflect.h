@@ -15,8 +15,8 @@ template <class D>
 TANDEM_HD Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {
     const D along = dot(direction, normal);
     const D twice = along + along;
-    return normalize(Vec3<D>{direction.x - twice * normal.x, direction.y - twice * normal.y,
-                             direction.z - twice * normal.z});
+    return normalize(
+        Vec3<D>{direction.x - twice * normal.x, direction.y - twice * normal.y, direction.z - twice * normal.z});
 }
 
 }  // namespace tandem

@@ -21,7 +21,8 @@ struct Refraction {
 /// Gives: total internal reflection where eta sin > 1, decided right unless eta sin is within 2^-40 of 1; exactly at 1
 ///        the ray leaves along the interface. cosine_out within 1e-7 next to that border. Equal indices, eta = 1, leave
 ///        the direction as it is, to the bit. A NaN does not transmit.
-/// Method: the sine is the length of direction x normal, formed without cancellation. 1 - eta^2 (1 - cos^2) loses it next
+/// Method: the sine is the length of direction x normal, formed without cancellation. 1 - eta^2 (1 - cos^2) loses it
+/// next
 ///        to the border, and near the normal, where the cosine hardly tells the angle.
 /// Held by tests/unit/material/refract_test.cpp.
 template <class Real>

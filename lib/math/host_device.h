@@ -11,7 +11,8 @@
 /// a
 ///                         copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
-/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles to float
+/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles to
+/// float
 ///                         and back, also where it made the vector itself out of scalars, and with them the rounding.
 #pragma once
 

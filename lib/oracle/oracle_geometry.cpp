@@ -23,8 +23,7 @@ std::optional<SurfaceHit> hit_shape(const SceneView&, const Ellipsoid& body, con
 std::optional<SurfaceHit> hit_shape(const SceneView&, const Parallelepiped& body, const Line& line, Start start) {
     return hit_placed(body, true, line, start);
 }
-std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Triangle& triangle, const Line& line,
-                                    Start start) {
+std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Triangle& triangle, const Line& line, Start start) {
     if (start != Start::anywhere) return std::nullopt;
     return hit_face({{triangle.v0, triangle.v1, triangle.v2}, {0, 1, 2}}, triangle.attributes, scene.normals, line);
 }
@@ -116,8 +115,7 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
     return hit;
 }
 
-std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
-                                        Start start) {
+std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line, Start start) {
     std::optional<SurfaceHit> hit;
     visit_primitive(scene, id, [&](const auto& primitive) { hit = hit_shape(scene, primitive, line, start); });
     return hit;

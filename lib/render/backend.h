@@ -58,9 +58,10 @@ class Backend {
     /// Takes the scene into the backend's memory. Buffers of scenes that were let go are used again.
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
-    /// Nearest hits of rays in front of their origins (t > 0), or whether shadow rays are stopped (trace_job.h). Rays are
-    /// in render space: a point of the world is there at render_from_world() (scene/prepared_scene.h). Rays that are not
-    /// traceable (math/ray.h) miss and are counted. Returns the seconds that the tracing itself took, without copies.
+    /// Nearest hits of rays in front of their origins (t > 0), or whether shadow rays are stopped (trace_job.h). Rays
+    /// are in render space: a point of the world is there at render_from_world() (scene/prepared_scene.h). Rays that
+    /// are not traceable (math/ray.h) miss and are counted. Returns the seconds that the tracing itself took, without
+    /// copies.
     virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;
     double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) {
         return trace(scene, TraceJob{.rays = rays, .hits = hits});

@@ -46,8 +46,8 @@ struct BenchmarkRow {
     std::optional<Factor> factor;
     std::vector<ErrorFigure> errors;
     RenderCounters counters;  ///< summed over the measurements
-    int registers = 0;     ///< of the kernel; 0 if not known
-    double occupancy = 0;  ///< 0 if not known
+    int registers = 0;        ///< of the kernel; 0 if not known
+    double occupancy = 0;     ///< 0 if not known
     std::string note;
 };
 

@@ -11,7 +11,7 @@ namespace tandem {
 
 struct PrepareOptions {
     std::int32_t frame = 0;
-    std::string camera{};  ///< name of the camera's node; empty means the first camera of the scene
+    std::string camera{};           ///< name of the camera's node; empty means the first camera of the scene
     std::optional<Vec3d> origin{};  ///< of render space, in world space; empty: chosen for precision (RenderOrigin)
 };
 

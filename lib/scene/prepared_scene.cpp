@@ -35,9 +35,8 @@ CameraView camera_view(const PreparedScene& scene, int width, int height) {
     const Vec3d forward = -axes.row[2];
     const Vec3d eye = scene.render_from_camera.translation;
     const Vec3d zero{0, 0, 0};
-    const CameraView view =
-        scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
-                           : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
+    const CameraView view = scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
+                                               : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
     // rays are affine in the film position: if those of the corners can be traced, all can
     for (const double x : {0.0, double(width)}) {
         for (const double y : {0.0, double(height)}) {

@@ -8,12 +8,12 @@ namespace tandem {
 /// Floats are dense near zero, so the coordinates that kernels see should be small where the picture is sharp: near the
 /// surface that is nearest to the camera. This finds it.
 ///
-/// The rule: the point of a surface that is nearest to the camera, rounded to a grid, whose step is the largest power of
-/// two up to 16 times the smaller of two lengths: the distance of that point from the camera, and the extent of the scene.
-/// So every point of a surface has coordinates of at most 16 times its distance from the camera, and rounding them to float
-/// moves it by an angle of at most 16 u = 9.6e-7, wherever in the world the scene is. A scene that lies around the world's
-/// origin as seen from its camera stays where it is. Scaling a scene by a power of two scales the origin.
-/// Held by tests/scene/render_origin_test.cpp.
+/// The rule: the point of a surface that is nearest to the camera, rounded to a grid, whose step is the largest power
+/// of two up to 16 times the smaller of two lengths: the distance of that point from the camera, and the extent of the
+/// scene. So every point of a surface has coordinates of at most 16 times its distance from the camera, and rounding
+/// them to float moves it by an angle of at most 16 u = 9.6e-7, wherever in the world the scene is. A scene that lies
+/// around the world's origin as seen from its camera stays where it is. Scaling a scene by a power of two scales the
+/// origin. Held by tests/scene/render_origin_test.cpp.
 class RenderOrigin {
   public:
     explicit RenderOrigin(const Vec3d& camera) : camera_(camera) {}

@@ -1,4 +1,5 @@
-// Where a scene lies in the world must not show: preparation moves it to where floats are dense (scene/render_origin.h).
+// Where a scene lies in the world must not show: preparation moves it to where floats are dense
+// (scene/render_origin.h).
 
 #include <gtest/gtest.h>
 
@@ -35,8 +36,9 @@ Scene under(Scene scene, const Vec3d& translation, double scale) {
     return scene;
 }
 
-// J1. The grid of these scenes has a step of 16 or 32: a translation by a multiple of it changes nothing but the origin,
-// if the translated coordinates are doubles. Others move every coordinate by less than a step, so that it rounds anew.
+// J1. The grid of these scenes has a step of 16 or 32: a translation by a multiple of it changes nothing but the
+// origin, if the translated coordinates are doubles. Others move every coordinate by less than a step, so that it
+// rounds anew.
 TEST(RenderSpace, DoesNotShowWhereTheSceneLies) {
     for (const char* name : {"paper", "spheres/500", "mixed/64"}) {
         const Scene scene = named_scene(name);

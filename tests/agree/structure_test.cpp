@@ -60,8 +60,7 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
         ASSERT_EQ(one_by_one.occluded(spawned.ray, t_max, source, true), d.t < t_max) << what << ", until " << t_max;
     }
     source.light = d.primitive;
-    ASSERT_EQ(tracer.occluded(spawned.ray, 1e300, source, true),
-              one_by_one.occluded(spawned.ray, 1e300, source, true))
+    ASSERT_EQ(tracer.occluded(spawned.ray, 1e300, source, true), one_by_one.occluded(spawned.ray, 1e300, source, true))
         << what << ", to a light";
 }
 

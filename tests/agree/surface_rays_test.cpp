@@ -41,7 +41,8 @@ void spawn_rays(Reference& r, std::size_t count) {
     for (std::size_t i = 0; i < first.size(); ++i) {
         if (hits[i].primitive == no_primitive) continue;
         test::Random random(i);
-        const SurfacePoint<float> point = surface_point_of(view(r.scene), hits[i].primitive, first[i], NoSource{}, t[i]);
+        const SurfacePoint<float> point =
+            surface_point_of(view(r.scene), hits[i].primitive, first[i], NoSource{}, t[i]);
         const Vec3d direction = unit_vector(random) * std::exp2(random.uniform(-20.0, 20.0));
         const SpawnedRay<float> spawned = spawn_ray(point, narrow(direction));
         r.rays.push_back(spawned.ray);
@@ -97,19 +98,14 @@ class SurfaceRays : public test::ExactBackend {
         RenderCounters counters;
     };
     static Answers ask(Backend& backend, const Reference& r, Tier tier) {
-        Answers a{std::vector<Hit>(r.rays.size()), std::vector<Hit>(r.rays.size()), std::vector<double>(r.rays.size()),
-                  {}};
+        Answers a{
+            std::vector<Hit>(r.rays.size()), std::vector<Hit>(r.rays.size()), std::vector<double>(r.rays.size()), {}};
         const auto scene = backend.load(r.scene, tier);
-        backend.trace(*scene, {.rays = r.rays,
-                               .hits = a.hits,
-                               .sources = r.sources,
-                               .wide_t = a.t,
-                               .counters = &a.counters});
-        backend.trace(*scene, {.rays = r.rays,
-                               .hits = a.occluded,
-                               .sources = r.sources,
-                               .ends = r.ends,
-                               .counters = &a.counters});
+        backend.trace(*scene,
+                      {.rays = r.rays, .hits = a.hits, .sources = r.sources, .wide_t = a.t, .counters = &a.counters});
+        backend.trace(
+            *scene,
+            {.rays = r.rays, .hits = a.occluded, .sources = r.sources, .ends = r.ends, .counters = &a.counters});
         return a;
     }
 };

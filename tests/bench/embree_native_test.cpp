@@ -48,7 +48,7 @@ TEST(EmbreeNative, MeetsTheTrianglesThatTandemMeets) {
         EXPECT_GT(native.trace(rays, hits), 0);
         int met = 0, ids = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Hit expected = to_hit(tracer.closest(rays[i], true));
+            const Hit expected = to_hit(tracer.closest(rays[i], NoSource{}, true));
             met += expected.primitive != no_primitive ? 1 : 0;
             ids += expected.primitive != hits[i].primitive ? 1 : 0;
         }

@@ -41,7 +41,8 @@ TEST(Exchange, ScenesReadBackAsTheSameBits) {
         for (const AnsweredLot& lot : answered_lots(*hard_case, 48)) {
             if (!fits_gltf(lot.scene)) continue;
             write_file(folder.file("scene.gltf"), std::string_view(to_gltf(lot.scene)), Durability::written);
-            const PreparedScene read = prepare(import_gltf(folder.file("scene.gltf")).scene, {.origin = Vec3d{0, 0, 0}});
+            const PreparedScene read =
+                prepare(import_gltf(folder.file("scene.gltf")).scene, {.origin = Vec3d{0, 0, 0}});
             ASSERT_EQ(scene_hash(read), scene_hash(lot.prepared)) << hard_case->id;
             ++scenes;
         }

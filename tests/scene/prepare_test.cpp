@@ -137,7 +137,7 @@ Mesh square() {
 TEST(PrepareMesh, SharedVerticesHaveTheSameBits) {
     Scene scene = mesh_scene(square());
     scene.nodes[1].trs = {{0.1, 1e3, 7}, {0.1, 0.2, 0.3, 0.9}, {3, 0.7, 1}};
-    const auto prepared = prepare(scene);
+    const auto prepared = prepare(scene, {.origin = Vec3d{0, 0, 0}});
     ASSERT_EQ(prepared.triangles.size(), 2U);
     const Transform world = to_transform(scene.nodes[1].trs);
     EXPECT_EQ(prepared.triangles[0].v1, narrow(transform_point(world, {1, 0, 0})));

@@ -186,8 +186,9 @@ Score one_or_many(const Subject& subject, Random& random, std::size_t count) {
     });
     const auto trace = [&](const std::vector<Sphere>& spheres) {
         std::vector<Hit> hits(rays.size());
-        subject.backend.trace(*subject.backend.load(prepare(scene_of(spheres), {.origin = Vec3d{0, 0, 0}}), subject.tier),
-                              TraceJob{.rays = rays, .hits = hits});
+        subject.backend.trace(
+            *subject.backend.load(prepare(scene_of(spheres), {.origin = Vec3d{0, 0, 0}}), subject.tier),
+            TraceJob{.rays = rays, .hits = hits});
         return hits;
     };
     const std::vector<Hit> lone = trace({body});

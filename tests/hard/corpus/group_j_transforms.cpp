@@ -239,8 +239,9 @@ Score renamed_axes(const Subject& subject, Random& random, std::size_t count) {
     std::vector<Hit> hits[3];
     for (int by = 0; by < 3; ++by) {
         hits[by].resize(count);
-        subject.backend.trace(*subject.backend.load(prepare(scene_of(spheres[by], boxes[by]), {.origin = Vec3d{0, 0, 0}}), subject.tier),
-                              TraceJob{.rays = rays[by], .hits = hits[by]});
+        subject.backend.trace(
+            *subject.backend.load(prepare(scene_of(spheres[by], boxes[by]), {.origin = Vec3d{0, 0, 0}}), subject.tier),
+            TraceJob{.rays = rays[by], .hits = hits[by]});
     }
     Score score;
     for (std::size_t i = 0; i < count; ++i) {

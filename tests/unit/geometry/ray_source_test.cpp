@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "support/exact_geometry.h"
 #include "support/random.h"
-#include "unit/geometry/exact_geometry.h"
 
 namespace tandem {
 namespace {
@@ -30,8 +30,8 @@ Vec3d with_cosine(const Vec3d& normal, double cosine, test::Random& random) {
     return normal * cosine + across * std::sqrt((1 - cosine) * (1 + cosine));
 }
 
-/// The far root of a line and a ball; where the line misses it by rounding, its nearest point to the centre; at least the
-/// smallest t there is.
+/// The far root of a line and a ball; where the line misses it by rounding, its nearest point to the centre; at least
+/// the smallest t there is.
 Big far_root(const Sphere& sphere, const Ray<float>& ray) {
     const BigVector offset = test::big(ray.origin) - test::big(sphere.centre);
     const BigVector d = test::big(ray.direction);
@@ -53,7 +53,8 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
     int inward = 0, outward = 0, coarse = 0;
     for (std::uint64_t number = 0; number < 20'000; ++number) {
         test::Random random(number);
-        const Sphere sphere = {narrow(unit_vector(random) * GetParam().distance), static_cast<float>(GetParam().radius)};
+        const Sphere sphere = {narrow(unit_vector(random) * GetParam().distance),
+                               static_cast<float>(GetParam().radius)};
         const Vec3d normal = unit_vector(random);
         const double magnitude = number % 5 == 0 ? 0 : std::exp2(random.uniform(-24.0, 0.0));
         const double cosine = number % 2 == 0 ? magnitude : -magnitude;
@@ -67,7 +68,8 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
         if (!hit) continue;
         ASSERT_GT(t, 0) << "case " << number << ": " << test::reproducer(ray);
         const double error = test::error_in_ulps(narrow(t), far_root(sphere, ray));
-        if (error > 1 && ++coarse <= 3) ADD_FAILURE() << error << " ulp, case " << number << ": " << test::reproducer(ray);
+        if (error > 1 && ++coarse <= 3)
+            ADD_FAILURE() << error << " ulp, case " << number << ": " << test::reproducer(ray);
         // for another primitive in the same place, the origin is anywhere
         double t_other = 0, t_free = 0;
         const bool other = first_from<float>(source, sphere, own_id + 1, ray, t_other);

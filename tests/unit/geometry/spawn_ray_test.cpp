@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/random.h"
@@ -65,8 +66,8 @@ struct Place {
 
 class Contact : public testing::TestWithParam<Place> {};
 
-// E1 to E6: a light just above the horizon of a sphere is seen, one just below is not; a ball that touches the surface but
-// for 1e-5 of the radius hides the light behind it.
+// E1 to E6: a light just above the horizon of a sphere is seen, one just below is not; a ball that touches the surface
+// but for 1e-5 of the radius hides the light behind it.
 TEST_P(Contact, HasNoAcneAndNoLeaks) {
     const double r = GetParam().radius;
     int points = 0, acne = 0, leaks_below = 0, leaks_behind = 0;
@@ -196,7 +197,8 @@ PreparedScene one_mesh(const Mesh& mesh, double scale, const Vec3d& offset) {
 Mesh grid(bool quads) {
     Mesh mesh;
     for (int y = 0; y <= 8; ++y) {
-        for (int x = 0; x <= 8; ++x) mesh.positions.push_back({0.25F * static_cast<float>(x) - 1, 0.25F * static_cast<float>(y) - 1, 0});
+        for (int x = 0; x <= 8; ++x)
+            mesh.positions.push_back({0.25F * static_cast<float>(x) - 1, 0.25F * static_cast<float>(y) - 1, 0});
     }
     for (std::uint32_t y = 0; y < 8; ++y) {
         for (std::uint32_t x = 0; x < 8; ++x) {
@@ -211,8 +213,23 @@ Mesh grid(bool quads) {
     return mesh;
 }
 
-/// Rays that leave the faces of a flat or convex mesh outward meet none of them again, and those that leave a closed one
-/// inward meet another.
+std::vector<Vec3f> corners(const PreparedScene& scene, std::uint32_t id) {
+    if (id < scene.triangles.size()) {
+        const Triangle& t = scene.triangles[id];
+        return {t.v0, t.v1, t.v2};
+    }
+    const Quad& q = scene.quads[id - scene.triangles.size()];
+    return {q.v0, q.v1, q.v2, q.v3};
+}
+
+bool share_a_corner(const PreparedScene& scene, std::uint32_t a, std::uint32_t b) {
+    const auto of_a = corners(scene, a), of_b = corners(scene, b);
+    return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+}
+
+/// Rays that leave the faces of a flat or convex mesh outward meet none of its neighbours, and those that leave a
+/// closed mesh inward meet another face. Far from the origin rounding makes bumps of a flat mesh, whose far faces a
+/// grazing ray meets rightly.
 void expect_no_acne(const PreparedScene& scene, const Vec3d& towards, double size, bool closed) {
     int points = 0, acne = 0, lost = 0;
     for (std::uint64_t number = 0; number < 20'000; ++number) {
@@ -228,11 +245,11 @@ void expect_no_acne(const PreparedScene& scene, const Vec3d& towards, double siz
         for (const double side : {1.0, -1.0}) {
             const auto spawned = spawn_ray(point, narrow(with_cosine(point.normal, side * cosine, random)));
             if (spawned.source.inside != (side < 0)) continue;  // grazing, rounded to float
-            const bool met = LoopTracer{view(scene)}.closest(spawned.ray, spawned.source, true).primitive != no_primitive;
+            const std::uint32_t met = LoopTracer{view(scene)}.closest(spawned.ray, spawned.source, true).primitive;
             if (closed && side < 0) {
-                lost += met ? 0 : 1;
+                lost += met == no_primitive ? 1 : 0;
             } else {
-                acne += met ? 1 : 0;
+                acne += met != no_primitive && share_a_corner(scene, hit.primitive, met) ? 1 : 0;
             }
         }
     }

@@ -28,7 +28,8 @@ TEST(Reflect, KeepsUnitLengthOverFiveHundredBounces) {
         for (int bounce = 0; bounce < 500; ++bounce) {
             direction = reflect(direction, unit_vector(random));
             throughput *= 0.999;
-            ASSERT_NEAR(std::sqrt(dot(direction, direction)), 1, four_units) << "path " << path << ", bounce " << bounce;
+            ASSERT_NEAR(std::sqrt(dot(direction, direction)), 1, four_units)
+                << "path " << path << ", bounce " << bounce;
         }
         EXPECT_NEAR(throughput / std::pow(0.999, 500), 1, 1e-12);
     }

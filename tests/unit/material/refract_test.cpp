@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "support/exact_geometry.h"
 #include "support/random.h"
-#include "unit/geometry/exact_geometry.h"
 
 namespace tandem {
 namespace {
@@ -24,8 +24,8 @@ struct Turned {
     Vec3d direction, normal;
 };
 Turned turn(const Vec3d& d, test::Random& random) {
-    const Matrix3 rotation = rotation_matrix({random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0),
-                                              random.uniform(-1.0, 1.0), random.uniform(0.1, 1.0)});
+    const Matrix3 rotation = rotation_matrix(
+        {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.1, 1.0)});
     return {normalize(rotation * d), normalize(rotation * Vec3d{0, 0, 1})};
 }
 
