@@ -45,6 +45,18 @@ TANDEM_HD void count(unsigned long long* counter) {
 #endif
 }
 
+/// A hierarchy from build_bvh() is never too deep for the stack. With one from elsewhere, a ray that found the stack
+/// full tries every primitive, which is slow and right. A function of its own, so that it costs other rays no
+/// registers.
+template <std::uint32_t kinds, class Real, class From>
+TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source, Closest<Real> best) {
+    const FilterRay<Real> filter = make_filter_ray(ray);
+    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
+        intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
+    }
+    return best;
+}
+
 }  // namespace bvh_detail
 
 /// `kind_set` as with LoopTracerFor.
@@ -73,10 +85,6 @@ struct BvhTracerFor {
     }
 
   private:
-    /// A leaf of all primitives. A hierarchy from build_bvh() is never too deep for the stack; of one from elsewhere, a
-    /// ray that finds the stack full tries every primitive, which is slow and right.
-    static constexpr std::int32_t leaf_of_all = leaf_child(max_bvh_primitives - 1, max_leaf_size);
-
     template <Search search, class Real, class From>
     TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const Proposal<Real> proposal = propose(ray, bvh.frame, true);
@@ -87,6 +95,7 @@ struct BvhTracerFor {
         float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
+        bool overflow = false;  // looked at behind the loop: a branch more in it, and the rays of a warp drift apart
         std::int32_t at = 0;
         while (true) {
             if (at >= 0) {
@@ -103,12 +112,8 @@ struct BvhTracerFor {
                 const auto child1 = static_cast<std::int32_t>(bits_of(children.b));
                 if (enter0 && enter1) {
                     const bool second_first = entry1 < entry0;
-                    if (depth == max_bvh_depth) [[unlikely]] {
-                        bvh_detail::count(bvh.stack_overflows);
-                        depth = 0;
-                        at = leaf_of_all;
-                        continue;
-                    }
+                    overflow = overflow || depth == max_bvh_depth;
+                    depth = depth < max_bvh_depth ? depth : max_bvh_depth - 1;
                     stack[depth++] = second_first ? child0 : child1;
                     at = second_first ? child1 : child0;
                     continue;
@@ -123,16 +128,20 @@ struct BvhTracerFor {
                     if (best.t < t_max) return;
                 }
             }
-            if (depth == 0) return;
+            if (depth == 0) break;
             at = stack[--depth];
+        }
+        if (overflow) [[unlikely]] {
+            bvh_detail::count(bvh.stack_overflows);
+            best = bvh_detail::try_all<kinds>(scene, ray, source, best);
         }
     }
 
     template <class Real, class From>
     TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
                             const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
-        const std::uint32_t first = leaf == leaf_of_all ? 0 : leaf_first(leaf);
-        const std::uint32_t end = leaf == leaf_of_all ? primitive_count(scene) : first + leaf_count(leaf);
+        const std::uint32_t first = leaf_first(leaf);
+        const std::uint32_t end = first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Float4 q = bvh_detail::load_float4(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
