@@ -1,5 +1,7 @@
 #include "pictures.h"
 
+#include <utility>
+
 #include "tandem/film/image_io.h"
 #include "tandem/version/version.h"
 
@@ -39,8 +41,8 @@ ImageMetadata describe_picture(const RenderJob& job, const std::string& backend)
     return metadata;
 }
 
-void write_picture(const std::string& path, const Film& film, const ImageMetadata& metadata) {
-    write_image(path, film, metadata, {.ppm_text = true, .durability = Durability::written});
+void write_picture(const std::string& path, Film film, const ImageMetadata& metadata) {
+    write_image(path, std::move(film), metadata, {.ppm_text = true, .durability = Durability::written});
 }
 
 Film film_of(std::span<const float> rgb, int width, int height) {

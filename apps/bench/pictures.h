@@ -15,7 +15,7 @@ namespace tandem::bench {
 [[nodiscard]] ImageMetadata describe_picture(const RenderJob& job, const std::string& backend);
 
 /// By the extension; .ppm becomes P3 text, as the paper wrote it.
-void write_picture(const std::string& path, const Film& film, const ImageMetadata& metadata);
+void write_picture(const std::string& path, Film film, const ImageMetadata& metadata);
 
 /// A film of colours that something else than Tandem made: 3 * width * height floats from the top left.
 [[nodiscard]] Film film_of(std::span<const float> rgb, int width, int height);

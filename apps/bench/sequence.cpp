@@ -10,6 +10,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "pictures.h"
@@ -112,17 +113,17 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
     const auto take_oldest = [&] {
         InFlight oldest = std::move(flying.front());
         flying.pop_front();
-        auto result = std::make_shared<RenderResult>(oldest.pending->get());
-        times.render += result->stats.seconds.render;
-        times.download += result->stats.seconds.download;
-        times.counters += result->stats.counters;
+        RenderResult result = oldest.pending->get();
+        times.render += result.stats.seconds.render;
+        times.download += result.stats.seconds.download;
+        times.counters += result.stats.counters;
         if (options.output == SequenceOutput::none) return;
         RenderJob done = job;
         done.frame = static_cast<std::uint32_t>(oldest.frame);
-        times.blocked += encoders.add([result = std::move(result), done, &options, &backend] {
+        times.blocked += encoders.add([film = std::move(result.film), done, &options, &backend]() mutable {
             const bool png = options.output == SequenceOutput::png;
             write_picture(fmt::format("{}/frame-{:04}.{}", options.folder, done.frame, png ? "png" : "ppm"),
-                          result->film, describe_picture(done, backend.name()));
+                          std::move(film), describe_picture(done, backend.name()));
         });
     };
 

@@ -64,9 +64,7 @@ FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const
     Stopwatch watch;
     record.metadata.film_sha256 = film_hash(film);
     record.seconds.hash = watch.lap();
-    FloatImage image = film_to_image(film);
-    film = {};  // back to the backend, which has frames to render
-    const EncodedImage encoded = encode_image(image, format, record.metadata, options);
+    const EncodedImage encoded = encode_image(std::move(film), format, record.metadata, options);
     record.nan_values = encoded.nan_values;
     record.seconds.encode = watch.lap();
     write_encoded(record.file, encoded, format, record.metadata, options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <utility>
 
 #include "tandem/error/error.h"
 #include "tandem/film/sha256.h"
@@ -49,10 +50,34 @@ std::optional<ImageMetadata> read_sidecar(const std::string& path, std::span<con
     return metadata_from_text(text);
 }
 
-ImageMetadata sized(ImageMetadata metadata, const FloatImage& image) {
-    metadata.width = image.width;
-    metadata.height = image.height;
+ImageMetadata sized(ImageMetadata metadata, int width, int height) {
+    metadata.width = width;
+    metadata.height = height;
     return metadata;
+}
+
+bool holds_floats(ImageFormat format) { return format == ImageFormat::pfm || format == ImageFormat::exr; }
+
+EncodedImage encode_floats(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata) {
+    if (format == ImageFormat::pfm) return {encode_pfm(image), 0};
+    return {encode_exr(image, sized(metadata, image.width, image.height)), 0};
+}
+
+EncodedImage encode_levels(const ToneMapped& mapped, ImageFormat format, const ImageMetadata& metadata,
+                           const WriteOptions& options) {
+    const ImageMetadata complete = sized(metadata, mapped.image.width, mapped.image.height);
+    if (format == ImageFormat::png) return {encode_png(mapped.image, complete, options.png_level), mapped.nan_values};
+    const auto encode = format == ImageFormat::ppm_text ? encode_ppm_text : encode_ppm;
+    return {encode(mapped.image, complete), mapped.nan_values};
+}
+
+/// Both kinds of picture are encoded and written alike; a film is handed on whole, and let go of early.
+template <class Picture>
+void write_picture(const std::string& path, Picture&& picture, const ImageMetadata& metadata,
+                   const WriteOptions& options) {
+    const ImageFormat format = format_of(path, options);
+    const EncodedImage encoded = encode_image(std::forward<Picture>(picture), format, metadata, options);
+    write_encoded(path, encoded, format, metadata, options);
 }
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view magic) {
@@ -89,13 +114,19 @@ ImageFormat format_of(const std::string& path, const WriteOptions& options) {
 
 EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                           const WriteOptions& options) {
-    const ImageMetadata complete = sized(metadata, image);
-    if (format == ImageFormat::pfm) return {encode_pfm(image), 0};
-    if (format == ImageFormat::exr) return {encode_exr(image, complete), 0};
-    const ToneMapped mapped = tone_map(image);
-    if (format == ImageFormat::png) return {encode_png(mapped.image, complete, options.png_level), mapped.nan_values};
-    const auto encode = format == ImageFormat::ppm_text ? encode_ppm_text : encode_ppm;
-    return {encode(mapped.image, complete), mapped.nan_values};
+    if (holds_floats(format)) return encode_floats(image, format, metadata);
+    return encode_levels(tone_map(image), format, metadata, options);
+}
+
+EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata, const WriteOptions& options) {
+    if (holds_floats(format)) {
+        const FloatImage image = film_to_image(film);
+        film = {};
+        return encode_floats(image, format, metadata);
+    }
+    const ToneMapped mapped = tone_map(film);
+    film = {};
+    return encode_levels(mapped, format, metadata, options);
 }
 
 void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFormat format,
@@ -108,14 +139,12 @@ void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFo
 
 void write_image(const std::string& path, const FloatImage& image, const ImageMetadata& metadata,
                  const WriteOptions& options) {
-    const ImageFormat format = format_of(path, options);
-    const EncodedImage encoded = encode_image(image, format, metadata, options);
-    write_encoded(path, encoded, format, sized(metadata, image), options);
+    write_picture(path, image, sized(metadata, image.width, image.height), options);
 }
 
-void write_image(const std::string& path, const Film& film, const ImageMetadata& metadata,
-                 const WriteOptions& options) {
-    write_image(path, film_to_image(film), metadata, options);
+void write_image(const std::string& path, Film film, const ImageMetadata& metadata, const WriteOptions& options) {
+    const ImageMetadata complete = sized(metadata, film.width(), film.height());
+    write_picture(path, std::move(film), complete, options);
 }
 
 DecodedImage read_image(const std::string& path) {

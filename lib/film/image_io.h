@@ -27,6 +27,10 @@ struct EncodedImage {
 /// through the tone curve; PFM and EXR hold the floats, bit for bit.
 [[nodiscard]] EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                                         const WriteOptions& options = {});
+/// Of the means of the film, whose memory it lets go of before the slow part: a backend that owns the memory can render
+/// the next frame into it meanwhile.
+[[nodiscard]] EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata,
+                                        const WriteOptions& options = {});
 /// Puts encoded bytes at `path`, whole or not at all (write_file()). The metadata of a PFM go to a file of the same
 /// name with ".txt" behind it, which is bound to the image by its hash: it counts only beside the very bytes that it
 /// was written for.
@@ -37,9 +41,8 @@ void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFo
 /// fails; both name the path and the reason.
 void write_image(const std::string& path, const FloatImage& image, const ImageMetadata& metadata,
                  const WriteOptions& options = {});
-/// The means of the film.
-void write_image(const std::string& path, const Film& film, const ImageMetadata& metadata,
-                 const WriteOptions& options = {});
+/// The means of the film, whose memory it lets go of early, as encode_image() does.
+void write_image(const std::string& path, Film film, const ImageMetadata& metadata, const WriteOptions& options = {});
 
 /// The format is found out from the bytes, not from the extension. Throws InputError with the path and the reason if
 /// the file cannot be read whole.

@@ -23,5 +23,7 @@ struct ToneMapped {
 };
 
 [[nodiscard]] ToneMapped tone_map(const FloatImage& image);
+/// Of the means, as film_to_image() has them, without an image of floats in between.
+[[nodiscard]] ToneMapped tone_map(const Film& film);
 
 }  // namespace tandem

@@ -51,6 +51,19 @@ TEST(ToneCurve, CountsEveryNaNAndMakesItBlack) {
     EXPECT_EQ(mapped.image.values, (std::vector<std::uint8_t>{0, 255, 0, 128, 255, 0}));
 }
 
+TEST(ToneCurve, TakesAFilmAsItTakesTheImageOfItsMeans) {
+    Film film(257, 3, 7);  // more than one block, and a part of one
+    for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+        film.sums()[i] = {0.009 * static_cast<double>(i), i % 5 == 0 ? nan : 3.5, 7.0};
+    }
+    const ToneMapped direct = tone_map(film), through_image = tone_map(film_to_image(film));
+    EXPECT_EQ(direct.image.width, 257);
+    EXPECT_EQ(direct.image.height, 3);
+    EXPECT_EQ(direct.image.values, through_image.image.values);
+    EXPECT_EQ(direct.nan_values, 155U);
+    EXPECT_EQ(through_image.nan_values, 155U);
+}
+
 TEST(FilmToImage, GivesTheMeansRoundedOnce) {
     Film film(2, 1, 3);
     film.sums()[0] = {1, 2, 3};
