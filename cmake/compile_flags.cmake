@@ -10,8 +10,15 @@ target_compile_options(
 )
 
 # The instruction set that every x86-64 machine of the last decade has. Kernels for newer ones: cpu/CMakeLists.txt.
+# Sanitizers take half an hour for a function into which everything is inlined, so inlining is not forced for them, and
+# without that all files have to be for one instruction set (lib/math/host_device.h).
 add_library(tandem_baseline_isa INTERFACE)
-target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v2>)
+if(TANDEM_SANITIZE)
+  target_compile_definitions(tandem_baseline_isa INTERFACE TANDEM_ONE_INSTRUCTION_SET)
+  target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v3>)
+else()
+  target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v2>)
+endif()
 
 # Warnings and sanitizers; not exported.
 add_library(tandem_diagnostics INTERFACE)

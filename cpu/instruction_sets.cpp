@@ -15,11 +15,18 @@ bool has_v3() {
     return has_v2() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
            __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
 }
+#if defined(TANDEM_ONE_INSTRUCTION_SET)
+// without kernels in such a build
+bool has_v4() { return false; }
+constexpr auto exact_kernels_v4 = exact_kernels_v3;
+constexpr auto fast_kernels_v4 = fast_kernels_v3;
+#else
 bool has_v4() {
     return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
            __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512vl");
 }
+#endif
 
 constexpr std::array sets = {
     InstructionSet{"x86-64-v2", has_v2, exact_kernels_v2, fast_kernels_v2},

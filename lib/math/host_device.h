@@ -4,16 +4,16 @@
 /// TANDEM_ON_DEVICE        1 inside nvcc's pass for the GPU, else 0
 /// TANDEM_HD               host and device, always inline. Inlining is forced on the host because the CPU backend
 ///                         compiles kernels once per instruction set: an out-of-line copy built with AVX-512 could
-///                         be the one that the linker keeps for a machine without it.
+///                         be the one that the linker keeps for a machine without it. Not forced in a build for one
+///                         instruction set (TANDEM_ONE_INSTRUCTION_SET).
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
-/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it gets
+/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
 /// a
 ///                         copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
-/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles to
-/// float
-///                         and back, also where it made the vector itself out of scalars, and with them the rounding.
+/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles, to
+///                         float and back, also where it made the vector itself out of scalars, and the rounding.
 #pragma once
 
 #if defined(__CUDACC__)
@@ -38,6 +38,11 @@
 #define TANDEM_HD __host__ __device__ __forceinline__
 #define TANDEM_HD_RARE __host__ __device__ __noinline__
 #define TANDEM_HD_CALL static __host__ __device__ __noinline__
+#define TANDEM_INLINE_LAMBDA
+#elif defined(TANDEM_ONE_INSTRUCTION_SET)
+#define TANDEM_HD inline
+#define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_CALL [[gnu::noinline]] static
 #define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline

@@ -29,8 +29,9 @@ bool matches(const std::string& id, const std::string& pattern) {
 const std::vector<HardCase>& corpus() {
     static const std::vector<HardCase> all = [] {
         std::vector<HardCase> list;
-        for (const auto& group : {sphere_cases(), box_cases(), face_cases(), structure_cases(), shading_cases(),
-                                  camera_cases(), film_cases(), transform_cases(), input_cases(), parity_cases()}) {
+        for (const auto& group :
+             {sphere_cases(), box_cases(), face_cases(), structure_cases(), leaving_cases(), dielectric_cases(),
+              shading_cases(), camera_cases(), film_cases(), transform_cases(), input_cases(), parity_cases()}) {
             list.insert(list.end(), group.begin(), group.end());
         }
         return list;

@@ -1,0 +1,280 @@
+// Group F: mirrors and the borders of glass. All directions are unit vectors in double, as the path loop has them.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "hard/corpus/functions.h"
+#include "hard/corpus/groups.h"
+#include "hard/corpus/lots.h"
+#include "support/exact_geometry.h"
+#include "tandem/geometry/intersect.h"
+#include "tandem/geometry/spawn_ray.h"
+#include "tandem/material/fresnel.h"
+#include "tandem/material/reflect.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem::hard {
+
+namespace {
+
+using test::any_across;
+using test::any_unit;
+using test::Big;
+using Wide = Double<Packet>;
+
+constexpr double unit = 0x1p-53;  ///< half a unit of the last place of a double of 1
+
+/// A direction onto a surface, from the side of its normal.
+struct Incidence {
+    Vec3d direction, normal;
+
+    /// sin^2 and cos of the angle, of the vectors as they are, be they of length 1 or not.
+    [[nodiscard]] Big sine2() const {
+        const test::BigVector d = test::big(direction), n = test::big(normal);
+        const test::BigVector across = {d.y * n.z - d.z * n.y, d.z * n.x - d.x * n.z, d.x * n.y - d.y * n.x};
+        return test::dot(across, across) / (test::dot(d, d) * test::dot(n, n));
+    }
+    [[nodiscard]] Big cosine() const {
+        const test::BigVector d = test::big(direction), n = test::big(normal);
+        return -test::dot(d, n) / sqrt(Big(test::dot(d, d) * test::dot(n, n)));
+    }
+    [[nodiscard]] std::string text(double eta) const {
+        return fmt::format("d = {{{:a}, {:a}, {:a}}}, n = {{{:a}, {:a}, {:a}}}, eta = {:a}", direction.x, direction.y,
+                           direction.z, normal.x, normal.y, normal.z, eta);
+    }
+};
+
+Incidence any_incidence(double sine, double cosine, Random& random) {
+    const Vec3d normal = any_unit(random);
+    return {normalize(any_across(random, normal) * sine - normal * cosine), normal};
+}
+Incidence with_sine(double sine, Random& random) {
+    return any_incidence(sine, std::sqrt((1 - sine) * (1 + sine)), random);
+}
+Incidence with_cosine(double cosine, Random& random) {
+    return any_incidence(std::sqrt((1 - cosine) * (1 + cosine)), cosine, random);
+}
+
+struct Border {
+    bool transmits;
+    Vec3d direction;
+    double cosine_out, reflectance;
+};
+
+/// Of one ray; a packet that differs counts as wrong.
+Border cross_border(Score& score, const Incidence& in, double eta) {
+    const auto one = refract<float>(in.direction, in.normal, eta);
+    const Border border = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
+    const auto many = refract<Packet>(broadcast<Wide>(in.direction), broadcast<Wide>(in.normal), Wide(eta));
+    const Wide reflectance = fresnel_dielectric<Packet>(many, Wide(eta));
+    const auto differs = [](double a, double b) { return bits_of(a) != bits_of(b); };
+    const bool wrong = all(many.transmits) != border.transmits || any(many.transmits) != border.transmits ||
+                       differs(reflectance[1], border.reflectance) ||
+                       (border.transmits && (differs(many.direction.x[0], border.direction.x) ||
+                                             differs(many.direction.y[1], border.direction.y) ||
+                                             differs(many.direction.z[2], border.direction.z)));
+    score.decide(wrong, [&] { return "a packet differs: " + in.text(eta); });
+    return border;
+}
+
+/// eta sin = 1 + and - 1e-2 to 1e-12. Not judged within 2^-40, where the rounding of the vectors is as large.
+Score next_to_total(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const double gap = std::pow(10.0, random.uniform(-12.0, -2.0)) * (random.coin() ? 1 : -1);
+        const double eta = random.uniform(1.05, 2.5);
+        const Incidence in = with_sine((1 + gap) / eta, random);
+        const Big sine2 = Big(eta) * Big(eta) * in.sine2();
+        const Border border = cross_border(score, in, eta);
+        if (abs(Big(sine2 - 1)) > Big(0x1p-39)) {
+            score.decide(border.transmits != (sine2 < 1), [&] { return in.text(eta); });
+        } else {
+            ++score.unjudged;
+        }
+        if (!border.transmits || sine2 > 1) continue;
+        const Big error = abs(Big(Big(border.cosine_out) - sqrt(Big(1 - sine2))));
+        score.decide(error > Big(1e-7), [&] { return fmt::format("cosine {}: {}", border.cosine_out, in.text(eta)); });
+    }
+    return score;
+}
+
+/// The sine behind is eta times the sine before, to a float's last place, down to 1e-6 from the normal.
+Score near_the_normal(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const double eta = random.uniform(0.4, 2.5);
+        const Incidence in = with_sine(std::pow(10.0, random.uniform(-6.0, -0.5)), random);
+        const Border border = cross_border(score, in, eta);
+        score.decide(!border.transmits, [&] { return in.text(eta); });
+        const Incidence behind = {border.direction, in.normal};
+        const Big right = sqrt(Big(Big(eta) * Big(eta) * in.sine2()));
+        score.measure(ulps_from(sqrt(behind.sine2()).convert_to<float>(), right.convert_to<double>()),
+                      [&] { return in.text(eta); });
+    }
+    return score;
+}
+
+/// Equal indices: the direction as it was, to the bit, and nothing reflected, at every angle.
+Score equal_indices(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const Incidence in = with_cosine(i % 3 == 0 ? 0 : std::exp2(random.uniform(-60.0, 0.0)), random);
+        const Border border = cross_border(score, in, 1);
+        const bool wrong = !border.transmits || border.direction != in.direction || border.reflectance != 0;
+        score.decide(wrong, [&] { return in.text(1); });
+    }
+    return score;
+}
+
+/// R is between 0 and 1, exactly 1 at a cosine of 0, and Fresnel's formula rounded to float elsewhere.
+Score grazing(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const double eta = random.coin() ? random.uniform(0.3, 3.0) : 1 + std::exp2(random.uniform(-40.0, -2.0));
+        const bool along = i % 8 == 0;
+        const Vec3d normal = {0, 0, 1};
+        const Incidence in =
+            along ? Incidence{{1, 0, 0}, normal} : with_cosine(std::exp2(random.uniform(-60.0, -2.0)), random);
+        const Border border = cross_border(score, in, eta);
+        const double r = border.reflectance;
+        score.decide(!(r >= 0 && r <= 1) || (along && r != 1), [&] { return fmt::format("{}: {}", r, in.text(eta)); });
+        score.nans += std::isnan(r);
+    }
+    return score;
+}
+
+/// R against Fresnel's formula, on the vectors as they are, and R + T against 1.
+Score energy(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const double eta = random.uniform(0.3, 3.0);
+        const Incidence in = with_cosine(random.uniform(0.01, 1.0), random);
+        const Border border = cross_border(score, in, eta);
+        const double r = border.reflectance, t = 1 - r;
+        score.decide(!(std::abs(r + t - 1) <= 2 * unit), [&] { return in.text(eta); });
+        const Big left = 1 - Big(eta) * Big(eta) * in.sine2();
+        if (left < Big(1e-4)) continue;  // next to total reflection: F1
+        const Big out = sqrt(left), cosine = in.cosine();
+        const Big s = (eta * cosine - out) / (eta * cosine + out), p = (cosine - eta * out) / (cosine + eta * out);
+        const Big right = (s * s + p * p) / 2;
+        if (right < Big(1e-12)) continue;  // Brewster's angle, and indices that are almost equal: nothing is left
+        score.measure(ulps_from(static_cast<float>(r), right.convert_to<double>()), [&] { return in.text(eta); });
+    }
+    return score;
+}
+
+/// 500 mirrors: the direction keeps its length, and an albedo of 0.999 its power.
+Score many_mirrors(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls / 500 + 1; ++i) {
+        Vec3d direction = any_unit(random);
+        double throughput = 1;
+        for (int bounce = 0; bounce < 500; ++bounce) {
+            direction = reflect(direction, any_unit(random));
+            throughput *= 0.999;
+            const double off = std::sqrt(dot(direction, direction)) - 1;
+            score.decide(!(std::abs(off) <= 4 * unit), [&] { return fmt::format("{} off after {}", off, bounce); });
+        }
+        score.measure(ulps_from(static_cast<float>(throughput), Exact(pow(Exact(0.999), 500))),
+                      [&] { return fmt::format("{}", throughput); });
+    }
+    return score;
+}
+
+/// In or out, where the direction is in the tangent plane but for 1e-9 and less: the sign of the very dot product, if
+/// it is not smaller than the rounding of doubles.
+Score sides(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        SurfacePoint<float> point = {{0, 0, 0}, any_unit(random), 5};
+        const double cosine = random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-12.0, -7.0));
+        const Vec3f direction = narrow(any_across(random, point.normal) + point.normal * cosine);
+        const Big exact = test::dot(test::big(direction), test::big(point.normal));
+        if (abs(exact) < Big(4 * unit)) {
+            ++score.unjudged;
+            continue;
+        }
+        const bool inside = spawn_ray(point, direction).source.inside;
+        score.decide(inside != (exact < 0), [&] {
+            return fmt::format("d = {{{:a}, {:a}, {:a}}}, n = {{{:a}, {:a}, {:a}}}", double{direction.x},
+                               double{direction.y}, double{direction.z}, point.normal.x, point.normal.y,
+                               point.normal.z);
+        });
+    }
+    return score;
+}
+
+/// A ball of glass brings rays near its axis to n r / (2 (n - 1)) behind its centre. Those at a height h come short of
+/// that by about (h / r)^2 of it.
+Score ball_lens(Random& random, std::size_t calls) {
+    Score score;
+    const PreparedScene prepared = prepare(scene_of({{{0, 0, 0}, 1}}), {.origin = Vec3d{0, 0, 0}});
+    const SceneView scene = view(prepared);
+    for (std::size_t i = 0; i < calls; ++i) {
+        const double n = random.uniform(1.2, 1.9), height = random.uniform(1e-3, 3e-3);
+        const double azimuth = random.uniform(0.0, 6.28);
+        SpawnedRay<float> next = {
+            {narrow(Vec3d{height * std::cos(azimuth), height * std::sin(azimuth), 4}), {0, 0, -1}}, {}};
+        SurfacePoint<float> point;
+        Vec3d direction = {0, 0, -1};
+        for (const bool entering : {true, false}) {
+            const auto hit = LoopTracer{scene}.closest(next.ray, next.source, true);
+            if (hit.primitive == no_primitive) break;
+            point = surface_point(scene, next.ray, next.source, hit, true);
+            const Vec3d normal = entering ? point.normal : point.normal * -1.0;
+            direction = refract<float>(direction, normal, entering ? 1 / n : n).direction;
+            next = spawn_ray(point, narrow(direction));
+        }
+        const Vec3d from = widen(point.position);
+        const double across = dot(Vec3d{from.x, from.y, 0}, Vec3d{direction.x, direction.y, 0});
+        const double t = -across / (direction.x * direction.x + direction.y * direction.y);
+        const double focus = -(from.z + t * direction.z), right = n / (2 * (n - 1));
+        score.decide(!(std::abs(focus / right - 1) <= 1e-4),
+                     [&] { return fmt::format("n = {}, height {}: {} for {}", n, height, focus, right); });
+    }
+    return score;
+}
+
+/// A normal that is too long by 3 units of float does not lengthen what it mirrors.
+Score long_normals(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        const Vec3d normal = any_unit(random) * (1 + 3 * 0x1p-24);
+        const Vec3d direction = any_unit(random);
+        const Vec3d mirrored = reflect(direction, normal);
+        const double off = std::sqrt(dot(mirrored, mirrored)) - 1;
+        score.decide(!(std::abs(off) <= 4 * unit), [&] { return fmt::format("too long by {}", off); });
+        const auto many = reflect(broadcast<Wide>(direction), broadcast<Wide>(normal));
+        const bool differs = bits_of(many.x[0]) != bits_of(mirrored.x) || bits_of(many.y[1]) != bits_of(mirrored.y) ||
+                             bits_of(many.z[2]) != bits_of(mirrored.z);
+        score.decide(differs, "a packet differs");
+    }
+    return score;
+}
+
+}  // namespace
+
+std::vector<HardCase> dielectric_cases() {
+    return {
+        {"F1", "Next to total reflection, 10^-2 to 10^-12",
+         "1 - eta^2 (1 - cos^2) cancels: 19 % are decided wrongly at 10^-7", "MPFR, on the same vectors",
+         FunctionCase{next_to_total}},
+        {"F2", "Refraction 10^-6 to 0.3 from the normal", "1 - cos^2 has no digit left of the angle",
+         "MPFR, on the same vectors", FunctionCase{near_the_normal}},
+        {"F3", "Equal indices, down to grazing", "Fresnel's formula is 0/0, and the direction is bent by rounding",
+         "rule: the same bits, nothing reflected", FunctionCase{equal_indices}},
+        {"F4", "The reflectance at grazing incidence", "rounding gives more than 1, or NaN",
+         "rule: between 0 and 1; 1 at a cosine of 0", FunctionCase{grazing}},
+        {"F5", "What is reflected and what goes through", "two formulas round apart", "MPFR; R + T = 1",
+         FunctionCase{energy}},
+        {"F6", "500 mirrors", "the length of the direction drifts", "closed form", FunctionCase{many_mirrors}},
+        {"F7", "In or out, 10^-7 to 10^-12 from the tangent plane",
+         "the sign is rounding noise, and glass turns into air", "exact arithmetic", FunctionCase{sides}},
+        {"F9", "The focus of a ball lens", "errors of two surfaces add up", "closed form, paraxial",
+         FunctionCase{ball_lens}},
+        {"F10", "Mirrored by a normal that is too long", "the direction takes over the error", "closed form",
+         FunctionCase{long_normals}},
+    };
+}
+
+}  // namespace tandem::hard
