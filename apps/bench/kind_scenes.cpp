@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <variant>
 
 #include "ray_sets.h"
 #include "tandem/error/error.h"
@@ -22,13 +23,17 @@ struct Kind {
     Shape shape;
     bool scaled;  ///< unevenly
     bool turned;
+    Mesh mesh{};
 };
 
+const Mesh one_triangle = {.positions = {{-0.6F, -0.5F, 0}, {0.6F, -0.5F, 0}, {0, 0.7F, 0}}, .triangles = {0, 1, 2}};
+const Mesh one_quad = {.positions = {{-0.5F, -0.5F, 0}, {0.5F, -0.5F, 0}, {0.5F, 0.5F, 0}, {-0.5F, 0.5F, 0}},
+                       .quads = {0, 1, 2, 3}};
+
 const std::array kinds = {
-    Kind{"sphere", SphereShape{0.5}, false, false},
-    Kind{"box", BoxShape{{1, 1, 1}}, true, false},
-    Kind{"ellipsoid", SphereShape{0.5}, true, true},
-    Kind{"parallelepiped", BoxShape{{1, 1, 1}}, true, true},
+    Kind{"sphere", SphereShape{0.5}, false, false},           Kind{"box", BoxShape{{1, 1, 1}}, true, false},
+    Kind{"ellipsoid", SphereShape{0.5}, true, true},          Kind{"parallelepiped", BoxShape{{1, 1, 1}}, true, true},
+    Kind{"triangle", MeshShape{0}, true, true, one_triangle}, Kind{"quad", MeshShape{0}, true, true, one_quad},
 };
 
 /// Of any length but zero, which a rotation may have.
@@ -67,6 +72,7 @@ KindScene make_kind_scene(const std::string& name, Difficulty difficulty, std::s
     Scene scene;
     scene.name = name;
     scene.materials.emplace_back();
+    if (std::holds_alternative<MeshShape>(kind->shape)) scene.meshes.push_back(kind->mesh);
     Node camera;
     camera.camera = PerspectiveCamera{};
     Node crowd;

@@ -97,6 +97,65 @@ std::vector<Lot> small_mesh(Random& random, std::size_t rays) {
     return from_inside(random, rays, {{1e-4, {0, 0, 0}}, {1e-20, {0, 0, 0}}, {1e-4, {0.1, 0.1, 0}}}, false);
 }
 
+/// A sphere of 384 quads, none of them flat: a cube's faces of 8 x 8 cells, blown up. Shared corners are equal.
+Mesh sphere_of_quads() {
+    constexpr int cells = 8;
+    Mesh mesh;
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2, side = face % 2 == 0 ? -cells : cells;
+        for (int cell = 0; cell < cells * cells; ++cell) {
+            const int column = cell % cells, row = cell / cells;
+            // against the clock from outside
+            static constexpr int corners[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}},
+                                                     {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+            for (const auto& corner : corners[face % 2]) {
+                Vec3d p;
+                p[axis] = side;
+                p[(axis + 1) % 3] = 2 * (column + corner[0]) - cells;
+                p[(axis + 2) % 3] = 2 * (row + corner[1]) - cells;
+                mesh.quads.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+                mesh.positions.push_back(narrow(normalize(p)));
+            }
+        }
+    }
+    return mesh;
+}
+
+/// From inside at edges, at diagonals and, every fourth ray, at a corner.
+Lot from_inside_quads(Random& random, std::size_t rays) {
+    Mesh mesh = sphere_of_quads();
+    return {scene_of(mesh), make_rays(rays, [&] {
+                const std::uint32_t quad = 4 * random.below(static_cast<std::uint32_t>(mesh.quads.size() / 4));
+                const std::uint32_t first = random.below(4), second = random.coin() ? first ^ 2U : (first + 1) % 4;
+                const double part = random.below(4) == 0 ? 0 : random.uniform(0.0, 1.0);
+                const Vec3f from = narrow(in_ball(random, 0.8));
+                const Vec3d target =
+                    widen(mesh.positions[quad + first]) * (1 - part) + widen(mesh.positions[quad + second]) * part;
+                return Ray<float>{from, narrow(target - widen(from))};
+            })};
+}
+
+/// 200 rays for every one that is asked for: ten million where others try 50,000. Whatever they hit, they hit.
+Score many_rays(const Subject& subject, Random& random, std::size_t rays) {
+    constexpr std::size_t blocks = 50;
+    Score score;
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::vector<Lot> lots = from_inside(random, rays, ordinary_balls, block % 2 == 0);
+        lots.push_back(from_inside_quads(random, 3 * rays));
+        for (const Lot& lot : lots) {
+            std::vector<Hit> hits(lot.rays.size());
+            const auto scene = subject.backend.load(prepare(lot.scene, {.origin = Vec3d{0, 0, 0}}), subject.tier);
+            score.seconds += subject.backend.trace(*scene, TraceJob{.rays = lot.rays, .hits = hits});
+            for (std::size_t i = 0; i < hits.size(); ++i) {
+                const bool leak = hits[i].primitive == no_primitive;
+                score.leaks += leak;
+                score.decide(leak, [&] { return to_literal(lot.rays[i]) + " leaves a closed mesh"; });
+            }
+        }
+    }
+    return score;
+}
+
 /// A hundred thousand times as long as wide.
 std::vector<Lot> needles(Random& random, std::size_t rays) {
     return one_by_one(
@@ -270,6 +329,8 @@ std::vector<HardCase> face_cases() {
          "exact arithmetic; the lowest id of equal t", RayCase{coplanar}},
         {"C12", "Coordinates at edges and vertices", "u + v is above 1, or u below 0", exact,
          FunctionCase{coordinates}},
+        {"C13", "Edges, vertices and diagonals, 200 rays for one",
+         "a leak in a million is a bright dot in every picture", "topology: closed meshes", RenderCase{many_rays}},
     };
 }
 
