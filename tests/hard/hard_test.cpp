@@ -62,6 +62,10 @@ TEST_P(HardCase, HoldsItsMark) {
                     ? try_rays(*hard_case, answered_lots(*hard_case, rays_per_case), *backend, tier)
                     : try_pictures(*hard_case, {backend_name, tier, *backend, another}, rays_per_case);
     }
+#if defined(TANDEM_ONE_INSTRUCTION_SET)
+    // Across calls that were not inlined, nothing is contracted: other errors than those of which the marks tell.
+    if (tier == Tier::fast) GTEST_SKIP() << "ran for the sanitizer alone; the marks are those of an optimised build";
+#endif
     const Mark& mark = *find_mark(hard_case->id, tier);
     const auto tried = static_cast<double>(score.tried);
     EXPECT_GT(score.tried, 0U);
