@@ -10,7 +10,7 @@ target_compile_options(
 )
 
 # The instruction set that every x86-64 machine of the last decade has. Kernels for newer ones: cpu/CMakeLists.txt.
-# Sanitizers take half an hour for a function into which everything is inlined, so inlining is not forced for them, and
+# With sanitizers g++ compiles a function into which everything is inlined for more than ten minutes, so inlining is not forced for them, and
 # without that all files have to be for one instruction set (lib/math/host_device.h).
 add_library(tandem_baseline_isa INTERFACE)
 if(TANDEM_SANITIZE)

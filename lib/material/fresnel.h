@@ -10,7 +10,7 @@ namespace tandem {
 /// Gives: R in [0, 1]; 1 for total internal reflection and for grazing incidence, 0 for equal indices at every angle.
 ///        Within 1e-12 of Fresnel's formulas for the cosines given.
 /// Source: A. Fresnel, 1823, as in M. Born, E. Wolf, "Principles of Optics", 1.5.2.
-/// Held by tests/unit/material/fresnel_test.cpp.
+/// Held by tests/unit/material/fresnel_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
 TANDEM_HD Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, const Double<Real>& eta) {
     using D = Double<Real>;

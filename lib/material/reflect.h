@@ -10,7 +10,7 @@ namespace tandem {
 /// Needs: both unit vectors to within rounding, of either orientation.
 /// Gives: length 1 within 4 units of the last place of double, however many reflections came before: an error in the
 ///        length of either input is not passed on, because the result is normalised.
-/// Held by tests/unit/material/reflect_test.cpp.
+/// Held by tests/unit/material/reflect_test.cpp and group F of the corpus (tests/hard).
 template <class D>
 TANDEM_HD Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {
     const D along = dot(direction, normal);

@@ -23,8 +23,8 @@ struct Refraction {
 ///        the direction as it is, to the bit. A NaN does not transmit.
 /// Method: the sine is the length of direction x normal, formed without cancellation. 1 - eta^2 (1 - cos^2) loses it
 /// next
-///        to the border, and near the normal, where the cosine hardly tells the angle.
-/// Held by tests/unit/material/refract_test.cpp.
+///         to the border, and near the normal, where the cosine hardly tells the angle.
+/// Held by tests/unit/material/refract_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
 TANDEM_HD Refraction<Real> refract(const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& normal,
                                    const Double<Real>& eta) {

@@ -17,34 +17,6 @@ Vec3d unit_vector(test::Random& random) {
     }
 }
 
-constexpr double four_units = 4 * 0x1p-53;
-
-// F6: the direction of a path of 500 mirror bounces, and what an albedo of 0.999 leaves of its light.
-TEST(Reflect, KeepsUnitLengthOverFiveHundredBounces) {
-    for (std::uint64_t path = 0; path < 200; ++path) {
-        test::Random random(path);
-        Vec3d direction = unit_vector(random);
-        double throughput = 1;
-        for (int bounce = 0; bounce < 500; ++bounce) {
-            direction = reflect(direction, unit_vector(random));
-            throughput *= 0.999;
-            ASSERT_NEAR(std::sqrt(dot(direction, direction)), 1, four_units)
-                << "path " << path << ", bounce " << bounce;
-        }
-        EXPECT_NEAR(throughput / std::pow(0.999, 500), 1, 1e-12);
-    }
-}
-
-// F10: a normal that is too long by 3 u of float does not lengthen the direction.
-TEST(Reflect, DoesNotPassOnTheErrorOfTheNormal) {
-    for (std::uint64_t number = 0; number < 10'000; ++number) {
-        test::Random random(number);
-        const Vec3d normal = unit_vector(random) * (1 + 3 * 0x1p-24);
-        const Vec3d mirrored = reflect(unit_vector(random), normal);
-        ASSERT_NEAR(std::sqrt(dot(mirrored, mirrored)), 1, four_units) << "case " << number;
-    }
-}
-
 TEST(Reflect, MirrorsTheAngle) {
     for (std::uint64_t number = 0; number < 10'000; ++number) {
         test::Random random(number);
