@@ -62,7 +62,7 @@ class CpuScene final : public ResidentScene {
         : ResidentScene(tier), scene_(scene) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
-        view_ = {tandem::view(scene_), {}, nullptr};
+        view_ = {tandem::view(scene_), {}, nullptr, {}};
         if (count > loop_limit) build(device, kernels, count);
         times_.build = watch.seconds();
     }
@@ -85,6 +85,26 @@ class CpuScene final : public ResidentScene {
         view_.frame = make_structure_frame(bounds);
 
         embree_ = EmbreeScene(rtcNewScene(device));
+        const std::uint32_t triangles = view_.scene.triangle_count, quads = view_.scene.quad_count;
+        view_.first_id[embree_quads] = count - quads;
+        view_.first_id[embree_triangles] = count - quads - triangles;
+        view_.first_id[our_primitives] = 0;
+        // Embree counts floats of faces in 32 bits
+        const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
+        const bool own_faces = tier() != Tier::fast || scene_.triangles.size() > most || scene_.quads.size() > most;
+        add_primitives(device, kernels, own_faces ? count : count - quads - triangles);
+        if (!own_faces) {
+            add_faces(device, kernels, embree_triangles, scene_.triangles);
+            add_faces(device, kernels, embree_quads, scene_.quads);
+        }
+        rtcCommitScene(embree_.get());
+        check_embree(device, "building the acceleration structure");
+        view_.embree = embree_.get();
+    }
+
+    /// Primitives [0, count) as ours.
+    void add_primitives(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
+        if (count == 0) return;
         const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
         check_embree(device, "making a scene");
         rtcSetGeometryUserPrimitiveCount(geometry.get(), count);
@@ -93,10 +113,39 @@ class CpuScene final : public ResidentScene {
         rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
         rtcSetGeometryOccludedFunction(geometry.get(), kernels.occluded);
         rtcCommitGeometry(geometry.get());
-        rtcAttachGeometry(embree_.get(), geometry.get());
-        rtcCommitScene(embree_.get());
-        check_embree(device, "building the acceleration structure");
-        view_.embree = embree_.get();
+        rtcAttachGeometryByID(embree_.get(), geometry.get(), our_primitives);
+    }
+
+    /// Faces as Embree's. It reads their corners where they lie.
+    template <class Face>
+    void add_faces(RTCDevice device, const TierKernels& kernels, GeometryId id, const std::vector<Face>& faces) {
+        if (faces.empty()) return;
+        constexpr bool is_quad = std::is_same_v<Face, Quad>;
+        const EmbreeGeometry geometry(
+            rtcNewGeometry(device, is_quad ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE));
+        check_embree(device, "making a scene");
+        // of faces, not of corners: a stride of one float reaches the corners of both kinds
+        constexpr std::size_t floats = sizeof(Face) / sizeof(float);
+        rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, faces.data(), 0,
+                                   sizeof(float), faces.size() * floats);
+        // Embree splits a quad along the diagonal of its corners 1 and 3; ours is that of v0 and v2
+        constexpr auto corners =
+            is_quad ? std::array<std::uint32_t, 4>{1, 2, 3, 0} : std::array<std::uint32_t, 4>{0, 1, 2};
+        constexpr std::size_t corner_count = is_quad ? 4 : 3;
+        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, is_quad ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
+            corner_count * sizeof(std::uint32_t), faces.size()));
+        check_embree(device, "naming the corners of faces");
+        for (std::size_t face = 0; face < faces.size(); ++face) {
+            for (std::size_t c = 0; c < corner_count; ++c) {
+                *indices++ = static_cast<std::uint32_t>(face * floats) + corners[c] * 3U;
+            }
+        }
+        rtcSetGeometryUserData(geometry.get(), &view_.first_id[id]);
+        rtcSetGeometryIntersectFilterFunction(geometry.get(), kernels.filter_nearest);
+        rtcSetGeometryOccludedFilterFunction(geometry.get(), kernels.filter_any);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(embree_.get(), geometry.get(), id);
     }
 
     static void padded_bounds(const RTCBoundsFunctionArguments* args) {

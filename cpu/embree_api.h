@@ -95,16 +95,19 @@ template <>
 struct Packet<4> {
     using Ray = RTCRay4;
     using RayHit = RTCRayHit4;
+    using Hit = RTCHit4;
 };
 template <>
 struct Packet<8> {
     using Ray = RTCRay8;
     using RayHit = RTCRayHit8;
+    using Hit = RTCHit8;
 };
 template <>
 struct Packet<16> {
     using Ray = RTCRay16;
     using RayHit = RTCRayHit16;
+    using Hit = RTCHit16;
 };
 
 }  // namespace tandem::embree

@@ -1,4 +1,5 @@
-/// Tracing through Embree: it proposes primitives, the shared intersectors decide.
+/// Tracing through Embree: it proposes primitives, the shared intersectors decide. In the tier fast it decides on faces
+/// itself.
 #pragma once
 
 #include <cstring>
@@ -41,7 +42,8 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
         const Double<One> before = query.best.t;
         offer_candidate<One>(view.scene, args->primID, true, query);
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-        if (query.best.t < before) ray.tfar = to_plain(query.proposal.limit(query.best.t));
+        // never beyond a face that Embree found
+        if (query.best.t < before) ray.tfar = lesser(to_plain(query.proposal.limit(query.best.t)), ray.tfar);
         return;
     }
     auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
@@ -52,11 +54,11 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     if (any(nearer)) {
         auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
         auto* tfar = reinterpret_cast<Float<Packet>*>(ray.tfar);
-        *tfar = select(nearer, query.proposal.limit(query.best.t), *tfar);
+        *tfar = select(nearer, lesser(query.proposal.limit(query.best.t), *tfar), *tfar);
     }
 }
 
-/// As intersect_callback() for any hit before best.t. Embree takes a tfar of -infinity for "occluded".
+/// As intersect_callback() for any hit before best.t. Embree, and who asks, takes a tfar of -infinity for "occluded".
 template <class One, class Packet>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
@@ -81,6 +83,53 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     }
 }
 
+namespace embree_detail {
+
+/// Which of the hits that Embree found on its own faces do not count. `s`: where they are, `id`: on which primitive.
+template <Search search, class Real>
+TANDEM_HD Mask<Real> is_excluded(const QueryContext<Real>& query, const Float<Real>& s, const UInt<Real>& id) {
+    if constexpr (search == Search::nearest) {
+        return query.source == nullptr ? Mask<Real>(false) : query.source->primitive == id;
+    } else {
+        const ShadowSource<Real>& source = *query.shadow_source;
+        return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);
+    }
+}
+
+template <class T>
+TANDEM_HD T load(const void* field) {
+    T result;
+    std::memcpy(&result, field, sizeof(result));
+    return result;
+}
+
+}  // namespace embree_detail
+
+/// Embree's filter of hits on its own faces: none on the face that a ray leaves, none on the light that a shadow ray
+/// runs to or beyond it.
+template <Search search, class One, class Packet>
+void filter_callback(const RTCFilterFunctionNArguments* args) {
+    using embree_detail::is_excluded;
+    using embree_detail::load;
+    const std::uint32_t first_id = *static_cast<const std::uint32_t*>(args->geometryUserPtr);
+    if (args->N == 1) {
+        const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+        const auto& query = *reinterpret_cast<const QueryContext<One>*>(args->context);
+        const One s(reinterpret_cast<const RTCRay*>(args->ray)->tfar);
+        if (is_excluded<search, One>(query, s, first_id + hit.primID)) args->valid[0] = 0;
+        return;
+    }
+    using Lanes = embree::Packet<Packet::size>;
+    using Word = UInt<Packet>;
+    const auto& hit = *reinterpret_cast<const typename Lanes::Hit*>(args->hit);
+    const auto& query = *reinterpret_cast<const QueryContext<Packet>*>(args->context);
+    const auto s = load<Float<Packet>>(reinterpret_cast<const typename Lanes::Ray*>(args->ray)->tfar);
+    const Word id = Word(first_id) + load<Word>(hit.primID);
+    const Mask<Packet> valid(load<typename Mask<Packet>::Vector>(args->valid));
+    const auto kept = (valid && !is_excluded<search, Packet>(query, s, id)).v;
+    std::memcpy(args->valid, &kept, sizeof(kept));
+}
+
 struct EmbreeTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all;
 
@@ -97,6 +146,13 @@ struct EmbreeTracer {
         rayhit.ray = single_ray(query, 3e38F);
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(view.embree, query.head, rayhit);
+        if constexpr (is_fast<Real>) {
+            const std::uint32_t geometry = rayhit.hit.geomID;
+            if (geometry != RTC_INVALID_GEOMETRY_ID) {
+                const Real t = query.proposal.parameter(rayhit.ray.tfar);
+                offer<Real>(true, t, view.first_id[geometry] + rayhit.hit.primID, query.best);
+            }
+        }
         return query.best;
     }
 
@@ -114,6 +170,15 @@ struct EmbreeTracer {
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
         embree::intersect(reinterpret_cast<const int*>(&valid), view.embree, query.head, rayhit);
+        if constexpr (is_fast<Real>) {
+            using embree_detail::load;
+            const auto geometry = load<UInt<Real>>(rayhit.hit.geomID);
+            const UInt<Real> first_id =
+                select(geometry == UInt<Real>(embree_triangles), UInt<Real>(view.first_id[embree_triangles]),
+                       UInt<Real>(view.first_id[embree_quads]));
+            offer<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)),
+                        first_id + load<UInt<Real>>(rayhit.hit.primID), query.best);
+        }
         return query.best;
     }
 
@@ -129,7 +194,7 @@ struct EmbreeTracer {
         if (!(limit >= 0)) return false;
         RTCRay embree_ray = single_ray(query, limit);
         embree::occluded1(view.embree, query.head, embree_ray);
-        return query.best.t < t_max;
+        return embree_ray.tfar < 0;
     }
 
     template <class T, class Isa>
@@ -149,7 +214,7 @@ struct EmbreeTracer {
         set_packet(embree_ray, query, select(query.proposal.active, limit, F(0.0F)));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
         embree::occluded(reinterpret_cast<const int*>(&valid), view.embree, query.head, embree_ray);
-        return query.proposal.active && query.best.t < t_max;
+        return query.proposal.active && embree_detail::load<F>(embree_ray.tfar) < F(0.0F);
     }
 
   private:

@@ -207,8 +207,23 @@ std::uint64_t trace(const CpuSceneView& view, const TraceJob& job) {
 }
 
 template <class Reals>
-inline constexpr TierKernels tier_kernels = {render_tile<Reals>, trace<Reals>,
-                                             intersect_callback<typename Reals::One, typename Reals::Packet>,
-                                             occluded_callback<typename Reals::One, typename Reals::Packet>};
+constexpr TierKernels make_tier_kernels() {
+    using One = typename Reals::One;
+    using Packet = typename Reals::Packet;
+    TierKernels kernels = {render_tile<Reals>,
+                           trace<Reals>,
+                           intersect_callback<One, Packet>,
+                           occluded_callback<One, Packet>,
+                           nullptr,
+                           nullptr};
+    if constexpr (is_fast<One>) {
+        kernels.filter_nearest = filter_callback<Search::nearest, One, Packet>;
+        kernels.filter_any = filter_callback<Search::any, One, Packet>;
+    }
+    return kernels;
+}
+
+template <class Reals>
+inline constexpr TierKernels tier_kernels = make_tier_kernels<Reals>();
 
 }  // namespace tandem

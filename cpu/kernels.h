@@ -14,11 +14,16 @@
 
 namespace tandem {
 
+/// What lies in an Embree scene, by geomID: our primitives, all of them in the exact tiers; in the tier fast faces are
+/// Embree's own.
+enum GeometryId : std::uint32_t { our_primitives, embree_triangles, embree_quads, geometry_count };
+
 /// A scene as the kernels read it. `embree` is null for a scene of few primitives, which are tried one by one.
 struct CpuSceneView {
     SceneView scene;
     StructureFrame frame;
     RTCScene embree;
+    std::uint32_t first_id[geometry_count];  ///< of the primitives in each geometry
 };
 
 /// Pixels [x0, x1) x [y0, y1).
@@ -35,6 +40,9 @@ struct TierKernels {
     /// Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.
     RTCIntersectFunctionN intersect;
     RTCOccludedFunctionN occluded;
+    /// Embree's filters of hits on its own faces, in the tier fast; else null.
+    RTCFilterFunctionN filter_nearest;
+    RTCFilterFunctionN filter_any;
 };
 
 // By instruction set; the fast tier's are compiled apart, with other flags.

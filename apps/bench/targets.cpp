@@ -63,7 +63,7 @@ class TargetRun {
     void cpu_rays(TargetResult& result, RaySet set) {
         const RayTiming timing = time_rays(ray_options(set), {"cpu"}, source_, report_);
         add_rows(timing.rows);
-        finish(result, ratio_of_medians(timing.rows[1].seconds, timing.rows[0].seconds));
+        finish(result, ratio_of_medians(timing.rows.back().seconds, timing.rows.front().seconds));
     }
 
     /// Our rays per second on the GPU.

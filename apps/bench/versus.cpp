@@ -145,8 +145,8 @@ bool versus_rays(const VersusOptions& options, const std::vector<std::string>& n
     if (timing.has_native) {
         report.blocks.emplace_back(
             Callout{Callout::Kind::note,
-                    fmt::format("Raw Embree names another sphere for {} of these rays: its own sphere test "
-                                "is approximate (docs/numerics.md).",
+                    fmt::format("Raw Embree names another primitive for {} of these rays: its own tests are "
+                                "approximate (docs/numerics.md).",
                                 timing.native_ids)});
     }
     report.properties.emplace_back("differing hits", fmt::format("{}", timing.differing_hits));

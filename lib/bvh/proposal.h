@@ -39,6 +39,9 @@ struct Proposal {
         const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
+
+    /// The true parameter of a hit that the structure itself found at s, roughly: the rounding of t_offset stays.
+    TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 };
 
 /// Needs traceable rays in the lanes of `active` (is_traceable()).

@@ -10,11 +10,10 @@ namespace tandem {
 
 /// Keeps the nearer of `best` and a point at t, in the lanes of `hit`.
 template <class Real>
-TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, std::uint32_t primitive, Closest<Real>& best) {
-    const UInt<Real> id(primitive);
-    const Mask<Real> closer = hit && is_closer(t, id, best);
+TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive, Closest<Real>& best) {
+    const Mask<Real> closer = hit && is_closer(t, primitive, best);
     best.t = select(closer, t, best.t);
-    best.primitive = select(closer, id, best.primitive);
+    best.primitive = select(closer, primitive, best.primitive);
 }
 
 /// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
@@ -24,7 +23,7 @@ TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Re
                       const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t;
     const Mask<Real> hit = first_from(source, primitive, id, ray, t);
-    offer<Real>(hit && candidate, t, id, best);
+    offer<Real>(hit && candidate, t, UInt<Real>(id), best);
 }
 
 // The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than

@@ -216,14 +216,20 @@ requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere
     return first_in_front(sphere_roots(sphere, ray), t);
 }
 
+/// From the centre to the point at parameter t of the ray.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
+    using D = Double<Real>;
+    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(sphere.centre);
+    const Vec3<D> direction = widen(ray.direction);
+    return {offset.x + t * direction.x, offset.y + t * direction.y, offset.z + t * direction.z};
+}
+
 /// Unit outward normal at parameter t of the ray, which is on the sphere. Double; normalising the offset from the
 /// centre re-projects the point, so the error of t does not tilt the normal.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
-    using D = Double<Real>;
-    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(sphere.centre);
-    const Vec3<D> direction = widen(ray.direction);
-    return normalize(Vec3<D>{offset.x + t * direction.x, offset.y + t * direction.y, offset.z + t * direction.z});
+    return normalize(sphere_offset(sphere, ray, t));
 }
 
 }  // namespace tandem
