@@ -19,25 +19,28 @@ using Strict = TierReals<float, Lanes<float, Isa>>;
 template <class Isa>
 using Precise = TierReals<double, Lanes<double, Isa>>;
 
-/// One pixel per lane, along rows.
+/// One pixel per lane, in blocks as square as can be: their rays see the same things.
 template <class Reals, class Tracer>
 std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                             Vec3d* sums) {
     using Real = typename Reals::Packet;
     using Word = UInt<Real>;
-    constexpr std::uint32_t width = Real::size;
+    constexpr std::uint32_t width = Real::size == 4 ? 2 : 4;
+    constexpr std::uint32_t height = Real::size / width;
+    const Word lane = lane_index(Word(0U));
+    const Word row = lane >> (width == 2 ? 1 : 2);
+    const Word column = lane - row * Word(width);
     std::uint64_t invalid = 0;
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+    for (std::uint32_t y = tile.y0; y < tile.y1; y += height) {
         for (std::uint32_t x = tile.x0; x < tile.x1; x += width) {
-            const std::uint32_t used = tile.x1 - x < width ? tile.x1 - x : width;
-            const Word lane = lane_index(Word(0U));
-            const PixelSum<Real> pixel =
-                render_pixel<Real>(tracer, scene, job, Word(x) + lane, Word(y), lane < Word(used));
-            Vec3d* row = sums + static_cast<std::size_t>(y) * job.width + x;
-            for (std::uint32_t i = 0; i < used; ++i) {
-                const int l = static_cast<int>(i);
-                row[i] = {pixel.sum.x[l], pixel.sum.y[l], pixel.sum.z[l]};
-                invalid += pixel.invalid[l];
+            const Word pixel_x = Word(x) + column, pixel_y = Word(y) + row;
+            const Mask<Real> used = pixel_x < Word(tile.x1) && pixel_y < Word(tile.y1);
+            const PixelSum<Real> pixel = render_pixel<Real>(tracer, scene, job, pixel_x, pixel_y, used);
+            for (int i = 0; i < Real::size; ++i) {
+                if (!used[i]) continue;
+                sums[static_cast<std::size_t>(pixel_y[i]) * job.width + pixel_x[i]] = {pixel.sum.x[i], pixel.sum.y[i],
+                                                                                       pixel.sum.z[i]};
+                invalid += pixel.invalid[i];
             }
         }
     }
