@@ -1,6 +1,7 @@
 // Group F: mirrors and the borders of glass. All directions are unit vectors in double, as the path loop has them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hard/corpus/functions.h"
@@ -10,6 +11,7 @@
 #include "tandem/geometry/intersect.h"
 #include "tandem/geometry/spawn_ray.h"
 #include "tandem/material/fresnel.h"
+#include "tandem/material/medium_stack.h"
 #include "tandem/material/reflect.h"
 #include "tandem/scene/prepare.h"
 
@@ -204,6 +206,116 @@ Score sides(Random& random, std::size_t calls) {
     return score;
 }
 
+/// Where a line is within a sphere, exactly; empty for a line that misses it.
+struct Span {
+    Big in, out;
+    std::uint32_t medium, priority;
+};
+
+std::vector<Span> spans_of(const std::vector<Sphere>& spheres, const std::vector<std::uint32_t>& priorities,
+                           const Ray<float>& ray) {
+    std::vector<Span> spans;
+    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
+        const test::BigVector o = test::big(widen(ray.origin) - widen(spheres[i].centre));
+        const test::BigVector d = test::big(widen(ray.direction));
+        const Big a = test::dot(d, d), b = test::dot(o, d), r = spheres[i].radius, c = test::dot(o, o) - r * r;
+        const Big discriminant = b * b - a * c;
+        if (discriminant <= 0) continue;
+        const Big root = sqrt(discriminant);
+        spans.push_back({(-b - root) / a, (-b + root) / a, i, priorities[i]});
+    }
+    return spans;
+}
+
+/// What fills the line at t: of the spans around it the one of the highest priority, and of those the last one entered.
+std::uint32_t medium_at(const std::vector<Span>& spans, const Big& t) {
+    const Span* best = nullptr;
+    for (const Span& span : spans) {
+        if (t < span.in || t > span.out) continue;
+        if (best == nullptr || span.priority > best->priority ||
+            (span.priority == best->priority && span.in >= best->in)) {
+            best = &span;
+        }
+    }
+    return best == nullptr ? no_medium : best->medium;
+}
+
+/// One crossing of a border.
+struct Event {
+    Big t;
+    std::uint32_t medium, priority;
+    bool enters;
+};
+
+/// Spheres within each other, across each other and upon each other, each of a medium of its own. Between two crossings
+/// the stack must name the medium that looking at all of them names. The tracer must find the same crossings one after
+/// another, if none coincide.
+Score glass_in_glass(Random& random, std::size_t calls) {
+    Score score;
+    for (std::size_t i = 0; i < calls; ++i) {
+        std::vector<Sphere> spheres;
+        std::vector<std::uint32_t> priorities;
+        bool coincide = false;
+        const std::uint32_t count = 2 + random.below(5);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const bool twin = k > 0 && random.below(4) == 0;
+            coincide = coincide || twin;
+            spheres.push_back(twin ? spheres.back()
+                                   : Sphere{random.coin() ? Vec3f{0, 0, 0} : narrow(any_unit(random) * 0.5),
+                                            random.uniform(0.3F, 1.0F)});
+            priorities.push_back(random.below(3));
+        }
+        const Vec3f origin = narrow(any_unit(random) * 3.0);
+        const Ray<float> ray = {origin, narrow(any_unit(random) * 0.3) - origin};
+        const std::vector<Span> spans = spans_of(spheres, priorities, ray);
+        std::vector<Event> events;
+        for (const Span& span : spans) {
+            events.push_back({span.in, span.medium, span.priority, true});
+            events.push_back({span.out, span.medium, span.priority, false});
+        }
+        // by t, then by id, as hits are ordered
+        std::stable_sort(events.begin(), events.end(),
+                         [](const Event& a, const Event& b) { return a.t != b.t ? a.t < b.t : a.medium < b.medium; });
+        const auto text = [&] { return fmt::format("{} spheres, {}", count, to_literal(ray)); };
+
+        MediumStack<float> stack;
+        MediumStack<Packet> packet;
+        using Word = UInt<Packet>;
+        for (std::size_t e = 0; e < events.size(); ++e) {
+            const Event& event = events[e];
+            const Mask<Packet> all_lanes(true);
+            const bool refused =
+                event.enters ? stack.enter(event.medium, event.priority, true) : stack.leave(event.medium, true);
+            if (event.enters) {
+                (void)packet.enter(Word(event.medium), Word(event.priority), all_lanes);
+            } else {
+                (void)packet.leave(Word(event.medium), all_lanes);
+            }
+            const bool last = e + 1 == events.size();
+            if (!last && events[e + 1].t == event.t) continue;  // what coincides counts as one border
+            const std::uint32_t right = last ? no_medium : medium_at(spans, (event.t + events[e + 1].t) / 2);
+            score.decide(refused || stack.current() != right || packet.current()[2] != right, text);
+        }
+
+        if (coincide) continue;
+        const PreparedScene prepared = prepare(scene_of(spheres), {.origin = Vec3d{0, 0, 0}});
+        const SceneView scene = view(prepared);
+        SpawnedRay<float> next = {ray, {}};
+        for (const Event& event : events) {
+            const auto hit = LoopTracer{scene}.closest(next.ray, next.source, true);
+            if (hit.primitive == no_primitive) {
+                score.decide(true, text);
+                break;
+            }
+            const SurfacePoint<float> point = surface_point(scene, next.ray, next.source, hit, true);
+            const bool enters = dot(point.normal, widen(ray.direction)) < 0;
+            score.decide(hit.primitive != event.medium || enters != event.enters, text);
+            next = spawn_ray(point, ray.direction);
+        }
+    }
+    return score;
+}
+
 /// A ball of glass brings rays near its axis to n r / (2 (n - 1)) behind its centre. Those at a height h come short of
 /// that by about (h / r)^2 of it.
 Score ball_lens(Random& random, std::size_t calls) {
@@ -270,6 +382,8 @@ std::vector<HardCase> dielectric_cases() {
         {"F6", "500 mirrors", "the length of the direction drifts", "closed form", FunctionCase{many_mirrors}},
         {"F7", "In or out, 10^-7 to 10^-12 from the tangent plane",
          "the sign is rounding noise, and glass turns into air", "exact arithmetic", FunctionCase{sides}},
+        {"F8", "Glass within glass, across it, upon it", "a border that is left is taken for one that is entered",
+         "MPFR: every body is asked between two crossings", FunctionCase{glass_in_glass}},
         {"F9", "The focus of a ball lens", "errors of two surfaces add up", "closed form, paraxial",
          FunctionCase{ball_lens}},
         {"F10", "Mirrored by a normal that is too long", "the direction takes over the error", "closed form",

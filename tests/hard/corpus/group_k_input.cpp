@@ -1,12 +1,19 @@
 // Group K: scenes as they should not be, and scenes at the ends of what they may be.
 #include <fmt/format.h>
 
+#include <clocale>
 #include <cmath>
+#include <fstream>
+#include <locale>
 
+#include "hard/corpus/functions.h"
+#include "hard/corpus/gltf_text.h"
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "support/temporary_folder.h"
 #include "tandem/error/error.h"
+#include "tandem/gltf/import.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
@@ -110,6 +117,66 @@ Score beyond_limits(Random&, std::size_t) {
     refuse("grey", "a shininess of -1", [&](Scene& s) { s.materials[0].phong.shininess = -1; });
     refuse("grey", "a shininess of 1e30", [&](Scene& s) { s.materials[0].phong.shininess = 1e30F; });
     refuse("primitive 0", "a material that is not there", [&](Scene& s) { s.nodes[1].geometry[0].material = 7; });
+    return score;
+}
+
+/// A program whose decimal point is a comma, while it lives: C++ streams, and C where such a locale is installed.
+class CommaLocale {
+  public:
+    CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Comma))) {
+        (void)std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    }
+    ~CommaLocale() {
+        std::locale::global(before_);
+        (void)std::setlocale(LC_NUMERIC, "C");
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+
+  private:
+    struct Comma : std::numpunct<char> {
+        [[nodiscard]] char do_decimal_point() const override { return ','; }
+        [[nodiscard]] char do_thousands_sep() const override { return '.'; }
+        [[nodiscard]] std::string do_grouping() const override { return "\3"; }
+    };
+    std::locale before_;
+};
+
+/// Numbers in a file: the nearest double of what is written, whatever the locale; what is no JSON number is refused.
+Score written_numbers(Random& random, std::size_t calls) {
+    Score score;
+    const test::TemporaryFolder folder;
+    const std::string text = to_gltf(scene_of({{{0, 0, -5}, 1}}));
+    const std::string key = "\"radius\"";
+    const std::size_t start = text.find_first_of("0123456789", text.find(key) + key.size());
+    const std::size_t end = text.find_first_not_of("0123456789.eE+-", start);
+    const auto read = [&](const std::string& number) {
+        const std::string path = folder.file("scene.gltf");
+        std::ofstream(path) << text.substr(0, start) << number << text.substr(end);
+        return import_gltf(path).scene;
+    };
+    const CommaLocale comma;
+    for (std::size_t i = 0; i < calls / 50 + 1; ++i) {
+        // a decimal number with more digits than any double has
+        std::string number = std::to_string(1 + random.below(9)) + ".";
+        for (int digit = 0; digit < 25; ++digit) number += static_cast<char>('0' + random.below(10));
+        number += "e" + std::to_string(static_cast<int>(random.below(24)) - 12);
+        const double right = Exact(number).convert_to<double>();
+        double got = 0;
+        for (const Node& node : read(number).nodes) {
+            for (const Geometry& geometry : node.geometry) got = std::get<SphereShape>(geometry.shape).radius;
+        }
+        score.decide(got != right, [&] { return fmt::format("{} is read as {:a}", number, got); });
+    }
+    for (const char* number : {"1e400", "0x1p-3", "1,5", ".5", "1.", "+1", "NaN", "Infinity", "-1", "-0"}) {
+        bool refused = false;
+        try {
+            (void)read(number);
+        } catch (const InputError&) {
+            refused = true;
+        }
+        score.decide(!refused, [&] { return fmt::format("a radius of {} is taken", number); });
+    }
     return score;
 }
 
@@ -222,6 +289,8 @@ std::vector<HardCase> input_cases() {
          RenderCase{nothing_there}},
         {"K6", "Sizes that are subnormal", "flush-to-zero makes them nothing", exact, RayCase{subnormal}},
         {"K8", "Centres in a plane, on a line, in a point", "bounds without extent", exact, RayCase{no_extent}},
+        {"K10", "Numbers in files, where the decimal point is a comma", "they are read as others, or to the comma",
+         "MPFR: the nearest double", FunctionCase{written_numbers}},
         {"K11", "Ten spheres for every ray", "32-bit offsets; a stack that is too short", exact, RayCase{crowd}},
     };
 }
