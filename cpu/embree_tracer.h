@@ -126,7 +126,7 @@ void filter_callback(const RTCFilterFunctionNArguments* args) {
     const auto s = load<Float<Packet>>(reinterpret_cast<const typename Lanes::Ray*>(args->ray)->tfar);
     const Word id = Word(first_id) + load<Word>(hit.primID);
     const Mask<Packet> valid(load<typename Mask<Packet>::Vector>(args->valid));
-    const auto kept = (valid && !is_excluded<search, Packet>(query, s, id)).v;
+    const auto kept = (valid && !is_excluded<search, Packet>(query, s, id)).vector();
     std::memcpy(args->valid, &kept, sizeof(kept));
 }
 
@@ -168,7 +168,7 @@ struct EmbreeTracer {
         set_packet(rayhit.ray, query, Float<Real>(3e38F));
         const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
-        alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
+        alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
         embree::intersect(reinterpret_cast<const int*>(&valid), view.embree, query.head, rayhit);
         if constexpr (is_fast<Real>) {
             using embree_detail::load;
@@ -212,7 +212,7 @@ struct EmbreeTracer {
         if (!any(query.proposal.active)) return LaneMask<Isa>(false);
         alignas(64) typename embree::Packet<Real::size>::Ray embree_ray;
         set_packet(embree_ray, query, select(query.proposal.active, limit, F(0.0F)));
-        alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.v;
+        alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
         embree::occluded(reinterpret_cast<const int*>(&valid), view.embree, query.head, embree_ray);
         return query.proposal.active && embree_detail::load<F>(embree_ray.tfar) < F(0.0F);
     }

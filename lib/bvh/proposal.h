@@ -4,8 +4,8 @@
 ///
 /// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
 /// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
-/// origin adds 2 u S, rounding it 1 u S and rounding the direction 3 u S along a path of length 2 S. Boxes are padded
-/// by 32 u S. Held by tests/agree/structure_test.cpp.
+/// origin adds 2 u S (it may come to lie up to 2^-6 S beyond S), rounding it 1 u S and rounding the direction 3 u S
+/// along a path of length 2 S. Boxes are padded by 32 u S. Held by tests/agree/structure_test.cpp.
 #pragma once
 
 #include "tandem/geometry/box.h"
@@ -44,6 +44,40 @@ struct Proposal {
     TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 };
 
+namespace proposal_detail {
+
+/// Where rays that start outside the bounds enter them. Returns the lanes that may touch anything in them.
+template <class Real>
+TANDEM_HD_RARE Mask<Real> enter_from_afar(StructureFrame frame, Ray<Real> ray, Double<Real>& t) {
+    const Crossing<Real> c = cross_box(Box{frame.bounds.lower, frame.bounds.upper}, ray);
+    t = c.t_near;
+    return c.crosses && c.t_far > Double<Real>(0.0);
+}
+
+/// The same in float, for origins not farther than `near_by` times the reach of the bounds: each t errs by less than
+/// 4 u t. 16 u t is allowed for, so that the point at t lies up to 2^-6 of their reach before the bounds.
+template <class Real>
+TANDEM_HD Mask<Real> enter(const StructureFrame& frame, const Ray<Real>& ray, Double<Real>& t) {
+    const Real infinity(__builtin_huge_valf());
+    Real t_near = -infinity, t_far = infinity;
+    const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
+        // d = 0 gives infinities of the right signs, or NaN on the very border, where nothing is
+        const Real a = (Real(lower) - o) / d;
+        const Real b = (Real(upper) - o) / d;
+        t_near = greater(lesser(a, b), t_near);
+        t_far = lesser(greater(a, b), t_far);
+    };
+    slab(frame.bounds.lower.x, frame.bounds.upper.x, ray.origin.x, ray.direction.x);
+    slab(frame.bounds.lower.y, frame.bounds.upper.y, ray.origin.y, ray.direction.y);
+    slab(frame.bounds.lower.z, frame.bounds.upper.z, ray.origin.z, ray.direction.z);
+    const Real rounding(16.0F * float_roundoff);
+    t = widen(t_near * (Real(1.0F) - rounding));  // not behind the first thing in the bounds
+    return t_far > Real(0.0F) && t_near <= t_far * (Real(1.0F) + rounding);
+}
+inline constexpr float near_by = 8192;
+
+}  // namespace proposal_detail
+
 /// Needs traceable rays in the lanes of `active` (is_traceable()).
 template <class Real>
 TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
@@ -61,14 +95,24 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
     proposal.t_offset = D(0.0);
     proposal.active = active;
     const Real limit(reach(frame.bounds));
-    const Mask<Real> outside =
-        active && (absolute(ray.origin.x) > limit || absolute(ray.origin.y) > limit || absolute(ray.origin.z) > limit);
+    const auto beyond = [&](const Real& distance) TANDEM_INLINE_LAMBDA {
+        return active && (absolute(ray.origin.x) > distance || absolute(ray.origin.y) > distance ||
+                          absolute(ray.origin.z) > distance);
+    };
+    const Mask<Real> outside = beyond(limit);
     if (any(outside)) {
-        const Crossing<Real> c = cross_box(Box{frame.bounds.lower, frame.bounds.upper}, ray);
         const D zero(0.0);
-        proposal.active = active && (!outside || (c.crosses && c.t_far > zero));
-        const Mask<Real> move = outside && proposal.active && c.t_near > zero;
-        proposal.t_offset = select(move, c.t_near, zero);
+        D t_near;
+        Mask<Real> enters;
+        // rays in double enter in double: they are exact, and so is their tier
+        if (std::is_same_v<Scalar<Real>, double> || any(beyond(limit * Real(proposal_detail::near_by)))) {
+            enters = proposal_detail::enter_from_afar<Real>(frame, ray, t_near);
+        } else {
+            enters = proposal_detail::enter<Real>(frame, ray, t_near);
+        }
+        proposal.active = active && (!outside || enters);
+        const Mask<Real> move = outside && proposal.active && t_near > zero;
+        proposal.t_offset = select(move, t_near, zero);
         const Vec3<D> o = widen(ray.origin);
         const Vec3<D> d = widen(ray.direction);
         const D& t = proposal.t_offset;

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "support/hard_scenes.h"
+#include "support/random.h"
 #include "tandem/bvh/bvh.h"
 #include "tandem/bvh/bvh_tracer.h"
 #include "tandem/geometry/few_tracer.h"
@@ -95,6 +97,28 @@ TEST(Bvh, NeverLosesAGrazingHit) {
         rays.push_back({{s.centre.x, s.centre.y + s.radius, s.centre.z}, {-1e-10F, 0, 0}});
     }
     expect_same_as_loop(structure, rays, "poles");
+}
+
+TEST(Bvh, NeverLosesTheFirstThingInTheBoundsFromAfar) {
+    // a wall of tiles, thin and flush with the border of the bounds: a ray that is brought near must stay before it
+    PreparedScene wall;
+    for (int i = 0; i < 64; ++i) {
+        const auto y = static_cast<float>(i % 8), z = static_cast<float>(i / 8);
+        wall.boxes.push_back({{-1, y - 4, z - 4}, {-0.9999F, y - 3, z - 3}});
+    }
+    wall.boxes.push_back({{2, -4, -4}, {3, 4, 4}});
+    wall.material_of.assign(wall.boxes.size(), 0);
+    const Structure structure(wall);
+    test::Random random(3);
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < 40'000; ++i) {
+        const double far = std::exp2(random.uniform(0.0, 22.0));
+        const Vec3f origin = {static_cast<float>(-2 - far), static_cast<float>(random.uniform(-1.0, 1.0) * far),
+                              static_cast<float>(random.uniform(-1.0, 1.0) * far)};
+        const Vec3f target = {-1, random.uniform(-4.0F, 4.0F), random.uniform(-4.0F, 4.0F)};
+        rays.push_back({origin, (target - origin) * static_cast<float>(std::exp2(random.uniform(-20.0, 20.0)))});
+    }
+    expect_same_as_loop(structure, rays, "wall");
 }
 
 TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
