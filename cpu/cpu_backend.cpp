@@ -10,6 +10,7 @@
 #include <tbb/version.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 
 #include "cpu/fp_environment.h"
