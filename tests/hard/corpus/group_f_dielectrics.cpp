@@ -327,7 +327,7 @@ Score ball_lens(Random& random, std::size_t calls) {
         const double azimuth = random.uniform(0.0, 6.28);
         SpawnedRay<float> next = {
             {narrow(Vec3d{height * std::cos(azimuth), height * std::sin(azimuth), 4}), {0, 0, -1}}, {}};
-        SurfacePoint<float> point;
+        SurfacePoint<float> point{};
         Vec3d direction = {0, 0, -1};
         for (const bool entering : {true, false}) {
             const auto hit = LoopTracer{scene}.closest(next.ray, next.source, true);

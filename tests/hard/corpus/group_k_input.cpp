@@ -227,6 +227,7 @@ std::vector<Lot> subnormal(Random& random, std::size_t rays) {
     std::vector<Lot> lots;
     for (const double size : {1e-40, 1e-43}) {
         std::vector<Sphere> spheres;
+        spheres.reserve(64);
         for (int i = 0; i < 64; ++i) {
             spheres.push_back({narrow(any_unit(random) * 20.0 * size), static_cast<float>(3 * size)});
         }
