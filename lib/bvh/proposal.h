@@ -46,18 +46,18 @@ struct Proposal {
 
 namespace proposal_detail {
 
-/// Where rays that start outside the bounds enter them. Returns the lanes that may touch anything in them.
-template <class Real>
-TANDEM_HD Mask<Real> enter_from_afar(const StructureFrame& frame, const Ray<Real>& ray, Double<Real>& t) {
-    const Crossing<Real> c = cross_box(Box{frame.bounds.lower, frame.bounds.upper}, ray);
-    t = c.t_near;
-    return c.crosses && c.t_far > Double<Real>(0.0);
-}
+/// How far from the origin, in reaches of the bounds, a ray may start to be brought to them in float.
+inline constexpr float near_by = 8192;
 
-/// The same in float, for origins not farther than `near_by` times the reach of the bounds: each t errs by less than
-/// 4 u t. 16 u t is allowed for, so that the point at t lies up to 2^-6 of their reach before the bounds.
+/// Where rays that start outside the bounds cross them. In float for origins `near_by`: each t errs by less than 4 u t;
+/// 16 u t is allowed for, so that no ray that may touch anything is lost and the entry lies up to 2^-6 of the reach
+/// before the bounds, never behind them.
 template <class Real>
-TANDEM_HD Mask<Real> enter(const StructureFrame& frame, const Ray<Real>& ray, Double<Real>& t) {
+TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, bool is_near_by) {
+    // A processor divides twice as many floats as doubles at a time, and this is done for every camera ray. On a GPU it
+    // is done in double; the other way has not been timed there. Rays in double are not narrowed.
+    constexpr bool in_float = !TANDEM_ON_DEVICE && std::is_same_v<Scalar<Real>, float>;
+    if (!in_float || !is_near_by) return cross_box(Box{bounds.lower, bounds.upper}, ray);
     const Real infinity(__builtin_huge_valf());
     Real t_near = -infinity, t_far = infinity;
     const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
@@ -67,14 +67,13 @@ TANDEM_HD Mask<Real> enter(const StructureFrame& frame, const Ray<Real>& ray, Do
         t_near = greater(lesser(a, b), t_near);
         t_far = lesser(greater(a, b), t_far);
     };
-    slab(frame.bounds.lower.x, frame.bounds.upper.x, ray.origin.x, ray.direction.x);
-    slab(frame.bounds.lower.y, frame.bounds.upper.y, ray.origin.y, ray.direction.y);
-    slab(frame.bounds.lower.z, frame.bounds.upper.z, ray.origin.z, ray.direction.z);
+    slab(bounds.lower.x, bounds.upper.x, ray.origin.x, ray.direction.x);
+    slab(bounds.lower.y, bounds.upper.y, ray.origin.y, ray.direction.y);
+    slab(bounds.lower.z, bounds.upper.z, ray.origin.z, ray.direction.z);
     const Real rounding(16.0F * float_roundoff);
-    t = widen(t_near * (Real(1.0F) - rounding));  // not behind the first thing in the bounds
-    return t_far > Real(0.0F) && t_near <= t_far * (Real(1.0F) + rounding);
+    const Real one(1.0F);
+    return {t_near <= t_far * (one + rounding), widen(t_near * (one - rounding)), widen(t_far)};
 }
-inline constexpr float near_by = 8192;
 
 }  // namespace proposal_detail
 
@@ -101,20 +100,12 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
     };
     const Mask<Real> outside = beyond(limit);
     if (any(outside)) {
+        const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)));
+        const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
         const D zero(0.0);
-        D t_near;
-        Mask<Real> enters;
-        // A processor divides twice as many floats as doubles at a time, and this is done for every camera ray. On a
-        // GPU it is done in double, and the other way has not been measured.
-        constexpr bool in_float = !TANDEM_ON_DEVICE && std::is_same_v<Scalar<Real>, float>;
-        if (!in_float || any(beyond(limit * Real(proposal_detail::near_by)))) {
-            enters = proposal_detail::enter_from_afar<Real>(frame, ray, t_near);
-        } else {
-            enters = proposal_detail::enter<Real>(frame, ray, t_near);
-        }
-        proposal.active = active && (!outside || enters);
-        const Mask<Real> move = outside && proposal.active && t_near > zero;
-        proposal.t_offset = select(move, t_near, zero);
+        proposal.active = active && (!outside || (c.crosses && c.t_far > zero));
+        const Mask<Real> move = outside && proposal.active && c.t_near > zero;
+        proposal.t_offset = select(move, c.t_near, zero);
         const Vec3<D> o = widen(ray.origin);
         const Vec3<D> d = widen(ray.direction);
         const D& t = proposal.t_offset;

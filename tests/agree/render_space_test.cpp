@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "support/backend_list.h"
+#include "support/under_parent.h"
 #include "tandem/film/compare.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {
+
+using test::under_parent;
 
 RenderJob small_job() {
     RenderJob job;
@@ -26,16 +29,6 @@ Film render(const PreparedScene& scene) {
     return cpu->render(cpu->load(scene), small_job()).film;
 }
 
-/// The scene under a parent that moves and scales everything in it; animation goes on below it.
-Scene under(Scene scene, const Vec3d& translation, double scale) {
-    const auto parent = static_cast<std::int32_t>(scene.nodes.size());
-    for (Node& node : scene.nodes) {
-        if (node.parent == Node::no_parent) node.parent = parent;
-    }
-    scene.nodes.push_back({.name = "elsewhere", .trs = {translation, {}, {scale, scale, scale}}});
-    return scene;
-}
-
 // J1. The grid of these scenes has a step of 16 or 32: a translation by a multiple of it changes nothing but the
 // origin, if the translated coordinates are doubles. Others move every coordinate by less than a step, so that it
 // rounds anew.
@@ -45,7 +38,7 @@ TEST(RenderSpace, DoesNotShowWhereTheSceneLies) {
         const PreparedScene here = prepare(scene);
         const Film expected = render(here);
         for (const double distance : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
-            const PreparedScene there = prepare(under(scene, {distance, -distance, 0.7 * distance}, 1));
+            const PreparedScene there = prepare(under_parent(scene, {distance, -distance, 0.7 * distance}, 1));
             const FilmDifference difference = compare(render(there), expected);
             // 16 u: what rounding may move a point by, seen from the camera. A sample at a silhouette may fall to the
             // other side of it.
@@ -54,7 +47,7 @@ TEST(RenderSpace, DoesNotShowWhereTheSceneLies) {
             const Vec3d moved = there.origin - here.origin;
             EXPECT_NEAR(moved.x / distance, 1, 0.4) << name << " at " << distance;
         }
-        const Film far = render(prepare(under(scene, {0x1p22, -0x1p23, 0x1p20}, 1), {}));
+        const Film far = render(prepare(under_parent(scene, {0x1p22, -0x1p23, 0x1p20}, 1), {}));
         const FilmDifference exactly = compare(far, expected);
         EXPECT_LE(exactly.largest, 2e-6) << name;
     }
@@ -63,7 +56,7 @@ TEST(RenderSpace, DoesNotShowWhereTheSceneLies) {
 // What the rule is there for: without it the same scene is not recognisable.
 TEST(RenderSpace, IsWhatMakesItSo) {
     const Scene scene = named_scene("paper");
-    const Scene far = under(scene, {1e7, -1e7, 7e6}, 1);
+    const Scene far = under_parent(scene, {1e7, -1e7, 7e6}, 1);
     const FilmDifference world = compare(render(prepare(far, {.origin = Vec3d{0, 0, 0}})), render(prepare(scene)));
     EXPECT_GT(world.residual_rate(Tolerance::one_level), 0.05);
 }
@@ -72,7 +65,7 @@ TEST(RenderSpace, IsWhatMakesItSo) {
 TEST(RenderSpace, KeepsSmallBodiesFarAway) {
     const Scene scene = named_scene("mixed/64");
     const Film expected = render(prepare(scene));
-    const Film small = render(prepare(under(scene, {1e6, 2e6, -3e6}, 1e-3)));
+    const Film small = render(prepare(under_parent(scene, {1e6, 2e6, -3e6}, 1e-3)));
     EXPECT_LE(compare(small, expected).mean, 1e-4);
     EXPECT_LE(compare(small, expected).residual_rate(Tolerance::one_level), 1e-2);
 }
@@ -83,14 +76,14 @@ TEST(RenderSpace, ScalesByPowersOfTwoToTheBit) {
         const Scene scene = named_scene(name);
         const std::string expected = film_hash(render(prepare(scene)));
         for (const int exponent : {-40, -20, -7, -1, 1, 10, 40}) {
-            const Film scaled = render(prepare(under(scene, {0, 0, 0}, std::ldexp(1.0, exponent))));
+            const Film scaled = render(prepare(under_parent(scene, {0, 0, 0}, std::ldexp(1.0, exponent))));
             EXPECT_EQ(film_hash(scaled), expected) << name << " times 2^" << exponent;
         }
     }
 }
 
 TEST(RenderSpace, TakesTheRaysOfCallers) {
-    const Scene far = under(named_scene("paper"), {1e7, 0, 0}, 1);
+    const Scene far = under_parent(named_scene("paper"), {1e7, 0, 0}, 1);
     const PreparedScene scene = prepare(far);
     const Vec3d eye_in_world = {1e7, 0, 0};
     const Vec3d eye = render_from_world(scene, eye_in_world);

@@ -8,6 +8,7 @@
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
 #include "support/exact_geometry.h"
+#include "support/under_parent.h"
 #include "tandem/error/error.h"
 #include "tandem/geometry/affine.h"
 #include "tandem/scene/animation.h"
@@ -19,6 +20,7 @@ namespace tandem::hard {
 namespace {
 
 using test::any_unit;
+using test::under_parent;
 
 /// Ellipsoids a thousandth in size, a million away; rays among them. Judged in the space of the body.
 std::vector<Lot> small_and_far(Random& random, std::size_t rays) {
@@ -194,16 +196,6 @@ Score frame_alone(const Subject& subject, Random&, std::size_t) {
     for (std::uint32_t number = 0; number < 7; ++number) (void)frame(number);
     compare_bits(frame(7), alone, "frame 7 after six others", score);
     return score;
-}
-
-/// The scene under a parent with this place and scale.
-Scene under_parent(Scene scene, const Vec3d& translation, double scale) {
-    const auto parent = static_cast<std::int32_t>(scene.nodes.size());
-    for (Node& node : scene.nodes) {
-        if (node.parent == Node::no_parent) node.parent = parent;
-    }
-    scene.nodes.push_back({.name = "parent", .trs = {translation, {}, {scale, scale, scale}}});
-    return scene;
 }
 
 /// Scene and camera 128 to 10^7 from where they were, by multiples of the step of the places where render space may
