@@ -6,18 +6,17 @@
 #include <cmath>
 #include <string>
 
-#include "support/estimate.h"
 #include "support/random.h"
-#include "tandem/sampler/warp.h"
+#include "unit/light/light_estimates.h"
 #include "unit/light/polygon_forms.h"
 
 namespace tandem {
 namespace {
 
+using test::below_one;
 using test::Estimate;
 using test::expect_mean;
 
-constexpr double largest = 1 - 0x1p-53;
 const Vec3d origin = {0, 0, 0};
 
 /// Seen from the origin.
@@ -73,12 +72,7 @@ TEST(QuadLight, TheFormFactorOfARectangle) {
 TEST(QuadLight, TheIrradianceIsLamberts) {
     for (const Case& c : cases) {
         const QuadLightView<float> view = view_of(c);
-        test::Random random(2);
-        Estimate irradiance;
-        for (int i = 0; i < 100'000; ++i) {
-            const auto s = sample_light(view, random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            irradiance.add(s.direction.z / s.pdf);
-        }
+        const Estimate irradiance = test::irradiance(view, 2);
         const double exact = (view.first.solid_angle > 0 ? test::lambert(origin, {0, 0, 1}, {c.v0, c.v1, c.v2}) : 0) +
                              test::lambert(origin, {0, 0, 1}, {c.v0, c.v2, c.v3});
         EXPECT_NEAR(irradiance.mean(), exact, 4.5 * irradiance.standard_error() + 1e-9 * exact) << c.name;
@@ -90,8 +84,8 @@ TEST(QuadLight, SamplesHaveTheDensityOfTheirDirection) {
         const QuadLightView<float> view = view_of(c);
         test::Random random(3);
         for (int i = 0; i < 20'000; ++i) {
-            const double u = i % 100 == 0 ? 0 : i % 100 == 1 ? largest : random.uniform(0.0, 1.0);
-            const double v = i % 100 == 2 ? 0 : i % 100 == 3 ? largest : random.uniform(0.0, 1.0);
+            const double u = i % 100 == 0 ? 0 : i % 100 == 1 ? below_one : random.uniform(0.0, 1.0);
+            const double v = i % 100 == 2 ? 0 : i % 100 == 3 ? below_one : random.uniform(0.0, 1.0);
             const LightSample<float> s = sample_light(view, u, v);
             ASSERT_NEAR(s.pdf * view.solid_angle, 1, 1e-15) << c.name << ", sample " << i;
             ASSERT_NEAR(pdf_of(view, s.direction) * view.solid_angle, 1, 1e-15) << c.name << ", sample " << i;
@@ -104,13 +98,7 @@ TEST(QuadLight, SamplesHaveTheDensityOfTheirDirection) {
 TEST(QuadLight, TheDensityIntegratesToOne) {
     for (const int k : {0, 1, 2, 5}) {
         const QuadLightView<float> view = view_of(cases[k]);
-        test::Random random(6);
-        Estimate whole;
-        for (int i = 0; i < 200'000; ++i) {
-            const auto any = sample_sphere<float>(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            whole.add(pdf_of(view, any.direction) / any.pdf);
-        }
-        expect_mean(whole, 1, cases[k].name);
+        expect_mean(test::whole_density(view, 6), 1, cases[k].name);
     }
 }
 
@@ -123,7 +111,7 @@ TEST(QuadLight, SeenEdgeOnItHasNoSamples) {
     for (const Case& c : degenerate) {
         const QuadLightView<float> view = view_of(c);
         EXPECT_EQ(view.solid_angle, 0) << c.name;
-        for (const double u : {0.0, 0.4, largest}) {
+        for (const double u : {0.0, 0.4, below_one}) {
             const LightSample<float> s = sample_light(view, u, 0.7);
             EXPECT_EQ(s.pdf, 0) << c.name;
             EXPECT_FALSE(std::isnan(s.direction.x + s.direction.y + s.direction.z + s.distance)) << c.name;

@@ -7,19 +7,17 @@
 #include <cmath>
 #include <string>
 
-#include "support/estimate.h"
 #include "support/exact_geometry.h"
 #include "support/random.h"
-#include "tandem/sampler/warp.h"
+#include "unit/light/light_estimates.h"
 
 namespace tandem {
 namespace {
 
+using test::below_one;
 using test::Big;
 using test::Estimate;
 using test::expect_mean;
-
-constexpr double largest = 1 - 0x1p-53;
 
 struct Case {
     std::string name;
@@ -64,7 +62,7 @@ TEST(SphereLight, SamplesLieOnTheSphereAndTheLine) {
         const SphereLightView<float> view = view_of(c);
         test::Random random(1);
         for (int i = 0; i < 20'000; ++i) {
-            const double u = i == 0 ? 0 : i == 1 ? largest : random.uniform(0.0, 1.0);
+            const double u = i == 0 ? 0 : i == 1 ? below_one : random.uniform(0.0, 1.0);
             const double v = random.uniform(0.0, 1.0);
             const LightSample<float> s = sample_light(view, u, v);
             const std::string name = c.name + ", sample " + std::to_string(i);
@@ -108,12 +106,7 @@ TEST(SphereLight, TheIrradianceIsTheClosedForm) {
     } lights[] = {{{0, 0, 2}, 1}, {{3, 0, 4}, 2.5}, {{300, -200, 900}, 1e-6}, {{0, 0, 1}, 0.999}};
     for (const auto& [centre, radius] : lights) {
         const SphereLightView<float> view = view_sphere_light<float>({0, 0, 0}, centre, radius);
-        test::Random random(5);
-        Estimate irradiance;
-        for (int i = 0; i < 200'000; ++i) {
-            const LightSample<float> s = sample_light(view, random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            irradiance.add(s.direction.z / s.pdf);
-        }
+        const Estimate irradiance = test::irradiance(view, 5);
         const double distance2 = dot(centre, centre);
         const double exact = pi * radius * radius / distance2 * centre.z / std::sqrt(distance2);
         expect_mean(irradiance, exact, "radius " + std::to_string(radius));
@@ -125,13 +118,7 @@ TEST(SphereLight, TheDensityIntegratesToOne) {
     for (const Case& c : cases) {
         const SphereLightView<float> view = view_of(c);
         if (view.solid_angle < 1e-2) continue;
-        test::Random random(9);
-        Estimate whole;
-        for (int i = 0; i < 200'000; ++i) {
-            const auto any = sample_sphere<float>(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            whole.add(pdf_of(view, any.direction) / any.pdf);
-        }
-        expect_mean(whole, 1, c.name);
+        expect_mean(test::whole_density(view, 6), 1, c.name);
     }
 }
 

@@ -6,18 +6,16 @@
 #include <cmath>
 #include <string>
 
-#include "support/estimate.h"
 #include "support/random.h"
-#include "tandem/sampler/warp.h"
+#include "unit/light/light_estimates.h"
 #include "unit/light/polygon_forms.h"
 
 namespace tandem {
 namespace {
 
+using test::below_one;
 using test::Estimate;
 using test::expect_mean;
-
-constexpr double largest = 1 - 0x1p-53;
 
 /// Seen from the origin.
 struct Case {
@@ -71,8 +69,8 @@ TEST(TriangleLight, SamplesLieOnTheTriangleAndTheLine) {
         const double area = std::sqrt(dot(normal, normal));
         test::Random random(1);
         for (int i = 0; i < 20'000; ++i) {
-            const double u = i % 100 == 0 ? 0 : i % 100 == 1 ? largest : random.uniform(0.0, 1.0);
-            const double v = i % 100 == 2 ? 0 : i % 100 == 3 ? largest : random.uniform(0.0, 1.0);
+            const double u = i % 100 == 0 ? 0 : i % 100 == 1 ? below_one : random.uniform(0.0, 1.0);
+            const double v = i % 100 == 2 ? 0 : i % 100 == 3 ? below_one : random.uniform(0.0, 1.0);
             const LightSample<float> s = sample_light(view, u, v);
             const std::string name = c.name + ", sample " + std::to_string(i);
             ASSERT_NEAR(dot(s.direction, s.direction), 1, 1e-14) << name;
@@ -118,12 +116,7 @@ TEST(TriangleLight, TheIrradianceIsLamberts) {
     const Vec3d normal = {0, 0, 1};
     for (const Case& c : cases) {
         const TriangleLightView<float> view = view_of(c);
-        test::Random random(4);
-        Estimate irradiance;
-        for (int i = 0; i < 100'000; ++i) {
-            const auto s = sample_light(view, random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            irradiance.add(s.direction.z / s.pdf);
-        }
+        const Estimate irradiance = test::irradiance(view, 4);
         const double exact = test::lambert(origin, normal, {c.v0, c.v1, c.v2});
         EXPECT_NEAR(irradiance.mean(), exact, 4.5 * irradiance.standard_error() + 1e-9 * exact) << c.name;
     }
@@ -132,13 +125,7 @@ TEST(TriangleLight, TheIrradianceIsLamberts) {
 TEST(TriangleLight, TheDensityIntegratesToOne) {
     for (const int k : {0, 1, 2, 5, 7}) {
         const TriangleLightView<float> view = view_of(cases[k]);
-        test::Random random(6);
-        Estimate whole;
-        for (int i = 0; i < 200'000; ++i) {
-            const auto any = sample_sphere<float>(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
-            whole.add(pdf_of(view, any.direction) / any.pdf);
-        }
-        expect_mean(whole, 1, cases[k].name);
+        expect_mean(test::whole_density(view, 6), 1, cases[k].name);
     }
 }
 
@@ -174,8 +161,8 @@ TEST(TriangleLight, SeenEdgeOnItHasNoSamples) {
     for (const Case& c : degenerate) {
         const TriangleLightView<float> view = view_of(c);
         EXPECT_EQ(view.solid_angle, 0) << c.name;
-        for (const double u : {0.0, 0.3, largest}) {
-            for (const double v : {0.0, 0.6, largest}) {
+        for (const double u : {0.0, 0.3, below_one}) {
+            for (const double v : {0.0, 0.6, below_one}) {
                 const LightSample<float> s = sample_light(view, u, v);
                 EXPECT_EQ(s.pdf, 0) << c.name;
                 if (c.name == "not a number") continue;
