@@ -1,12 +1,14 @@
-/// Texture coordinates on the bodies and faces, where a ray meets them. (0, 0) is the upper left of a picture and v runs
-/// down, as in glTF 2.0.
+/// Texture coordinates on the bodies and faces, where a ray meets them. (0, 0) is the upper left of a picture and v
+/// runs down, as in glTF 2.0.
 ///
 ///   sphere, ellipsoid     the globe: u = 1/2 + longitude / 2 pi grows to the east, seen from outside, from +z (1/2)
 ///                         towards +x (3/4); v = 0 at the pole +y, 1 at -y. At the poles u is 1/2
 ///   box, parallelepiped   the whole square on each face, not mirrored, seen from outside. +x, -x, +z, -z: upright, the
 ///                         top at +y. +y: its top at -z, and -y: its top at +z
-///   triangle, quad        what their corners say, linear in each triangle; else a quad has the whole square, v0 (0, 0),
-///                         v1 (1, 0), v2 (1, 1), v3 (0, 1), and a triangle its half with v0 (0, 0), v1 (1, 0), v2 (0, 1)
+///   triangle, quad        what their corners say, linear in each triangle; else a quad has the whole square, v0 (0,
+///   0),
+///                         v1 (1, 0), v2 (1, 1), v3 (0, 1), and a triangle its half with v0 (0, 0), v1 (1, 0), v2 (0,
+///                         1)
 ///
 /// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their own space, to which the
 /// unit body's transform leads; so prepare() makes these of what is textured and turned or mirrored.
@@ -69,8 +71,7 @@ TANDEM_HD Double<Real> clamp_to_one(const Double<Real>& a) {
 
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<Real>& t) {
-    return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y,
-            ray.origin.z + t * ray.direction.z};
+    return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
 }
 
 /// From the directions of a body's own space.

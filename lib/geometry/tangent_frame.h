@@ -23,9 +23,8 @@ TANDEM_HD Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, co
                              select(enough, along.z, any.z)};
     const Vec3<D> up = cross(normal, tangent);
     const auto mirrored = dot(up, dp_dv) > D(0.0F);
-    return {tangent,
-            {select(mirrored, -up.x, up.x), select(mirrored, -up.y, up.y), select(mirrored, -up.z, up.z)},
-            normal};
+    return {
+        tangent, {select(mirrored, -up.x, up.x), select(mirrored, -up.y, up.y), select(mirrored, -up.z, up.z)}, normal};
 }
 
 }  // namespace tandem

@@ -44,10 +44,10 @@ TANDEM_HD D arctangent(const D& y, const D& x) {
     const D denominator = select(turned, least + most, most);
     const D q = numerator / select(denominator == zero, D(1.0), denominator);
     const D z = q * q;
-    const D tail = arctangent_detail::polynomial(
-        z, -0x1.555555555553dp-2, 0x1.9999999995898p-3, -0x1.24924922aef6bp-3, 0x1.c71c70e6c0640p-4,
-        -0x1.745cf8eb2a278p-4, 0x1.3b1119589eb88p-4, -0x1.10ebb07af5a07p-4, 0x1.df0e5c83d849cp-5, -0x1.9ccd657f6a9f7p-5,
-        0x1.37c89cee589dap-5, -0x1.2556e1e8cf6c4p-6);
+    const D tail = arctangent_detail::polynomial(z, -0x1.555555555553dp-2, 0x1.9999999995898p-3, -0x1.24924922aef6bp-3,
+                                                 0x1.c71c70e6c0640p-4, -0x1.745cf8eb2a278p-4, 0x1.3b1119589eb88p-4,
+                                                 -0x1.10ebb07af5a07p-4, 0x1.df0e5c83d849cp-5, -0x1.9ccd657f6a9f7p-5,
+                                                 0x1.37c89cee589dap-5, -0x1.2556e1e8cf6c4p-6);
     D angle = (q * z) * tail + q;
     angle = select(turned, constant<D>(0.25 * pi) + angle, angle);
     angle = select(steep, constant<D>(0.5 * pi) - angle, angle);

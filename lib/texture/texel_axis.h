@@ -52,9 +52,8 @@ TANDEM_HD TexelPair<D> texels_around(const D& coordinate, Wrap wrap, Filter filt
     // beyond the ends comes the other end, or the last texel again
     const D before = wrap == Wrap::repeat ? last : zero;
     const D behind = wrap == Wrap::repeat ? zero : last;
-    const auto inside = [&](const D& i) TANDEM_INLINE_LAMBDA {
-        return select(i < zero, before, select(i > last, behind, i));
-    };
+    const auto inside = [&](const D& i)
+                            TANDEM_INLINE_LAMBDA { return select(i < zero, before, select(i > last, behind, i)); };
     if (filter == Filter::nearest) {
         const D texel = inside(floor_of(along));
         return {texel, texel, zero};

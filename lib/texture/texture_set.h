@@ -65,9 +65,8 @@ TANDEM_HD Rgba<Real> sample(const TextureSet& set, const TextureUse& use, const 
                             const Double<Real>& v) {
     using D = Double<Real>;
     if (use.texture == no_texture) return {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
-    const auto along = [&](const float* row) TANDEM_INLINE_LAMBDA {
-        return (D(row[0]) * u + D(row[1]) * v) + D(row[2]);
-    };
+    const auto along = [&](const float* row)
+                           TANDEM_INLINE_LAMBDA { return (D(row[0]) * u + D(row[1]) * v) + D(row[2]); };
     return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
 }
 

@@ -53,9 +53,8 @@ TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, co
 /// A texel's red, green and blue at `shift` 0, 8 and 16, and its alpha.
 template <class Real>
 TANDEM_HD Double<Real> colour(const TextureView& texture, const UInt<Real>& texel, int shift) {
-    return widen(from_lanes<Float<Real>>([&](int i) TANDEM_INLINE_LAMBDA {
-        return texture.levels[(lane(texel, i) >> shift) & 0xFFU];
-    }));
+    return widen(from_lanes<Float<Real>>(
+        [&](int i) TANDEM_INLINE_LAMBDA { return texture.levels[(lane(texel, i) >> shift) & 0xFFU]; }));
 }
 template <class Real>
 TANDEM_HD Double<Real> alpha(const UInt<Real>& texel) {
@@ -85,7 +84,8 @@ struct Cell {
 /// The texture at (u, v): (0, 0) is the corner of the first texel, v runs downwards, the whole picture is [0, 1]^2.
 ///
 /// Needs: any u and v, in all lanes. One that is not finite counts as 0.
-/// Gives: the texel that holds the point, or the mean of the four around it, weighted by distance. Texels become linear
+/// Gives: the texel that holds the point (one of the two on a border), or the mean of the four around it, weighted by
+/// distance. Texels become linear
 ///        before the mean, which is formed in double and rounded once; it lies between the least and the greatest of
 ///        them but for the rounding of a Real that is a double.
 /// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Held by
@@ -101,13 +101,11 @@ TANDEM_HD Rgba<Real> sample(const TextureView& texture, const Double<Real>& u, c
     cell.corner[0] = texture_detail::texel<Real>(texture, x.first, y.first);
     const auto value_of = [&](auto mean) TANDEM_INLINE_LAMBDA -> Rgba<Real> {
         const auto colour = [&](int shift) TANDEM_INLINE_LAMBDA {
-            return mean([&, shift](const Word& texel) TANDEM_INLINE_LAMBDA {
-                return texture_detail::colour<Real>(texture, texel, shift);
-            });
+            return mean([&, shift](const Word& texel)
+                            TANDEM_INLINE_LAMBDA { return texture_detail::colour<Real>(texture, texel, shift); });
         };
-        return {colour(0), colour(8), colour(16), mean([](const Word& texel) TANDEM_INLINE_LAMBDA {
-                    return texture_detail::alpha<Real>(texel);
-                })};
+        return {colour(0), colour(8), colour(16),
+                mean([](const Word& texel) TANDEM_INLINE_LAMBDA { return texture_detail::alpha<Real>(texel); })};
     };
     if (texture.filter == Filter::nearest) {
         return value_of([&](auto value) TANDEM_INLINE_LAMBDA { return to_real<Real>(value(cell.corner[0])); });

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "tandem/geometry/intersect.h"
+#include "tandem/geometry/parametrisation.h"
 #include "tandem/geometry/quad.h"
 #include "tandem/math/exact_math.h"
 #include "tandem/math/lanes.h"
 #include "tandem/sampler/philox.h"
+#include "tandem/texture/texture_view.h"
 #include "unit/math/lane_operations.h"
 
 namespace tandem::test {
@@ -122,6 +124,21 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
     return at.u + at.v * at.v;
 }
 
+/// A picture of 3 x 2 texels; the levels need no meaning here.
+template <class Real>
+TANDEM_HD Float<Real> sampled(const Double<Real>& u, const Double<Real>& v) {
+    static constexpr std::uint32_t texels[] = {0x01020304U, 0x05060700U, 0x00010203U, 0x07060504U, 0x03020100U, 1U};
+    static constexpr float levels[] = {0.0F, 0.3F, 0.7F, 0.1F, 1.0F, 0.2F, 0.6F, 0.9F};
+    const TextureView view = {texels, levels, 3, 2, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear};
+    const Rgba<Real> value = sample<Real>(view, u, v);
+    return (value.r + value.g) + (value.b + value.a);
+}
+template <class Real>
+TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const Double<Real>& z) {
+    const auto at = parametrisation_detail::on_globe<Real>(Vec3<Double<Real>>{x, y, z});
+    return at.u + at.v;
+}
+
 #define TANDEM_LANE_OPERATIONS(OPERATION)                                                                            \
     OPERATION(F, add, a + b)                                                                                         \
     OPERATION(F, subtract, a - b)                                                                                    \
@@ -166,6 +183,9 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
     OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))                 \
     OPERATION(D, exp_wide, exp_wide<Real>(a))                                                                        \
     OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b)))          \
+    OPERATION(D, arctangent, arctangent(a, b))                                                                       \
+    OPERATION(D, sample, sampled<Real>(a, b))                                                                        \
+    OPERATION(D, globe, globe<Real>(a, b, c))                                                                        \
     OPERATION(U, add, a + b)                                                                                         \
     OPERATION(U, subtract, a - b)                                                                                    \
     OPERATION(U, multiply, a* b)                                                                                     \
