@@ -9,6 +9,7 @@
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/place_mesh.h"
+#include "tandem/scene/prepare_textures.h"
 #include "tandem/scene/render_origin.h"
 
 namespace tandem {
@@ -36,6 +37,9 @@ bool is_diagonal(const Matrix3& m) {
     return m.row[0].y == 0 && m.row[0].z == 0 && m.row[1].x == 0 && m.row[1].z == 0 && m.row[2].x == 0 &&
            m.row[2].y == 0;
 }
+
+/// Does it only scale, without mirroring?
+bool is_upright(const Matrix3& m) { return is_diagonal(m) && m.row[0].x >= 0 && m.row[1].y >= 0 && m.row[2].z >= 0; }
 
 /// The unit sphere, or the cube [-1, 1]^3, in world space.
 struct Placed {
@@ -79,6 +83,7 @@ class Preparer {
     PreparedScene run() {
         world_from_node_ = world_transforms();
         for (const Material& material : scene_.materials) result_.materials.push_back(material.phong);
+        result_.textures = prepare_textures(scene_, result_.materials);
         result_.environment = scene_.environment;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
@@ -166,7 +171,7 @@ class Preparer {
     void add_sphere(const SphereShape& shape, std::uint32_t material, const Transform& world_from_object,
                     std::size_t node) {
         const double scale = uniform_scale(world_from_object.linear);
-        if (scale > 0) {
+        if (scale > 0 && keeps_its_picture(world_from_object, material)) {
             const double radius = scale * shape.radius;
             if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
             check_reach(world_from_object.translation, {radius, radius, radius}, node);
@@ -181,7 +186,7 @@ class Preparer {
     void add_box(const BoxShape& shape, std::uint32_t material, const Transform& world_from_object, std::size_t node) {
         const Vec3d half = shape.size * 0.5;
         const Matrix3& m = world_from_object.linear;
-        if (is_diagonal(m)) {
+        if (is_diagonal(m) && keeps_its_picture(world_from_object, material)) {
             const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
                                   std::abs(m.row[2].z) * half.z};
             check_reach(world_from_object.translation, extent, node);
@@ -190,6 +195,11 @@ class Preparer {
             return;
         }
         add_placement(world_from_object, half, true, material, node);
+    }
+
+    /// Spheres and boxes have the axes of the world; a picture that is turned or mirrored needs its own.
+    bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
+        return !has_texture(result_.textures, material) || is_upright(world_from_object.linear);
     }
 
     /// `size`: scale from the unit body to the shape.
@@ -202,8 +212,9 @@ class Preparer {
         const double lengths = std::sqrt(dot(m.row[0], m.row[0]) * dot(m.row[1], m.row[1]) * dot(m.row[2], m.row[2]));
         // below this the inverse has no digits left; a NaN fails as well
         if (!(volume > 1e-12 * lengths) || !std::isnormal(volume)) {
-            fail(node, is_box ? "a rotated or sheared box that is flat; give it thickness"
-                              : "a sphere that its transform flattens");
+            if (!is_box) fail(node, "a sphere that its transform flattens");
+            fail(node, is_diagonal(m) ? "a mirrored box that is flat and has a texture; give it thickness"
+                                      : "a rotated or sheared box that is flat; give it thickness");
         }
         check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);
         (is_box ? placed_boxes_ : placed_balls_).push_back({world_from_unit, inverse(m)});

@@ -69,6 +69,11 @@ std::string scene_hash(const PreparedScene& scene) {
     hash.update_value(scene.render_from_camera);
     hash.update_value(std::uint8_t{scene.orthographic});
     hash.update_value(scene.half_height);
+    if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
+        add(scene.textures.texels);
+        add(scene.textures.textures);
+        add(scene.textures.materials);
+    }
     return hash.hex();
 }
 

@@ -10,6 +10,7 @@
 #include "tandem/light/environment.h"
 #include "tandem/light/point_light.h"
 #include "tandem/material/phong.h"
+#include "tandem/scene/prepared_textures.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -28,6 +29,7 @@ struct PreparedScene {
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;
+    PreparedTextures textures;
     std::vector<PointLight> lights;
     Environment environment;
     std::uint64_t dropped_primitives = 0;  ///< faces of the Scene without area: no ray hits them

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tandem/math/ray.h"
+#include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
 
@@ -229,7 +230,9 @@ std::vector<std::string> validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) problems.check_mesh(i);
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();
-    return problems.take();
+    std::vector<std::string> found = problems.take();
+    for (std::string& problem : find_texture_problems(scene)) found.push_back(std::move(problem));
+    return found;
 }
 
 }  // namespace tandem

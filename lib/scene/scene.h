@@ -12,6 +12,7 @@
 #include "tandem/light/environment.h"
 #include "tandem/material/phong.h"
 #include "tandem/math/transform.h"
+#include "tandem/scene/texture.h"
 
 namespace tandem {
 
@@ -43,7 +44,7 @@ struct Mesh {
     std::string name{};
     std::vector<Vec3f> positions{};
     std::vector<Vec3f> normals{};            ///< for shading, per vertex, unit; empty: each face has its own
-    std::vector<Vec2f> texcoords{};          ///< per vertex, kept for textures to come; may be empty
+    std::vector<Vec2f> texcoords{};          ///< per vertex; may be empty, but under a texture
     std::vector<std::uint32_t> triangles{};  ///< three vertices each
     std::vector<std::uint32_t> quads{};      ///< four vertices each
 };
@@ -85,6 +86,12 @@ struct Material {
     std::string name;
     PhongMaterial phong;
     bool double_sided = false;
+    std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
+    std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (texture/normal_map.h)
+    float normal_scale = 1;                             ///< of the normals' parts along the surface
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1
+    float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
 };
 
 /// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
@@ -120,6 +127,8 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
     double frames_per_second = 24;
