@@ -2,9 +2,9 @@
 #include <cstddef>
 #include <cstdio>
 
-// clang-format off: jerror.h needs jpeglib.h
-#include <jerror.h>
+// clang-format off
 #include <jpeglib.h>
+#include <jerror.h>
 // clang-format on
 
 #include <array>

@@ -15,6 +15,7 @@
 #include "tandem/gltf/printable.h"
 #include "tandem/gltf/schema.h"
 #include "tandem/gltf/structure.h"
+#include "tandem/gltf/textures.h"
 
 namespace tandem {
 
@@ -63,6 +64,7 @@ class SceneBuilder {
         choose_scene();
         number_nodes();
         scene_.materials = gltf::read_materials(source_, report_);
+        gltf::read_textures(source_, scene_, report_);
         scene_.environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));

@@ -186,6 +186,12 @@ constexpr Property properties[] = {
     number("texture info", "scale"),
     number("texture info", "strength").between(0, 1),
 
+    object("texture info extensions", "KHR_texture_transform", "texture transform"),
+    numbers("texture transform", "offset", 2).between(-1e18, 1e18),
+    number("texture transform", "rotation").between(-1e18, 1e18),
+    numbers("texture transform", "scale", 2).between(-1e18, 1e18),
+    whole("texture transform", "texCoord"),
+
     text("mesh", "name"),
     objects("mesh", "primitives", "primitive").required(),
     numbers("mesh", "weights", 0),
@@ -206,10 +212,10 @@ constexpr Property properties[] = {
     numbers("node", "translation", 3),
     numbers("node", "weights", 0),
 
-    whole("sampler", "magFilter"),
-    whole("sampler", "minFilter"),
-    whole("sampler", "wrapS"),
-    whole("sampler", "wrapT"),
+    whole("sampler", "magFilter", "9728 9729"),
+    whole("sampler", "minFilter", "9728 9729 9984 9985 9986 9987"),
+    whole("sampler", "wrapS", "33071 33648 10497"),
+    whole("sampler", "wrapT", "33071 33648 10497"),
 
     text("scene", "name"),
     indices("scene", "nodes", "nodes"),
