@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the polynomial coefficients of lib/math/exact_math.h and the error of each fit (needs mpmath).
+"""Prints the polynomial coefficients of lib/math/exact_math.h and arctangent.h and the error of each fit (needs mpmath).
 
 A Remez exchange on the weighted error; coefficients are then rounded to double one by one, lowest first, and the
 others fitted again, so that the rounding of one is taken up by the rest.
@@ -87,6 +87,9 @@ if __name__ == "__main__":
     # cos r = 1 - z/2 + z^2 C(z)
     fit("cos", lambda z: taylor(lambda n, x: (-1)**n * x**n / mp.factorial(2 * n + 4), z), lambda z: z * z, tiny,
         quarter_pi2, 7)
+    # atan q = q + q z A(z), z = q^2, |q| up to tan(pi / 8); relative to q
+    fit("atan", lambda z: taylor(lambda n, x: (-1)**(n + 1) * x**n / (2 * n + 3), z, 90), lambda z: z, tiny,
+        (mp.tan(mp.pi / 8) * (1 + mp.mpf(2)**-20))**2, 11)
     for name, value in (("ln 2", mp.log(2)), ("pi/2", mp.pi / 2), ("2/pi", 2 / mp.pi)):
         parts, rest = [], value
         for _ in range(3):
