@@ -23,7 +23,8 @@ endfunction()
 #
 #   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
 #
-# whose bytes are a fat binary for JitInput::code.
+# whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this: an object library,
+# for what goes into the library itself.
 function(tandem_add_lto_kernels target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES")
   if(NOT arg_NAMESPACE)

@@ -1,6 +1,7 @@
 /// The toy kernel as an input of the linker.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -13,7 +14,7 @@ namespace tandem::test {
 std::span<const std::byte> toy_strict();
 std::span<const std::byte> toy_fast();
 
-/// For a GPU of compute capability 9.0, and the facts as they are given.
+/// For compute capability 9.0, or the lowest that this build is for if that is higher.
 inline cuda::JitInput toy_input(const ToyFacts& facts, Tier tier = Tier::strict) {
     cuda::JitInput input;
     input.code = tier == Tier::fast ? toy_fast() : toy_strict();
@@ -21,7 +22,7 @@ inline cuda::JitInput toy_input(const ToyFacts& facts, Tier tier = Tier::strict)
     input.facts_name = "toy_facts";
     input.facts = cuda::words_of(facts);
     input.tier = tier;
-    input.architecture = 90;
+    input.architecture = std::max(90, TANDEM_LTO_ARCHITECTURE);
     return input;
 }
 

@@ -34,12 +34,13 @@ TANDEM_HD float toy_value(const ToyFacts& facts, float x) {
         for (std::uint32_t light = 0; light < facts.lights; ++light) sum = sum * toy_marker + x;
     }
     if ((facts.effects & toy_table) != 0) {
-        constexpr int size = 16;
+        constexpr int size = 32;
         float table[size];
-        for (int k = 0; k < size; ++k) table[k] = x * x + static_cast<float>(k) * sum;
-        for (int k = 1; k < size; ++k) {
-            for (int j = 0; j < k; ++j) sum = sum + table[k] * table[j];
+        for (int k = 0; k < size; ++k) table[k] = x + static_cast<float>(k);
+        for (int round = 0; round < 2; ++round) {
+            for (int k = 0; k < size; ++k) table[k] = table[k] * table[(k + 1) % size] + sum;
         }
+        for (int k = 0; k < size; ++k) sum = sum + table[k];
     }
     if ((facts.effects & toy_fused) != 0) sum = loose_multiply_add(sum, x, 0.75F);
     return sum;
