@@ -64,7 +64,7 @@ std::vector<char> compile_facts(const JitCompiler& compiler, const JitInput& inp
     const std::string source =
         fmt::format("extern \"C\" {{ extern {0}; {0} = {{{1}}}; }}\n", declaration, fmt::join(input.facts, ", "));
     const std::string architecture = fmt::format("-arch=compute_{}", input.architecture);
-    const char* const options[] = {"-dlto", "-rdc=true", architecture.c_str()};
+    const char* const options[] = {"-dlto", "-rdc=true", "-minimal", architecture.c_str()};
 
     Handle program(compiler.destroy);
     const auto check = [&](int code) {
