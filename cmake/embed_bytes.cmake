@@ -5,7 +5,8 @@
 # that gives the bytes of the input file.
 file(READ ${INPUT} digits HEX)
 string(REGEX REPLACE "(..)" "0x\\1," bytes "${digits}")
-string(REGEX REPLACE "(................................................................................)" "\\1\n" bytes "${bytes}")
+string(REPEAT "." 80 line)
+string(REGEX REPLACE "(${line})" "\\1\n" bytes "${bytes}")
 file(
   WRITE ${OUTPUT}
   "#include <cstddef>\n#include <span>\n\n"

@@ -23,8 +23,8 @@ endfunction()
 #
 #   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
 #
-# whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this: an object library,
-# for what goes into the library itself.
+# whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this; for what goes into
+# the library itself that is an object library.
 function(tandem_add_lto_kernels target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES")
   if(NOT arg_NAMESPACE)
@@ -46,7 +46,8 @@ function(tandem_add_lto_kernels target)
     OUTPUT ${fatbin}
     COMMAND
       ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" -rdc=true
-      -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin -MD -MF ${fatbin}.d -MT ${fatbin} ${source} -o ${fatbin}
+      -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin ${source} -o ${fatbin}
+      -MD -MF ${fatbin}.d -MT ${fatbin}
     DEPENDS ${source}
     DEPFILE ${fatbin}.d
     COMMENT "Compiling ${shown} to LTO-IR, ${arg_TIER}"
@@ -55,7 +56,9 @@ function(tandem_add_lto_kernels target)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_bytes.cmake)
   add_custom_command(
     OUTPUT ${embedded}
-    COMMAND ${CMAKE_COMMAND} -DINPUT=${fatbin} -DOUTPUT=${embedded} -DNAMESPACE=${arg_NAMESPACE} -DNAME=${arg_NAME} -P ${script}
+    COMMAND
+      ${CMAKE_COMMAND} -DINPUT=${fatbin} -DOUTPUT=${embedded} -DNAMESPACE=${arg_NAMESPACE} -DNAME=${arg_NAME}
+      -P ${script}
     DEPENDS ${fatbin} ${script}
     VERBATIM
   )

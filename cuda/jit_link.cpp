@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 
@@ -106,8 +107,9 @@ std::vector<std::byte> link(const JitInput& input) {
     const std::vector<char> facts = compile_facts(*libraries.compiler, input);
 
     const std::vector<std::string> options = link_options(input);
-    std::vector<const char*> arguments;
-    for (const std::string& option : options) arguments.push_back(option.c_str());
+    std::vector<const char*> arguments(options.size());
+    std::transform(options.begin(), options.end(), arguments.begin(),
+                   [](const auto& option) { return option.c_str(); });
 
     Handle handle(linker.destroy);
     const auto log = [&] { return text_of(handle.get(), linker.error_log_size, linker.error_log); };

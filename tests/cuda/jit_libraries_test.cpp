@@ -49,8 +49,9 @@ TEST(JitLibraries, AnotherReleaseIsNotTakenAndItsVersionIsSaid) {
 TEST(JitLibraries, ALibraryWithoutTheFunctionsIsNotTaken) {
     const test::TemporaryFolder folder;
     for (const std::string& place : jit_folders()) {
-        if (!place.empty() && std::filesystem::exists(place + "/" + linker_name)) {
-            std::filesystem::create_symlink(place + "/" + linker_name, folder.file(linker_name));
+        const std::filesystem::path linker = std::filesystem::path(place) / linker_name;
+        if (!place.empty() && std::filesystem::exists(linker)) {
+            std::filesystem::create_symlink(linker, folder.file(linker_name));
             break;
         }
     }

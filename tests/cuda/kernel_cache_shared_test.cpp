@@ -25,7 +25,7 @@ bool use(const std::string& folder, std::uint64_t limit_bytes, std::uint64_t see
     for (int i = 0; i < rounds; ++i) {
         const int number = static_cast<int>(random.below(keys));
         const std::string key = cache_key_of(number);
-        const auto first = static_cast<std::uint64_t>(2 * number);
+        const auto first = 2 * static_cast<std::uint64_t>(number);
         if (random.coin() && !cache.store(key, some_cubin(first + random.below(2))).empty()) return false;
         const std::vector<std::byte> cubin = cache.find(key).cubin;
         if (!cubin.empty() && cubin != some_cubin(first) && cubin != some_cubin(first + 1)) return false;
