@@ -45,6 +45,7 @@ endfunction()
 
 tandem_find_library(Tandem::glm HEADER glm/vec3.hpp)
 tandem_find_library(Tandem::openimageio OpenImageIO OpenImageIO_Util HEADER OpenImageIO/imageio.h)
+tandem_find_library(Tandem::jpeg jpeg HEADER jpeglib.h)
 
 # Only where the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS says where the toolkit was.
 macro(tandem_find_cudart)

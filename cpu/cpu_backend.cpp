@@ -221,20 +221,28 @@ class CpuBackend final : public Backend {
         Vec3d* sums = result.film.sums().data();
         const auto tiles = [this](int size) { return (size + tile_size_ - 1) / tile_size_; };
         const int columns = tiles(job.width);
-        std::atomic<std::uint64_t> invalid = 0;
+        const EffectMask effects = resident.prepared().effects;
+        const std::size_t variant = variant_for(variants, effects);
+        std::atomic<std::uint64_t> invalid = 0, lost_media = 0;
         const Stopwatch watch;
         arena_.execute([&] {
             tbb::parallel_for(0, columns * tiles(job.height), [&](int index) {
                 const DefaultFpEnvironment guard;
                 const Tile tile = tile_at(index % columns, index / columns, job);
-                invalid += kernels.render_tile(resident.view(), pixel_job, tile, sums);
+                const RenderCounters counters = kernels.render_tile[variant](resident.view(), pixel_job, tile, sums);
+                invalid += counters.invalid_samples;
+                lost_media += counters.lost_media;
             });
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.counters.invalid_samples = invalid;
+        result.stats.counters.lost_media = lost_media;
         result.stats.counters.dropped_primitives = resident.prepared().dropped_primitives;
         result.stats.rays = static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
-        result.stats.variant = fmt::format("{}, {}", set_.name, resident.view().embree != nullptr ? "embree" : "loop");
+        result.stats.effects = effects;
+        result.stats.carried = variants[variant].effects - effects;
+        result.stats.variant = fmt::format(
+            "{}, {}, {}", set_.name, resident.view().embree != nullptr ? "embree" : "loop", variants[variant].name);
         return std::make_unique<ReadyFrame>(std::move(result));
     }
 

@@ -19,10 +19,42 @@ using Strict = TierReals<float, Lanes<float, Isa>>;
 template <class Isa>
 using Precise = TierReals<double, Lanes<double, Isa>>;
 
+// Calls, in this file's own copy: their names do not always tell the instruction set.
+template <class Real, class From, class Tracer>
+TANDEM_HD_CALL Closest<Real> closest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
+                                         const Mask<Real>& active) {
+    return tracer.closest(ray, source, active);
+}
+template <class Real, class Tracer>
+TANDEM_HD_CALL Mask<Real> any_hit(const Tracer& tracer, const Ray<Real>& ray, const Double<Real>& t_max,
+                                  const ShadowSource<Real>& source, const Mask<Real>& active) {
+    return tracer.occluded(ray, t_max, source, active);
+}
+
+/// The tracer of a scene, whichever that is, by calls: one copy of each serves the path loop, wherever it asks, and
+/// trace(). The plain path loop has its own, inline.
+struct CalledTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+    const CpuSceneView& view;
+
+    template <class Real, class From>
+    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source,
+                                                  const Mask<Real>& active) const {
+        if (view.embree != nullptr) return closest_hit<Real, From>(EmbreeTracer{view}, ray, source, active);
+        return closest_hit<Real, From>(LoopTracer{view.scene}, ray, source, active);
+    }
+    template <class Real>
+    [[nodiscard]] TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                const ShadowSource<Real>& source, const Mask<Real>& active) const {
+        if (view.embree != nullptr) return any_hit<Real>(EmbreeTracer{view}, ray, t_max, source, active);
+        return any_hit<Real>(LoopTracer{view.scene}, ray, t_max, source, active);
+    }
+};
+
 /// One pixel per lane, in blocks as square as can be: their rays see the same things.
-template <class Reals, class Tracer>
-std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
-                            Vec3d* sums) {
+template <class Effects, class Reals, class Tracer>
+RenderCounters render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                             Vec3d* sums) {
     using Real = typename Reals::Packet;
     using Word = UInt<Real>;
     constexpr std::uint32_t width = Real::size == 4 ? 2 : 4;
@@ -30,27 +62,35 @@ std::uint64_t render_pixels(const Tracer& tracer, const SceneView& scene, const 
     const Word lane = lane_index(Word(0U));
     const Word row = lane >> (width == 2 ? 1 : 2);
     const Word column = lane - row * Word(width);
-    std::uint64_t invalid = 0;
+    RenderCounters counters;
     for (std::uint32_t y = tile.y0; y < tile.y1; y += height) {
         for (std::uint32_t x = tile.x0; x < tile.x1; x += width) {
             const Word pixel_x = Word(x) + column, pixel_y = Word(y) + row;
             const Mask<Real> used = pixel_x < Word(tile.x1) && pixel_y < Word(tile.y1);
-            const PixelSum<Real> pixel = render_pixel<Real>(tracer, scene, job, pixel_x, pixel_y, used);
+            const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, scene, job, pixel_x, pixel_y, used);
             for (int i = 0; i < Real::size; ++i) {
                 if (!used[i]) continue;
                 sums[static_cast<std::size_t>(pixel_y[i]) * job.width + pixel_x[i]] = {pixel.sum.x[i], pixel.sum.y[i],
                                                                                        pixel.sum.z[i]};
-                invalid += pixel.invalid[i];
+                counters.invalid_samples += pixel.invalid[i];
+                counters.lost_media += pixel.lost_media[i];
             }
         }
     }
-    return invalid;
+    return counters;
 }
 
-template <class Reals>
-std::uint64_t render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
-    if (view.embree != nullptr) return render_pixels<Reals>(EmbreeTracer{view}, view.scene, job, tile, sums);
-    return render_pixels<Reals>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+template <class Reals, std::size_t variant>
+RenderCounters render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
+    using Effects = EffectSet<variants[variant].effects.bits()>;
+    if constexpr (leaves_surfaces<Effects>()) {
+        return render_pixels<Effects, Reals>(CalledTracer{view}, view.scene, job, tile, sums);
+    } else {
+        if (view.embree != nullptr) {
+            return render_pixels<Effects, Reals>(EmbreeTracer{view}, view.scene, job, tile, sums);
+        }
+        return render_pixels<Effects, Reals>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+    }
 }
 
 /// Do the rays run alike? Then a packet is faster than its rays one by one. One origin, and directions whose signs
@@ -198,8 +238,9 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
 
 template <class Reals, class Ask>
 std::uint64_t trace_as(const CpuSceneView& view, const TraceJob& job) {
-    if (view.embree != nullptr) return trace_rays<Reals, Ask, false>(EmbreeTracer{view}, job);
-    return trace_rays<Reals, Ask, true>(LoopTracer{view.scene}, job);
+    const CalledTracer tracer{view};
+    return view.embree != nullptr ? trace_rays<Reals, Ask, false>(tracer, job)
+                                  : trace_rays<Reals, Ask, true>(tracer, job);
 }
 
 template <class Reals>
@@ -213,12 +254,12 @@ template <class Reals>
 constexpr TierKernels make_tier_kernels() {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    TierKernels kernels = {render_tile<Reals>,
-                           trace<Reals>,
-                           intersect_callback<One, Packet>,
-                           occluded_callback<One, Packet>,
-                           nullptr,
-                           nullptr};
+    TierKernels kernels = {{},      trace<Reals>, intersect_callback<One, Packet>, occluded_callback<One, Packet>,
+                           nullptr, nullptr};
+    [&]<std::size_t... variant>(std::index_sequence<variant...>) {
+        ((kernels.render_tile[variant] = render_tile<Reals, variant>), ...);
+    }
+    (std::make_index_sequence<variant_count>());
     if constexpr (is_fast<One>) {
         kernels.filter_nearest = filter_callback<Search::nearest, One, Packet>;
         kernels.filter_any = filter_callback<Search::any, One, Packet>;

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 #include "cpu/embree_api.h"
 #include "tandem/accuracy/tier.h"
 #include "tandem/bvh/proposal.h"
+#include "tandem/effects/variants.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
+#include "tandem/render/stats.h"
 #include "tandem/render/trace_job.h"
 #include "tandem/scene/scene_view.h"
 
@@ -31,10 +34,18 @@ struct Tile {
     std::uint32_t x0, x1, y0, y1;
 };
 
+/// The sets of effects that the path loop is compiled for.
+inline constexpr KernelVariant variants[] = {
+    {"plain", {}},
+    {"full", all_effects},
+};
+inline constexpr std::size_t variant_count = std::size(variants);
+
 /// The kernels of one tier for one instruction set.
 struct TierKernels {
-    /// Writes the sums of the tile's pixels into the film (rows of job.width); returns how many samples were invalid.
-    std::uint64_t (*render_tile)(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
+    /// Writes the sums of the tile's pixels into the film (rows of job.width). By variant.
+    RenderCounters (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
+                                                 Vec3d* sums);
     /// Returns how many rays were not traceable.
     std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
     /// Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.

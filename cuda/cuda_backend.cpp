@@ -35,6 +35,7 @@ RenderCounters read_counters(const Buffer<PinnedMemory>& buffer) {
     std::memcpy(&counters, buffer.data(), sizeof(counters));
     RenderCounters result;
     result.invalid_samples = counters.invalid_samples;
+    result.lost_media = counters.lost_media;
     result.rejected_rays = counters.rejected_rays;
     result.stack_overflows = counters.stack_overflows;
     return result;
@@ -134,10 +135,12 @@ class CudaBackend final : public Backend {
         memory->counters_on_host.reserve(counter_bytes);
         std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
 
+        const EffectMask effects = resident.camera().effects;
+        const std::size_t variant = variant_for(variants, effects);
         compute_.wait_for(resident.uploaded());
         memory->render_start.record(compute_.get());
         check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
-        kernels(job.tier).render(resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
+        kernels(job.tier).render(variant, resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
                                  reinterpret_cast<Vec3d*>(memory->film.data()),
                                  reinterpret_cast<DeviceCounters*>(memory->counters.data()), compute_.get());
         memory->render_end.record(compute_.get());
@@ -151,7 +154,7 @@ class CudaBackend final : public Backend {
               "downloading counters");
         memory->download_end.record(download_.get());
 
-        const KernelFacts facts = kernels(job.tier).render_facts(resident.view());
+        const KernelFacts facts = kernels(job.tier).render_facts(variant, resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         result.stats.rays = pixels * pixel_job.samples;
@@ -160,8 +163,11 @@ class CudaBackend final : public Backend {
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;
         static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
-        result.stats.variant = fmt::format("sm_{}{}, {}", properties_.major, properties_.minor,
-                                           structure_names[static_cast<int>(structure_of(resident.view()))]);
+        result.stats.effects = effects;
+        result.stats.carried = variants[variant].effects - effects;
+        result.stats.variant =
+            fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
+                        structure_names[static_cast<int>(structure_of(resident.view()))], variants[variant].name);
         return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(result));
     }
 

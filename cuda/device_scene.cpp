@@ -54,6 +54,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     camera_.render_from_camera = scene.render_from_camera;
     camera_.orthographic = scene.orthographic;
     camera_.half_height = scene.half_height;
+    camera_.effects = scene.effects;
     camera_.dropped_primitives = scene.dropped_primitives;
 
     const SceneView host = tandem::view(scene);
@@ -72,6 +73,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     const std::size_t normals = layout.add(scene.normals);
     const std::size_t material_of = layout.add(scene.material_of);
     const std::size_t materials = layout.add(scene.materials);
+    const std::size_t optics = layout.add(scene.optics);
     const std::size_t lights = layout.add(scene.lights);
     const std::size_t nodes = layout.add(bvh.nodes);
     const std::size_t entry_spheres = layout.add(bvh.entry_spheres);
@@ -89,7 +91,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     view_.scene.normals = reinterpret_cast<const Vec3f*>(base + normals);
     view_.scene.material_of = reinterpret_cast<const std::uint32_t*>(base + material_of);
     view_.scene.materials = reinterpret_cast<const PhongMaterial*>(base + materials);
-    view_.scene.lights = reinterpret_cast<const PointLight*>(base + lights);
+    view_.scene.optics = reinterpret_cast<const Optics*>(base + optics);
+    view_.scene.lights = reinterpret_cast<const PunctualLight*>(base + lights);
     if (!bvh.nodes.empty()) {
         view_.bvh.nodes = reinterpret_cast<const BvhNode*>(base + nodes);
         view_.bvh.entry_spheres = reinterpret_cast<const Sphere*>(base + entry_spheres);

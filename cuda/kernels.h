@@ -7,6 +7,7 @@
 
 #include "tandem/accuracy/tier.h"
 #include "tandem/bvh/bvh_tracer.h"
+#include "tandem/effects/variants.h"
 #include "tandem/geometry/few_tracer.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/integrator/pixel.h"
@@ -35,9 +36,16 @@ struct KernelFacts {
     double occupancy;  ///< resident warps over the most there can be
 };
 
+/// The sets of effects that the render kernel is compiled for ahead of time.
+inline constexpr KernelVariant variants[] = {
+    {"plain", {}},
+    {"full", all_effects},
+};
+
 /// What kernels count, in device memory.
 struct DeviceCounters {
     unsigned long long invalid_samples;
+    unsigned long long lost_media;
     unsigned long long rejected_rays;
     unsigned long long stack_overflows;
 };
@@ -55,13 +63,13 @@ struct DeviceRays {
 
 /// The kernels of one tier.
 struct TierKernels {
-    /// Starts the sums of all pixels. `sums` and `counters` are in device memory.
-    void (*render)(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                   DeviceCounters* counters, cudaStream_t stream);
+    /// Starts the sums of all pixels. `sums` and `counters` are in device memory, `variant` is a place in `variants`.
+    void (*render)(std::size_t variant, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
     /// Starts the answers to the rays.
     void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
     /// Of the render kernel that a scene gets.
-    KernelFacts (*render_facts)(const DeviceSceneView& scene);
+    KernelFacts (*render_facts)(std::size_t variant, const DeviceSceneView& scene);
 };
 
 [[nodiscard]] const TierKernels& fast_kernels();

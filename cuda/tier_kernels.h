@@ -2,6 +2,9 @@
 /// compiled with the flags of its tier (cuda/CMakeLists.txt).
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "cuda/kernels.h"
 #include "cuda/launch.h"
 
@@ -18,7 +21,7 @@ inline constexpr unsigned int block_threads = block_width * block_height;
 template <class Real>
 inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
 
-template <class Real, class Tracer>
+template <class Effects, class Real, class Tracer>
 __global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
@@ -29,9 +32,10 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
     const std::uint32_t y =
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
     if (x >= job.width || y >= height) return;
-    const PixelSum<Real> pixel = render_pixel<Real>(tracer, tracer.scene, job, x, y, true);
+    const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true);
     sums[static_cast<std::size_t>(y) * job.width + x] = pixel.sum;
     if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
+    if (pixel.lost_media != 0) atomicAdd(&counters->lost_media, pixel.lost_media);
 }
 
 /// What a trace asks: the nearest hits of rays that leave nothing, of rays that leave surfaces, or only whether shadow
@@ -87,13 +91,26 @@ inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
 }
 
+/// Calls f with the render kernel of a variant and the tracer that it is for.
+template <class Real, class F>
+auto with_render_kernel(std::size_t variant, const DeviceSceneView& scene, DeviceCounters* counters, F f) {
+    return with_tracer(scene, counters, [&]<class Tracer>(const Tracer& tracer) {
+        using Kernel = decltype(&render_kernel<EffectSet<0>, Real, Tracer>);
+        static constexpr auto kernels = []<std::size_t... i>(std::index_sequence<i...>) {
+            return std::array<Kernel, sizeof...(i)>{
+                render_kernel<EffectSet<variants[i].effects.bits()>, Real, Tracer>...};
+        }
+        (std::make_index_sequence<std::size(variants)>());
+        return f(kernels[variant], tracer);
+    });
+}
+
 template <class Real>
-void launch_render(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                   DeviceCounters* counters, cudaStream_t stream) {
+void launch_render(std::size_t variant, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
     const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
-    with_tracer(scene, counters, [&]<class Tracer>(const Tracer& tracer) {
-        launch("rendering", render_kernel<Real, Tracer>, grid, block_threads, stream, tracer, job, height, sums,
-               counters);
+    with_render_kernel<Real>(variant, scene, counters, [&](auto* kernel, const auto& tracer) {
+        launch("rendering", kernel, grid, block_threads, stream, tracer, job, height, sums, counters);
     });
 }
 
@@ -109,9 +126,8 @@ void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStre
 }
 
 template <class Real>
-KernelFacts render_kernel_facts(const DeviceSceneView& scene) {
-    return with_tracer(scene, nullptr, []<class Tracer>(const Tracer&) {
-        const auto kernel = render_kernel<Real, Tracer>;
+KernelFacts render_kernel_facts(std::size_t variant, const DeviceSceneView& scene) {
+    return with_render_kernel<Real>(variant, scene, nullptr, [](auto* kernel, const auto&) {
         cudaFuncAttributes attributes{};
         check(cudaFuncGetAttributes(&attributes, kernel), "reading the facts of a kernel");
         int blocks = 0;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "tandem/effects/derive.h"
+#include "tandem/effects/names.h"
 #include "tandem/error/error.h"
 #include "tandem/scene/prepare.h"
 
@@ -67,10 +69,13 @@ Json describe_lights(const Scene& scene) {
     Json lights = Json::array();
     for (const Node& node : scene.nodes) {
         if (!node.light) continue;
+        static constexpr const char* types[] = {"point", "spot", "directional"};
         lights.push_back({{"node", node.name},
-                          {"type", "point"},
+                          {"type", types[static_cast<std::size_t>(node.light->kind)]},
                           {"colour", colour(node.light->colour)},
-                          {"intensity", node.light->intensity}});
+                          {"intensity", node.light->intensity},
+                          {"falls_off", node.light->inverse_square},
+                          {"casts_shadows", node.light->casts_shadows}});
     }
     return lights;
 }
@@ -83,7 +88,12 @@ Json describe_materials(const Scene& scene) {
                              {"diffuse", colour(material.phong.diffuse)},
                              {"specular", colour(material.phong.specular)},
                              {"shininess", material.phong.shininess},
-                             {"double_sided", material.double_sided}});
+                             {"double_sided", material.double_sided},
+                             {"mirror", colour(material.optics.mirror)},
+                             {"transmission", material.optics.transmission},
+                             {"ior", material.optics.ior},
+                             {"absorption", colour(material.optics.absorption)},
+                             {"priority", material.optics.priority}});
     }
     return materials;
 }
@@ -102,6 +112,7 @@ Json describe_animation(const Scene& scene) {
 void describe_primitives(const Scene& scene, Json& description) {
     description["primitives"] = nullptr;
     description["dropped_primitives"] = nullptr;
+    description["effects"] = nullptr;
     try {
         const PreparedScene prepared = prepare(scene);
         description["primitives"] = {
@@ -110,6 +121,11 @@ void describe_primitives(const Scene& scene, Json& description) {
 #undef TANDEM_PRIMITIVE
         };
         description["dropped_primitives"] = prepared.dropped_primitives;
+        Json effects = Json::array();
+        for (const EffectNeed& need : derive_effects(scene, prepared)) {
+            effects.push_back({{"effect", to_string(need.effect)}, {"reason", need.reason}});
+        }
+        description["effects"] = std::move(effects);
     } catch (const InputError&) {
         // problems_of() says why
     }
@@ -145,15 +161,25 @@ std::string line_of_camera(const Json& camera) {
 }
 
 std::string line_of_light(const Json& light) {
-    return fmt::format("{}, point, colour {}, intensity {:g}", quoted(light["node"]), components(light["colour"]),
-                       light["intensity"].get<float>());
+    return fmt::format("{}, {}, colour {}, intensity {:g}{}{}", quoted(light["node"]), light["type"].get<std::string>(),
+                       components(light["colour"]), light["intensity"].get<float>(),
+                       light["falls_off"].get<bool>() ? ", falls off with distance" : "",
+                       light["casts_shadows"].get<bool>() ? ", casts shadows" : "");
 }
 
 std::string line_of_material(const Json& material) {
-    return fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}{}", quoted(material["name"]),
-                       components(material["ambient"]), components(material["diffuse"]),
-                       components(material["specular"]), material["shininess"].get<float>(),
-                       material["double_sided"].get<bool>() ? ", double-sided" : "");
+    std::string line =
+        fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}{}", quoted(material["name"]),
+                    components(material["ambient"]), components(material["diffuse"]), components(material["specular"]),
+                    material["shininess"].get<float>(), material["double_sided"].get<bool>() ? ", double-sided" : "");
+    const Json black = colour({0, 0, 0});
+    if (material["mirror"] != black) line += ", mirror " + components(material["mirror"]);
+    if (material["transmission"].get<float>() > 0) {
+        line += fmt::format(", transmission {:g}, index {:g}, absorption {} per metre, priority {}",
+                            material["transmission"].get<float>(), material["ior"].get<float>(),
+                            components(material["absorption"]), material["priority"].get<std::uint32_t>());
+    }
+    return line;
 }
 
 template <class LineOf>
@@ -206,6 +232,11 @@ std::string to_text(const Json& description) {
         if (const auto dropped = description["dropped_primitives"].get<std::size_t>(); dropped > 0) {
             text += fmt::format("dropped: {} faces without area\n", dropped);
         }
+    }
+    if (const Json& effects = description["effects"]; !effects.is_null()) {
+        add_list(text, "effects beyond Phong's sum", effects, most_lines, [](const Json& need) {
+            return fmt::format("{}: {}", need["effect"].get<std::string>(), need["reason"].get<std::string>());
+        });
     }
     add_list(text, "nodes", description["nodes"], most_lines, line_of_node);
     add_list(text, "cameras", description["cameras"], most_lines, line_of_camera);

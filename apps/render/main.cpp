@@ -6,6 +6,7 @@
 #include "common/run_main.h"
 #include "render/interrupt.h"
 #include "render/render_command.h"
+#include "tandem/effects/names.h"
 #include "tandem/error/error.h"
 #include "tandem/scene/load_scene.h"
 #include "tandem/scene/named_scenes.h"
@@ -21,6 +22,8 @@ struct Words {
     int frame = 0;
     std::string frames;  // empty: the one above
     std::string tier = "strict";
+    std::string effects;
+    std::string limits = to_string(PathLimits{});
     std::string backend = "cpu";
 };
 
@@ -46,6 +49,12 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->type_name("A-B|all")
         ->excludes(frame);
     app.add_option("--camera", sequence.camera, "name of the camera's node; the scene's first if not given");
+    app.add_option("--effects", words.effects,
+                   "force effects on or off, as in -shadows,+refraction; all or none. What the scene calls for if not "
+                   "given");
+    app.add_option("--limits", words.limits, "how often a path may be reflected and refracted")
+        ->type_name("R,T")
+        ->capture_default_str();
     app.add_option("--backend", words.backend, "cpu, cuda or oracle")->capture_default_str();
     app.add_option("--tier", words.tier, "accuracy tier")->capture_default_str();
     app.add_option("--threads", backend.threads, "of the CPU backends; 0: one per core")
@@ -90,6 +99,8 @@ int render(int argc, char** argv) {
     sequence.job.width = width;
     sequence.job.height = height;
     sequence.job.tier = parse_tier(words.tier);
+    sequence.job.limits = parse_limits(words.limits);
+    sequence.effects = parse_effects(words.effects);
     check(sequence.job);
 
     const std::atomic<bool>& interrupted = watch_interrupts();

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tandem/effects/names.h"
+
 namespace tandem {
 
 std::string frame_line(const FrameRecord& record) {
@@ -22,6 +24,8 @@ nlohmann::ordered_json frame_json(const FrameRecord& record) {
     json["file"] = record.file;
     json["skipped"] = record.skipped;
     json["variant"] = record.variant;
+    json["effects"] = to_string(record.effects);
+    json["carried"] = to_string(record.carried);
     const FrameSeconds& seconds = record.seconds;
     json["seconds"] = {{"prepare", seconds.prepare},
                        {"build", seconds.backend.build},

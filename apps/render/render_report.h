@@ -11,7 +11,7 @@ namespace tandem {
 /// "frame 12  SHA-256  FILE", with "  kept" where the file was there before, and counts of what went wrong.
 [[nodiscard]] std::string frame_line(const FrameRecord& record);
 
-/// The fields of the metadata, then file, skipped, variant, seconds by phase, and counters.
+/// The fields of the metadata, then file, skipped, variant, effects, seconds by phase, and counters.
 [[nodiscard]] nlohmann::ordered_json frame_json(const FrameRecord& record);
 
 }  // namespace tandem

@@ -116,7 +116,8 @@ class Sequence {
 
     void start(std::int32_t frame) {
         Stopwatch watch;
-        const PreparedScene prepared = prepare(scene_, {frame, options_.camera});
+        const PreparedScene prepared =
+            prepare(scene_, {.frame = frame, .camera = options_.camera, .effects = options_.effects});
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
         FrameRecord record;
@@ -146,6 +147,7 @@ class Sequence {
                 .height = job.height,
                 .samples = job.samples,
                 .seed = job.seed,
+                .limits = to_string(job.limits),
                 .tier = to_string(job.tier),
                 .backend = backend_.name(),
                 .version = version()};
@@ -178,6 +180,8 @@ class Sequence {
         seconds.download = result.stats.seconds.download;
         record.counters = result.stats.counters;
         record.variant = result.stats.variant;
+        record.effects = result.stats.effects;
+        record.carried = result.stats.carried;
         while (writing_.size() >= most_writing_) report_first();
         writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),
                                       format_, options_.write));

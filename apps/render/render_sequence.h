@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/arguments.h"
+#include "tandem/effects/names.h"
 #include "tandem/film/image_io.h"
 #include "tandem/render/backend.h"
 #include "tandem/scene/scene.h"
@@ -18,6 +19,7 @@ struct SequenceOptions {
     FrameRange frames;
     RenderJob job;       ///< its frame is set for each frame
     std::string camera;  ///< empty: the first of the scene
+    ForcedEffects effects{};
     WriteOptions write;
     bool force = false;  ///< render frames again whose files are there
     int writers = 0;     ///< threads that hash, encode and write; 0: one per core
@@ -39,7 +41,9 @@ struct FrameRecord {
     FrameSeconds seconds;
     RenderCounters counters;
     std::size_t nan_values = 0;  ///< EncodedImage
-    std::string variant;         ///< RenderStats
+    // of RenderStats
+    std::string variant{};
+    EffectMask effects{}, carried{};
 };
 
 /// Calls `on_frame` for each frame that is done, in order, on the calling thread, as soon as its file is there.
@@ -47,7 +51,7 @@ struct FrameRecord {
 /// Two frames are with the backend at a time; hashing, encoding and writing run in other threads meanwhile, as many at
 /// a time as there are writers (fewer where films are large).
 /// A frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
-/// same scene hash, frame, size, samples, seed, tier and version. The backend may differ: films are equal.
+/// same scene hash, frame, size, samples, seed, limits, tier and version. The backend may differ: films are equal.
 /// Once `interrupted` is set no frame is started; those in flight are finished and written.
 ///
 /// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible

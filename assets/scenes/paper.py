@@ -11,17 +11,10 @@ import os
 import struct
 import sys
 
+from scene_file import float32, floats
+
 FRAMES = 120
 FRAMES_PER_SECOND = 24
-
-
-def float32(value):
-    """The nearest float, as a Python number: JSON then holds exactly what Tandem keeps."""
-    return struct.unpack("<f", struct.pack("<f", value))[0]
-
-
-def floats(values):
-    return [float32(value) for value in values]
 
 
 def material(name, diffuse):
@@ -94,6 +87,7 @@ def paper():
             "EXT_implicit_geometry",
             "KHR_lights_punctual",
             "TANDEM_environment",
+            "TANDEM_lights_phong",
             "TANDEM_materials_phong",
         ],
         "extensionsRequired": ["EXT_implicit_geometry"],
@@ -136,7 +130,17 @@ def paper():
             material("blue", [0.2, 0.2, 0.8]),
             material("yellow", [0.8, 0.8, 0.2]),
         ],
-        "extensions": {"KHR_lights_punctual": {"lights": [{"name": "light", "type": "point"}]}},
+        "extensions": {
+            "KHR_lights_punctual": {
+                "lights": [
+                    {
+                        "name": "light",
+                        "type": "point",
+                        "extensions": {"TANDEM_lights_phong": {"falloff": False, "shadows": False}},
+                    }
+                ]
+            }
+        },
         "animations": [
             {
                 "name": "circle",

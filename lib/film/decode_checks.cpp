@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tandem/error/error.h"
+#include "tandem/film/texels.h"
 
 namespace tandem {
 
@@ -10,11 +11,23 @@ void fail_decoding(const std::string& name, const char* format, const std::strin
     throw InputError(fmt::format("'{}' is not a readable {} image: {}", name, format, reason));
 }
 
-void check_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height) {
-    constexpr std::uint64_t most_edge = 65536, most_pixels = std::uint64_t{1} << 30;
-    const auto good_edge = [](std::uint64_t edge) { return edge >= 1 && edge <= most_edge; };
+namespace {
+
+void check_edges(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height,
+                 std::uint64_t most_edge, std::uint64_t most_pixels) {
+    const auto good_edge = [&](std::uint64_t edge) { return edge >= 1 && edge <= most_edge; };
     if (good_edge(width) && good_edge(height) && width * height <= most_pixels) return;
     fail_decoding(name, format, fmt::format("it claims {} x {} pixels", width, height));
+}
+
+}  // namespace
+
+void check_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height) {
+    check_edges(name, format, width, height, 65536, std::uint64_t{1} << 30);
+}
+
+void check_texture_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height) {
+    check_edges(name, format, width, height, most_texture_edge, std::uint64_t{1} << 30);
 }
 
 void check_data(const std::string& name, const char* format, std::size_t available, std::size_t needed) {

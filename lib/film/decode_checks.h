@@ -13,6 +13,9 @@ namespace tandem {
 /// Throws unless both edges are from 1 to 65536, and the film from 1 to 2^30 pixels, the limits of a render job.
 void check_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height);
 
+/// The same for textures: edges of at most most_texture_edge.
+void check_texture_size(const std::string& name, const char* format, std::uint64_t width, std::uint64_t height);
+
 /// Throws if `available` bytes of file cannot hold `needed` bytes of pixels: a forged or truncated file, to be found
 /// out before memory is allocated.
 void check_data(const std::string& name, const char* format, std::size_t available, std::size_t needed);

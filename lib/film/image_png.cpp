@@ -8,6 +8,7 @@
 
 #include "tandem/film/decode_checks.h"
 #include "tandem/film/image_codecs.h"
+#include "tandem/film/texels.h"
 
 namespace tandem {
 
@@ -102,9 +103,17 @@ struct PngReader : PngFile {
         png_set_expand(png);
         png_set_gray_to_rgb(png);
         png_set_strip_alpha(png);
-        png_set_interlace_handling(png);
-        png_read_update_info(png, info);
-        return true;
+        return finish_header();
+    }
+    /// The same for pixels of red, green, blue and alpha, 8 bits each.
+    bool read_texel_header() {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_read_info(png, info);
+        png_set_expand(png);
+        png_set_scale_16(png);
+        png_set_gray_to_rgb(png);
+        png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+        return finish_header();
     }
 
     bool read_pixels(const std::vector<png_bytep>& rows) {
@@ -114,6 +123,10 @@ struct PngReader : PngFile {
         return true;
     }
 
+    [[nodiscard]] std::size_t width() const { return png_get_image_width(png, info); }
+    [[nodiscard]] std::size_t height() const { return png_get_image_height(png, info); }
+    [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png, info); }
+
     [[nodiscard]] MetadataText texts() const {
         png_textp texts = nullptr;
         int count = 0;
@@ -121,6 +134,13 @@ struct PngReader : PngFile {
         MetadataText result;
         for (int i = 0; i < count; ++i) result.emplace_back(texts[i].key, texts[i].text);
         return result;
+    }
+
+  private:
+    bool finish_header() {
+        png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        return true;
     }
 };
 
@@ -170,9 +190,9 @@ DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& nam
     check_chunk_lengths(bytes, name);
     PngReader reader(bytes);
     if (!reader.read_header()) fail_decoding(name, "PNG", reader.error.data());
-    const std::size_t width = png_get_image_width(reader.png, reader.info);
-    const std::size_t height = png_get_image_height(reader.png, reader.info);
-    const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+    const std::size_t width = reader.width();
+    const std::size_t height = reader.height();
+    const std::size_t row_bytes = reader.row_bytes();
     check_size(name, "PNG", width, height);
     check_data(name, "PNG", bytes.size(), row_bytes * height / most_deflate_ratio);
     std::vector<std::uint8_t> raw(row_bytes * height);
@@ -192,6 +212,26 @@ DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& nam
     for (std::size_t i = 0; i < width * height; ++i) {
         result.image.pixels[i] = {level(3 * i), level(3 * i + 1), level(3 * i + 2)};
     }
+    return result;
+}
+
+Texels decode_png_texels(std::span<const std::byte> bytes, const std::string& name) {
+    check_chunk_lengths(bytes, name);
+    PngReader reader(bytes);
+    if (!reader.read_texel_header()) fail_decoding(name, "PNG", reader.error.data());
+    check_texture_size(name, "PNG", reader.width(), reader.height());
+    const std::size_t row_bytes = reader.row_bytes();
+    if (row_bytes != 4 * reader.width())
+        fail_decoding(name, "PNG", "its pixels are of a kind that libpng cannot expand");
+    // one bit of a palette becomes the four bytes of a texel
+    check_data(name, "PNG", bytes.size(), row_bytes / 32 * reader.height() / most_deflate_ratio);
+    std::vector<std::uint8_t> raw(row_bytes * reader.height());
+    if (!reader.read_pixels(rows_of(raw.data(), row_bytes, reader.height()))) {
+        fail_decoding(name, "PNG", reader.error.data());
+    }
+    Texels result{static_cast<std::uint32_t>(reader.width()), static_cast<std::uint32_t>(reader.height()), {}};
+    result.texels.resize(reader.width() * reader.height());
+    std::memcpy(result.texels.data(), raw.data(), raw.size());
     return result;
 }
 

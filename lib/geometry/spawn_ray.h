@@ -23,6 +23,7 @@ struct SurfacePoint {
         normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
     UInt<Real> primitive = UInt<Real>(no_primitive);
     Double<Real> clearance = Double<Real>(0.0);  ///< for a face: from its plane to where rays leave
+    Mask<Real> from_inside = Mask<Real>(false);  ///< the ray came against the outward normal
 };
 
 namespace spawn_detail {
@@ -50,13 +51,18 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
 // The point of a primitive at a hit. `t` is the one that the tracer found; `exits`: it is the far side of the primitive
 // that the ray left inward, so the ray comes from within, whatever rounding has done to its origin.
 
+// For closed bodies `from_inside` follows from where the ray starts, so that a ray that grazes a body enters it before
+// it leaves it.
+
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&) {
+                                           const Mask<Real>& exits) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = sphere_normal(sphere, ray, t);
     const Vec3<D> centre = broadcast<D>(sphere.centre);
+    const Vec3<D> start = widen(ray.origin) - centre;
+    point.from_inside = exits || dot(start, start) < D(sphere.radius) * D(sphere.radius);
     point.position = to_real<Real>(spawn_detail::along<Real>(centre, point.normal, D(sphere.radius)));
     return point;
 }
@@ -67,7 +73,9 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray,
     using D = Double<Real>;
     SurfacePoint<Real> point;
     const Vec3<D> direction = widen(ray.direction);
-    point.normal = face_normal<Real>(cross_box(box, ray), direction, exits);
+    const BoxCrossing<Real> crossing = cross_box(box, ray);
+    point.normal = face_normal<Real>(crossing, direction, exits);
+    point.from_inside = exits || !(crossing.t_near > D(0.0));
     const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), direction, t));
     const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) TANDEM_INLINE_LAMBDA {
         const Real lo(lower);
@@ -84,11 +92,12 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray,
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&) {
+                                           const Mask<Real>& exits) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = ellipsoid_normal(body, ray, t);
     const ObjectRay<Real> local = to_object(body, ray);
+    point.from_inside = exits || dot(local.origin, local.origin) < D(1.0);
     const Vec3<D> unit_point = spawn_detail::along<Real>(local.origin, local.direction, t);
     // scaling the offset from the centre scales its image in object space alike
     point.position = spawn_detail::at_offset(body, ray, t, inverse_square_root(dot(unit_point, unit_point)));
@@ -102,7 +111,9 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Ray
     SurfacePoint<Real> point;
     point.normal = parallelepiped_normal(body, ray, exits);
     const ObjectRay<Real> local = to_object(body, ray);
-    const Vec3<D> face = face_normal<Real>(cross_parallelepiped(local), local.direction, exits);
+    const BoxCrossing<Real> crossing = cross_parallelepiped(local);
+    point.from_inside = exits || !(crossing.t_near > D(0.0));
+    const Vec3<D> face = face_normal<Real>(crossing, local.direction, exits);
     const Vec3<D> cube_point = spawn_detail::along<Real>(local.origin, local.direction, t);
     point.position = spawn_detail::at_offset(body, ray, t, D(1.0) / absolute(dot(cube_point, face)));
     return point;
@@ -117,6 +128,7 @@ TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = normal;
+    point.from_inside = dot(widen(ray.direction), normal) > D(0.0);
     const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
     const D above = dot(hit - broadcast<D>(v0), normal);
     point.position = to_real<Real>(along<Real>(hit, normal, -above));
@@ -151,13 +163,14 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ra
     return spawn_detail::plane_point(quad.v0, select(first, a, b), ray, t);
 }
 
-/// The point of primitive `id` at t of a ray that comes from `source` (NoSource or Source<Real>).
-template <class Real, class From>
+/// The point of primitive `id` at t of a ray that comes from `source` (NoSource or Source<Real>). `kinds`: the ones
+/// that it may be of.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
                                               const From& source, const Double<Real>& t) {
     const Mask<Real> exits = leaves_inward<Real>(source, id);
     SurfacePoint<Real> point;
-    visit_primitive(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+    visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
         point = surface_point(primitive, ray, t, exits);
     });
     point.primitive = UInt<Real>(id);
@@ -165,15 +178,16 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
 }
 
 /// The point of a scene at `hit`, which `ray` from `source` found, in the lanes of `found`.
-template <class Real, class From>
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                            const Closest<Real>& hit, const Mask<Real>& found) {
     SurfacePoint<Real> result = {ray.origin, widen(ray.direction)};
     for_each_value(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const SurfacePoint<Real> point = surface_point_of(scene, id, ray, source, hit.t);
+        const SurfacePoint<Real> point = surface_point_of<kinds>(scene, id, ray, source, hit.t);
         result.position = select(here, point.position, result.position);
         result.normal = select(here, point.normal, result.normal);
         result.clearance = select(here, point.clearance, result.clearance);
+        result.from_inside = select(here, point.from_inside, result.from_inside);
         result.primitive = select(here, UInt<Real>(id), result.primitive);
     });
     return result;

@@ -7,9 +7,10 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> rendered = {
-    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing", "KHR_implicit_shapes",    "KHR_lights_punctual",
-    "KHR_mesh_quantization", "TANDEM_environment",      "TANDEM_materials_phong",
+constexpr std::array<std::string_view, 12> rendered = {
+    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing",    "KHR_implicit_shapes",         "KHR_lights_punctual",
+    "KHR_materials_ior",     "KHR_materials_transmission", "KHR_materials_volume",        "KHR_mesh_quantization",
+    "TANDEM_environment",    "TANDEM_lights_phong",        "TANDEM_materials_dielectric", "TANDEM_materials_phong",
 };
 
 struct Reason {
@@ -18,7 +19,7 @@ struct Reason {
 };
 
 constexpr std::string_view for_triangles = "it serves triangle meshes in a way that Tandem does not read";
-constexpr std::string_view for_textures = "it serves textures, which Tandem does not render yet";
+constexpr std::string_view for_textures = "Tandem reads textures in PNG and JPEG only";
 constexpr std::string_view for_animation = "Tandem animates translation, rotation and scale of nodes only";
 
 constexpr std::array<Reason, 14> reasons = {{

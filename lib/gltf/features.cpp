@@ -21,18 +21,13 @@ struct Feature {
 
 constexpr const char* film_decides = "the film decides the shape of the picture";
 constexpr const char* no_clipping = "a ray tracer has no clipping planes";
-constexpr const char* no_textures = "Tandem does not render textures yet";
 constexpr const char* no_skins = "Tandem does not render skins yet";
 constexpr const char* no_morphing = "Tandem does not render morph targets yet";
 constexpr const char* phong_only = "Tandem shades with Phong's model only";
-constexpr const char* no_alpha = "Tandem renders all surfaces as opaque";
 
 /// By place in the file, with [] for any index.
 const std::map<std::string, Feature>& ignored_features() {
     static const std::map<std::string, Feature> features = {
-        {"images[]", {"image", no_textures}},
-        {"samplers[]", {"texture sampler", no_textures}},
-        {"textures[]", {"texture", no_textures}},
         {"skins[]", {"skin", no_skins}},
         {"nodes[].skin", {"node skin", no_skins}},
         {"nodes[].weights", {"morph weights", no_morphing}},
@@ -44,17 +39,18 @@ const std::map<std::string, Feature>& ignored_features() {
         {"cameras[].orthographic.xmag", {"camera xmag", film_decides}},
         {"cameras[].orthographic.znear", {"camera znear", no_clipping}},
         {"cameras[].orthographic.zfar", {"camera zfar", no_clipping}},
-        {"materials[].pbrMetallicRoughness.baseColorTexture", {"base colour texture", no_textures}},
-        {"materials[].pbrMetallicRoughness.metallicRoughnessTexture", {"metallic-roughness texture", no_textures}},
+        {"materials[].pbrMetallicRoughness.metallicRoughnessTexture", {"metallic-roughness texture", phong_only}},
         {"materials[].pbrMetallicRoughness.metallicFactor", {"metallicFactor", phong_only}},
         {"materials[].pbrMetallicRoughness.roughnessFactor", {"roughnessFactor", phong_only}},
-        {"materials[].normalTexture", {"normal texture", no_textures}},
-        {"materials[].occlusionTexture", {"occlusion texture", no_textures}},
-        {"materials[].emissiveTexture", {"emissive texture", no_textures}},
+        {"materials[].occlusionTexture", {"occlusion texture", "Tandem renders no textures of occlusion"}},
+        {"materials[].emissiveTexture", {"emissive texture", "Tandem renders no textures of emission"}},
         {"materials[].emissiveFactor", {"emission", "Tandem does not render emission yet"}},
-        {"materials[].alphaMode", {"alphaMode", no_alpha}},
-        {"materials[].alphaCutoff", {"alphaCutoff", no_alpha}},
-        {"extensions.KHR_lights_punctual.lights[].range", {"light range", "Phong's model has no fall-off"}},
+        {"extensions.KHR_lights_punctual.lights[].range",
+         {"light range", "light falls off with the square of the distance"}},
+        {"materials[].extensions.KHR_materials_transmission.transmissionTexture",
+         {"transmission texture", "Tandem renders no textures of transmission"}},
+        {"materials[].extensions.KHR_materials_volume.thicknessTexture",
+         {"thickness texture", "the thickness is that of the shape"}},
         {"meshes[].primitives[].extensions.EXT_implicit_geometry.sphere.slice",
          {"implicit geometry slice", "Tandem renders whole spheres"}},
         {"meshes[].primitives[].extensions.EXT_implicit_geometry.box.slice",

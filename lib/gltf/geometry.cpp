@@ -62,8 +62,20 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
         budget_.spend(source_.document, node_path + ".mesh",
                       primitives_in(*shape) * std::max<std::size_t>(1, instances.size()));
         result.push_back({*shape, material_of(primitives[i], path), instances});
+        complete_texcoords(result.back(), path);
     }
     return result;
+}
+
+void GeometryReader::complete_texcoords(const Geometry& geometry, const std::string& path) {
+    const auto* shape = std::get_if<MeshShape>(&geometry.shape);
+    const Material& material = scene_.materials[geometry.material];
+    if (shape == nullptr || !(material.diffuse_texture || material.normal_texture)) return;
+    Mesh& mesh = scene_.meshes[shape->mesh];
+    if (!mesh.texcoords.empty()) return;
+    mesh.texcoords.assign(mesh.positions.size(), Vec2f{0, 0});
+    report_.add(Treatment::approximated, "texture without coordinates", path + ".attributes",
+                "there is no TEXCOORD_0; the corner of the texture covers all");
 }
 
 std::size_t GeometryReader::primitives_in(const Shape& shape) const {

@@ -30,6 +30,8 @@ class GeometryReader {
     /// Of primitive `index` of a mesh of the file.
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
+    /// A textured mesh needs texture coordinates.
+    void complete_texcoords(const Geometry& geometry, const std::string& path);
     [[nodiscard]] std::size_t primitives_in(const Shape& shape) const;
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);

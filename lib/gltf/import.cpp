@@ -10,11 +10,13 @@
 #include "tandem/gltf/buffers.h"
 #include "tandem/gltf/features.h"
 #include "tandem/gltf/geometry.h"
+#include "tandem/gltf/lights.h"
 #include "tandem/gltf/materials.h"
 #include "tandem/gltf/model.h"
 #include "tandem/gltf/printable.h"
 #include "tandem/gltf/schema.h"
 #include "tandem/gltf/structure.h"
+#include "tandem/gltf/textures.h"
 
 namespace tandem {
 
@@ -63,6 +65,7 @@ class SceneBuilder {
         choose_scene();
         number_nodes();
         scene_.materials = gltf::read_materials(source_, report_);
+        gltf::read_textures(source_, scene_, report_);
         scene_.environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
@@ -163,17 +166,8 @@ class SceneBuilder {
 
     void read_light(std::size_t index, const std::string& node_path, Node& node) {
         const Json& light = document_.json["extensions"]["KHR_lights_punctual"]["lights"][index];
-        const std::string path = node_path + ".extensions.KHR_lights_punctual";
-        const auto type = light["type"].get<std::string>();
-        const std::string feature = fmt::format("KHR_lights_punctual {}", type);
-        if (type != "point") {
-            report_.add(Treatment::ignored, feature, path, "Tandem renders point lights only, for now");
-            return;
-        }
         if (node.name.empty()) node.name = light.value("name", std::string());
-        node.light = PointLightSource{gltf::read_colour(light, "color", {1, 1, 1}), light.value("intensity", 1.0F)};
-        report_.add(Treatment::approximated, feature, path,
-                    "Phong's model has no fall-off with distance: intensity times colour reaches every surface");
+        node.light = gltf::read_light(document_, light, node_path + ".extensions.KHR_lights_punctual", report_);
     }
 
     /// glTF knows seconds only. A scene may say how many frames make one in its extras.

@@ -13,8 +13,8 @@ struct ImportResult {
     ImportReport report;
 };
 
-/// Reads a .gltf or .glb file, with the buffers beside it. Files outside of its folder are never opened, and no
-/// image is decoded.
+/// Reads a .gltf or .glb file, with the buffers beside it and the images that its materials show. Files outside of its
+/// folder are never opened.
 ///
 /// The nodes of the default scene come in the order of the file's `nodes`; lengths in metres, angles in radians, as in
 /// the file. The scene is valid (validate()).

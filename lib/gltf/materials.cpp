@@ -1,5 +1,7 @@
 #include "tandem/gltf/materials.h"
 
+#include "tandem/gltf/optics.h"
+
 #include <fmt/format.h>
 
 namespace tandem::gltf {
@@ -26,6 +28,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         const tinygltf::Material& read = source.model.materials[i];
         const std::string path = fmt::format("materials[{}]", i);
         Material material{read.name, {}};
+        material.optics = read_optics((*described)[i], path, report);
         if (const Json* phong = find_extension((*described)[i], "TANDEM_materials_phong")) {
             const PhongMaterial absent;
             material.phong = {

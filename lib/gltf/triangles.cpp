@@ -130,11 +130,11 @@ bool has_triangles(const Json& primitive, const std::string& path, ImportReport&
     }
     report.add(Treatment::rendered, mode_name(mode), path, "its triangles, without gaps between them");
     for (const auto& [name, index] : attributes->items()) {
-        if (name == "POSITION" || name == "NORMAL") continue;
+        if (name == "POSITION" || name == "NORMAL" || name == "TEXCOORD_0") continue;
         const bool is_skin = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
         report.add(Treatment::ignored, fmt::format("attribute {}", name), fmt::format("{}.attributes.{}", path, name),
                    is_skin                        ? "Tandem does not render skins yet"
-                   : name.starts_with("TEXCOORD") ? "Tandem does not render textures yet"
+                   : name.starts_with("TEXCOORD") ? "textures lie at TEXCOORD_0"
                                                   : "Tandem reads positions and normals of vertices");
     }
     return true;

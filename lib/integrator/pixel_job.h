@@ -12,7 +12,8 @@ namespace tandem {
             .seed = job.seed,
             .frame = job.frame,
             .samples = static_cast<std::uint32_t>(job.samples),
-            .width = static_cast<std::uint32_t>(job.width)};
+            .width = static_cast<std::uint32_t>(job.width),
+            .limits = job.limits};
 }
 
 }  // namespace tandem

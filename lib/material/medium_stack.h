@@ -70,6 +70,13 @@ class MediumStack {
         return select(best == Word(empty), Word(no_medium), best & Word(medium_mask));
     }
 
+    /// `a` in the lanes of `mask`, else `b`.
+    TANDEM_HD friend MediumStack select(const Mask<Real>& mask, const MediumStack& a, const MediumStack& b) {
+        MediumStack result;
+        for (int i = 0; i < capacity; ++i) result.entries_[i] = select(mask, a.entries_[i], b.entries_[i]);
+        return result;
+    }
+
   private:
     static constexpr int medium_bits = 24;
     static constexpr std::uint32_t medium_mask = (1U << medium_bits) - 1;

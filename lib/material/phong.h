@@ -34,7 +34,7 @@ TANDEM_HD Real specular_lobe(const Double<Real>& cosine, const Real& shininess) 
 /// Source: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; docs/paper.md row 3.
 template <class Real>
 TANDEM_HD Vec3<Real> phong_light(const Vec3<Real>& diffuse, const Vec3<Real>& specular, const Real& shininess,
-                                 const Vec3f& light, const Vec3<Double<Real>>& normal,
+                                 const Vec3<Real>& light, const Vec3<Double<Real>>& normal,
                                  const Vec3<Double<Real>>& to_light, const Vec3<Double<Real>>& to_viewer) {
     using D = Double<Real>;
     const D zero(0.0);
@@ -49,8 +49,7 @@ TANDEM_HD Vec3<Real> phong_light(const Vec3<Real>& diffuse, const Vec3<Real>& sp
         const Real lobe = specular_lobe<Real>(select(mirror_cosine > zero, mirror_cosine, D(1.0)), shininess);
         specular_weight = select(mirror_cosine > zero, lobe, Real(0.0F));
     }
-    const Vec3<Real> intensity = broadcast<Real>(light);
-    return (diffuse * diffuse_weight + specular * specular_weight) * intensity;
+    return (diffuse * diffuse_weight + specular * specular_weight) * light;
 }
 
 }  // namespace tandem

@@ -225,6 +225,10 @@ TANDEM_HD Double<Real> exp_wide(const Double<Real>& x) {
     return (D(1.0) + multiply_add(z, higher, r)) * scale;
 }
 
+/// e^x in the type of decisions, x clamped as in exp_wide().
+template <class Real>
+requires(!is_fast<Real>) TANDEM_HD Double<Real> exponential(const Double<Real>& x) { return exp_wide<Real>(x); }
+
 /// x^y for x in [0, inf), normal or zero, and y >= 0. Relative error below 2^-52 (1 + |y log x|): the error of the
 /// logarithm counts y times. 0^0 = 1.
 template <class Real>

@@ -1,4 +1,5 @@
-/// Reciprocal square root and power of the tier fast, in float. No bits are promised, only the errors given.
+/// What the exact tiers do in double, for the tier fast in float: reciprocal square root, power, polynomials of angles.
+/// No bits are promised, only the errors given.
 #pragma once
 
 #include "tandem/math/exact_math.h"
@@ -17,7 +18,37 @@ requires(is_fast<D>) TANDEM_HD D inverse_square_root(const D& x) {
 #endif
 }
 
+/// a b - c d as it comes; the exact tiers' is in error_free.h.
+template <class D>
+requires(is_fast<D>) TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& d) {
+    return a * b - c * d;
+}
+
+/// Nearest integer, ties to even, of |x| < 2^22.
+template <class D>
+requires(is_fast<D>) TANDEM_HD D round_to_int(const D& x) { return (x + D(0x1.8p23F)) - D(0x1.8p23F); }
+
 namespace fast_detail {
+
+// For |r| <= pi/4 with a relative error of the polynomial below 2^-28, and for |t| <= tan(pi/8) below 2^-25.
+template <class D>
+TANDEM_HD D sine(const D& r) {
+    const D z = r * r;
+    const D tail = (z * D(-0x1.994edcp-13F) + D(0x1.110760p-7F)) * z + D(-0x1.555546p-3F);
+    return r + r * z * tail;
+}
+template <class D>
+TANDEM_HD D cosine(const D& r) {
+    const D z = r * r;
+    const D tail = (z * D(0x1.9a0222p-16F) + D(-0x1.6c0c8cp-10F)) * z + D(0x1.55554ap-5F);
+    return (z * tail + D(-0.5F)) * z + D(1.0F);
+}
+template <class D>
+TANDEM_HD D arctangent(const D& t) {
+    const D z = t * t;
+    const D tail = ((z * D(0x1.4a255ap-4F) + D(-0x1.1c4246p-3F)) * z + D(0x1.9925dcp-3F)) * z + D(-0x1.555458p-2F);
+    return t + t * z * tail;
+}
 
 /// log2(x) of a positive normal x within 2^-22 of its magnitude or of 2^-22, by the series of 2 atanh(s), s = f / (2 +
 /// f).
@@ -51,6 +82,16 @@ TANDEM_HD Real exp2(const Real& x) {
 }
 
 }  // namespace fast_detail
+
+/// e^x for x <= 88. Relative error 2^-21 (1 + |x|).
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD Double<Real> exponential(const Double<Real>& x) {
+#if TANDEM_ON_DEVICE
+    return exp2f(x.v * 1.44269504F);
+#else
+    return fast_detail::exp2(x * Real(1.44269504F));
+#endif
+}
 
 /// x^y for x in [0, 1] and y >= 0. Relative error 2^-21 (1 + |y log2 x|). 0^0 = 1.
 template <class Real>

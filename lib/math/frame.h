@@ -28,4 +28,10 @@ TANDEM_HD Frame<D> frame_around(const Vec3<D>& normal) {
             normal};
 }
 
+/// The vector with coordinates (x, y, z) along tangent, bitangent and normal.
+template <class D>
+TANDEM_HD Vec3<D> from_frame(const Frame<D>& frame, const D& x, const D& y, const D& z) {
+    return frame.tangent * x + frame.bitangent * y + frame.normal * z;
+}
+
 }  // namespace tandem

@@ -26,7 +26,9 @@ template <class Real>
 using Vec3 = glm::vec<3, Real, glm::defaultp>;
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
-using Vec2f = glm::vec<2, float, glm::defaultp>;
+template <class Real>
+using Vec2 = glm::vec<2, Real, glm::defaultp>;
+using Vec2f = Vec2<float>;
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24 && sizeof(Vec2f) == 8,
               "vectors are packed; device buffers rely on it");
 

@@ -9,7 +9,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
-#include "tandem/oracle/oracle_geometry.h"
+#include "tandem/oracle/oracle_path.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/seconds.h"
 
@@ -18,15 +18,10 @@ namespace tandem {
 namespace {
 
 using oracle::Line;
+using oracle::nearest_surface;
+using oracle::NearestSurface;
 using oracle::Real;
-using oracle::Start;
-using oracle::SurfaceHit;
 using oracle::Vector;
-
-struct NearestSurface {
-    SurfaceHit surface{};
-    std::uint32_t primitive = no_primitive;
-};
 
 /// `T`: float or double.
 template <class T>
@@ -34,50 +29,8 @@ Line line_of(const Ray<T>& ray) {
     return {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
 }
 
-NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
-                               std::uint32_t except = no_primitive) {
-    NearestSurface nearest;
-    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
-        if (id == except) continue;
-        const Start start = id != source.primitive ? Start::anywhere
-                            : source.inside        ? Start::leaving_inward
-                                                   : Start::leaving_outward;
-        const auto hit = oracle::hit_primitive(scene, id, line, start);
-        // ids ascend, so a tie keeps the lower one
-        if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
-    }
-    return nearest;
-}
-
-Vector background_towards(const Environment& environment, const Vector& direction) {
-    const Real m = (oracle::unit(direction).y + 1) / 2;
-    return oracle::to_vector(environment.bottom) * (1 - m) + oracle::to_vector(environment.top) * m;
-}
-
 /// Is there a finite float for it?
 bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
-
-Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-
-/// Phong's sum, written out once more from the paper's formula.
-Vector shade(const SceneView& scene, const Line& line, const NearestSurface& nearest) {
-    const PhongMaterial& material = scene.materials[scene.material_of[nearest.primitive]];
-    const Vector point = line.origin + line.direction * nearest.surface.t;
-    const Vector n = nearest.surface.normal;
-    const Vector v = oracle::unit(line.direction) * -1;
-    Vector sum = times(oracle::to_vector(material.ambient), oracle::to_vector(scene.environment.ambient));
-    for (std::uint32_t i = 0; i < scene.light_count; ++i) {
-        const Vector l = oracle::unit(oracle::to_vector(scene.lights[i].position) - point);
-        const Vector r = n * (2 * oracle::inner(l, n)) - l;
-        const Real diffuse = std::max<Real>(0, oracle::inner(l, n));
-        const Real mirror = oracle::inner(r, v);
-        const Real specular = mirror > 0 ? std::pow(std::min<Real>(1, mirror), Real{material.shininess}) : 0;
-        sum =
-            sum + times(oracle::to_vector(material.diffuse) * diffuse + oracle::to_vector(material.specular) * specular,
-                        oracle::to_vector(scene.lights[i].intensity));
-    }
-    return sum;
-}
 
 class OracleScene final : public ResidentScene {
   public:
@@ -148,6 +101,7 @@ class OracleBackend final : public Backend {
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.rays = result.film.pixel_count() * pixel_job.samples;
+        result.stats.effects = prepared.effects;
         result.stats.counters.invalid_samples = invalid;
         result.stats.counters.dropped_primitives = prepared.dropped_primitives;
         result.stats.variant = "brute force";
@@ -161,14 +115,12 @@ class OracleBackend final : public Backend {
                         std::atomic<std::uint64_t>& invalid) {
         Vector sum{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            const auto random = random_block<float>(job.seed, job.frame, pixel, sample, Dimension::film);
+            const SampleId<float> id = {job.seed, job.frame, pixel, sample};
+            const auto random = id.block(Dimension::film);
             const Line line =
                 line_of(camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
                                       to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1])));
-            const NearestSurface nearest = nearest_surface(scene, line, {});
-            const Vector value = nearest.primitive == no_primitive
-                                     ? background_towards(scene.environment, line.direction)
-                                     : shade(scene, line, nearest);
+            const Vector value = oracle::trace_path(scene, job.limits, id, line);
             if (is_float(value.x) && is_float(value.y) && is_float(value.z)) {
                 sum = sum + value;
             } else {

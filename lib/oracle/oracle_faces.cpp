@@ -88,7 +88,7 @@ std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttribu
         if (inner(sum, sum) > 0x1p-40L) normal = unit(sum);
     }
     if (attributes.double_sided != 0 && inner(own, line.direction) > 0) normal = normal * -1;
-    return SurfaceHit{t, normal};
+    return SurfaceHit{t, normal, own};
 }
 
 }  // namespace tandem::oracle

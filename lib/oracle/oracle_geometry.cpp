@@ -118,6 +118,7 @@ std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, co
 std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line, Start start) {
     std::optional<SurfaceHit> hit;
     visit_primitive(scene, id, [&](const auto& primitive) { hit = hit_shape(scene, primitive, line, start); });
+    if (hit && inner(hit->facet, hit->facet) == 0) hit->facet = hit->normal;
     return hit;
 }
 

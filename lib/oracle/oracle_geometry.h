@@ -21,6 +21,8 @@ inline Vector operator*(const Vector& a, Real s) { return {a.x * s, a.y * s, a.z
 inline Real inner(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 [[nodiscard]] Vector unit(const Vector& a);
 
+inline Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
 struct Line {
     Vector origin, direction;
 };
@@ -28,7 +30,8 @@ struct Line {
 /// What lies at a crossing.
 struct SurfaceHit {
     Real t;
-    Vector normal;  ///< unit, outward; of a face the one for shading
+    Vector normal;          ///< unit, outward; of a face the one for shading
+    Vector facet{0, 0, 0};  ///< of a face its own, unit; of other shapes hit_primitive() puts `normal` there
 };
 
 /// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.

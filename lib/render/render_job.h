@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "tandem/accuracy/tier.h"
+#include "tandem/integrator/path_limits.h"
 
 namespace tandem {
 
@@ -14,7 +16,14 @@ struct RenderJob {
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;   ///< random numbers differ from frame to frame
     Tier tier = Tier::strict;  ///< the one that the scene was loaded for
+    PathLimits limits{};
 };
+
+/// "8,16": reflections, refractions.
+[[nodiscard]] std::string to_string(const PathLimits& limits);
+
+/// The inverse. Throws InputError.
+[[nodiscard]] PathLimits parse_limits(const std::string& text);
 
 /// Throws InputError that names the field.
 void check(const RenderJob& job);

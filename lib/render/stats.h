@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "tandem/effects/effects.h"
+
 namespace tandem {
 
 /// Seconds per phase. A phase that a backend does not have is zero; phases may overlap in time.
@@ -42,7 +44,9 @@ struct RenderStats {
     std::size_t device_bytes = 0;
     int registers = 0;     ///< of the kernel, per thread; 0 on the CPU
     double occupancy = 0;  ///< resident warps over the most there can be; 0 on the CPU
-    std::string variant;   ///< which compiled code ran, e.g. "x86-64-v3, loop" or "sm_90, bvh"
+    std::string variant;   ///< which compiled code ran, e.g. "x86-64-v3, loop, plain" or "sm_90, bvh, full"
+    EffectMask effects;    ///< that were simulated: what the scene calls for, and what was forced on
+    EffectMask carried;    ///< that the code can simulate beyond those, unused
 };
 
 }  // namespace tandem

@@ -6,19 +6,28 @@
 
 namespace tandem {
 
-/// One block of four numbers each.
+/// One block of four numbers each, for every vertex of a path.
 enum class Dimension : std::uint32_t {
-    film = 0,  ///< numbers 0 and 1: position within the pixel
+    film = 0,     ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
+    scatter = 1,  ///< number 0: how a path goes on; 1: reflected or refracted
 };
 
-/// The four numbers of a dimension for one sample of one pixel, as uniform bits.
-/// The counter is (pixel, sample, dimension, frame) and the key the seed: each combination once, no state.
+/// One sample of one pixel, of `Real`'s lanes. Its random numbers hang on nothing else.
 template <class Real>
-TANDEM_HD PhiloxBlock<UInt<Real>> random_block(std::uint64_t seed, std::uint32_t frame, const UInt<Real>& pixel,
-                                               std::uint32_t sample, Dimension dimension) {
-    using Word = UInt<Real>;
-    return philox4x32<Word>({{pixel, Word(sample), Word(static_cast<std::uint32_t>(dimension)), Word(frame)}},
-                            static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
-}
+struct SampleId {
+    std::uint64_t seed;
+    std::uint32_t frame;
+    UInt<Real> pixel;
+    std::uint32_t sample;
+
+    /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
+    /// (pixel, sample, dimension and vertex, frame) and the key the seed: each combination once, no state.
+    TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, std::uint32_t vertex = 0) const {
+        using Word = UInt<Real>;
+        const std::uint32_t place = (vertex << 8) | static_cast<std::uint32_t>(dimension);
+        return philox4x32<Word>({{pixel, Word(sample), Word(place), Word(frame)}}, static_cast<std::uint32_t>(seed),
+                                static_cast<std::uint32_t>(seed >> 32));
+    }
+};
 
 }  // namespace tandem

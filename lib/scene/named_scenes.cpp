@@ -39,7 +39,7 @@ Node light_node(const Vec3d& position) {
     Node node;
     node.name = "light";
     node.trs.translation = position;
-    node.light = PointLightSource{};
+    node.light = LightSource{.casts_shadows = false};  // as in the paper
     return node;
 }
 

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/media.h"
 #include "tandem/scene/place_mesh.h"
+#include "tandem/scene/prepare_textures.h"
 #include "tandem/scene/render_origin.h"
 
 namespace tandem {
@@ -36,6 +39,9 @@ bool is_diagonal(const Matrix3& m) {
     return m.row[0].y == 0 && m.row[0].z == 0 && m.row[1].x == 0 && m.row[1].z == 0 && m.row[2].x == 0 &&
            m.row[2].y == 0;
 }
+
+/// Does it only scale, without mirroring?
+bool is_upright(const Matrix3& m) { return is_diagonal(m) && m.row[0].x >= 0 && m.row[1].y >= 0 && m.row[2].z >= 0; }
 
 /// The unit sphere, or the cube [-1, 1]^3, in world space.
 struct Placed {
@@ -78,7 +84,11 @@ class Preparer {
 
     PreparedScene run() {
         world_from_node_ = world_transforms();
-        for (const Material& material : scene_.materials) result_.materials.push_back(material.phong);
+        for (const Material& material : scene_.materials) {
+            result_.materials.push_back(material.phong);
+            result_.optics.push_back(material.optics);
+        }
+        result_.textures = prepare_textures(scene_, result_.materials);
         result_.environment = scene_.environment;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
@@ -94,6 +104,9 @@ class Preparer {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
         move_to_origin();
         join_kinds();
+        find_media(result_);
+        if (scene_.bodies_lie_apart) result_.media_overlap = false;
+        result_.effects = mask_of(derive_effects(scene_, result_)) | options_.effects.on;
         return std::move(result_);
     }
 
@@ -130,11 +143,28 @@ class Preparer {
                 add_primitive(geometry, world_from_node * to_transform(node_from_instance), index);
             }
         }
-        if (node.light) {
-            const Vec3d& position = world_from_node.translation;
-            check_reach(position, {0, 0, 0}, index);
-            lights_.push_back({position, node.light->colour * node.light->intensity});
+        if (node.light) add_light(*node.light, world_from_node, index);
+    }
+
+    void add_light(const LightSource& source, const Transform& world_from_node, std::size_t node) {
+        check_reach(world_from_node.translation, {0, 0, 0}, node);
+        const Vec3d axis = -transpose(world_from_node.linear).row[2];
+        const double length = std::sqrt(dot(axis, axis));
+        const bool directed = source.kind != LightKind::point;
+        if (directed && !(length > 0)) fail(node, "a light with a direction under a transform that takes it");
+        if (!is_lit(source)) return;
+        PunctualLight light{};
+        const bool falls_off = source.inverse_square && source.kind != LightKind::directional;
+        light.kind = static_cast<PunctualKind>(source.kind);
+        light.intensity = source.colour * source.intensity;
+        light.direction = directed ? narrow(axis * (1 / length)) : Vec3f{0, 0, -1};
+        if (source.kind == LightKind::spot) {
+            light.cos_outer = static_cast<float>(std::cos(source.outer_cone));
+            light.cone_scale = static_cast<float>(1 / (std::cos(source.inner_cone) - std::cos(source.outer_cone)));
         }
+        light.inverse_square = falls_off ? 1U : 0U;
+        light.casts_shadows = source.casts_shadows ? 1U : 0U;
+        lights_.push_back({world_from_node.translation, light});
     }
 
     void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
@@ -166,7 +196,7 @@ class Preparer {
     void add_sphere(const SphereShape& shape, std::uint32_t material, const Transform& world_from_object,
                     std::size_t node) {
         const double scale = uniform_scale(world_from_object.linear);
-        if (scale > 0) {
+        if (scale > 0 && keeps_its_picture(world_from_object, material)) {
             const double radius = scale * shape.radius;
             if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
             check_reach(world_from_object.translation, {radius, radius, radius}, node);
@@ -181,7 +211,7 @@ class Preparer {
     void add_box(const BoxShape& shape, std::uint32_t material, const Transform& world_from_object, std::size_t node) {
         const Vec3d half = shape.size * 0.5;
         const Matrix3& m = world_from_object.linear;
-        if (is_diagonal(m)) {
+        if (is_diagonal(m) && keeps_its_picture(world_from_object, material)) {
             const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
                                   std::abs(m.row[2].z) * half.z};
             check_reach(world_from_object.translation, extent, node);
@@ -190,6 +220,11 @@ class Preparer {
             return;
         }
         add_placement(world_from_object, half, true, material, node);
+    }
+
+    /// Spheres and boxes have the axes of the world; a picture that is turned or mirrored needs its own.
+    bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
+        return !has_texture(result_.textures, material) || is_upright(world_from_object.linear);
     }
 
     /// `size`: scale from the unit body to the shape.
@@ -202,8 +237,9 @@ class Preparer {
         const double lengths = std::sqrt(dot(m.row[0], m.row[0]) * dot(m.row[1], m.row[1]) * dot(m.row[2], m.row[2]));
         // below this the inverse has no digits left; a NaN fails as well
         if (!(volume > 1e-12 * lengths) || !std::isnormal(volume)) {
-            fail(node, is_box ? "a rotated or sheared box that is flat; give it thickness"
-                              : "a sphere that its transform flattens");
+            if (!is_box) fail(node, "a sphere that its transform flattens");
+            fail(node, is_diagonal(m) ? "a mirrored box that is flat and has a texture; give it thickness"
+                                      : "a rotated or sheared box that is flat; give it thickness");
         }
         check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);
         (is_box ? placed_boxes_ : placed_balls_).push_back({world_from_unit, inverse(m)});
@@ -229,7 +265,10 @@ class Preparer {
         const Vec3d origin = options_.origin ? *options_.origin : precise_origin();
         result_.origin = origin;
         result_.render_from_camera.translation -= origin;
-        for (const Light& light : lights_) result_.lights.push_back({narrow(light.position - origin), light.intensity});
+        for (const Light& light : lights_) {
+            result_.lights.push_back(light.light);
+            result_.lights.back().position = narrow(light.position - origin);
+        }
         result_.spheres.reserve(balls_.size());
         for (const Ball& ball : balls_) result_.spheres.push_back({narrow(ball.centre - origin), narrow(ball.radius)});
         result_.boxes.reserve(blocks_.size());
@@ -258,7 +297,9 @@ class Preparer {
         for (const Placed& body : placed_balls_) origin.add_placed(body.world_from_unit, body.unit_from_world, false);
         for (const Placed& body : placed_boxes_) origin.add_placed(body.world_from_unit, body.unit_from_world, true);
         for (const PlacedSurface& surface : surfaces_) origin.add_mesh(*surface.mesh, surface.world_from_object);
-        for (const Light& light : lights_) origin.add_point(light.position);
+        for (const Light& light : lights_) {
+            if (light.light.kind != PunctualKind::directional) origin.add_point(light.position);
+        }
         return origin.get();
     }
 
@@ -325,7 +366,7 @@ class Preparer {
     };
     struct Light {
         Vec3d position;
-        Vec3f intensity;
+        PunctualLight light;
     };
 
     /// Material and node of the primitives of one kind.
@@ -357,7 +398,8 @@ class Preparer {
 PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
     const std::vector<std::string> problems = validate(scene);
     if (!problems.empty()) throw InputError(fmt::format("the scene is not valid: {}", fmt::join(problems, "; ")));
-    return Preparer(scene, options).run();
+    if (options.effects.off.empty()) return Preparer(scene, options).run();
+    return Preparer(without_effects(scene, options.effects.off), options).run();
 }
 
 }  // namespace tandem

@@ -17,11 +17,14 @@ SceneView view(const PreparedScene& scene) {
         .normals = scene.normals.data(),
         .material_of = scene.material_of.data(),
         .materials = scene.materials.data(),
+        .optics = scene.optics.data(),
         .lights = scene.lights.data(),
 #define TANDEM_PRIMITIVE(Type, name, names) .name##_count = count(scene.names),
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
         .light_count = count(scene.lights),
+        .media_overlap = scene.media_overlap ? 1U : 0U,
+        .camera_media = scene.camera_media,
         .environment = scene.environment};
 }
 
@@ -64,11 +67,19 @@ std::string scene_hash(const PreparedScene& scene) {
     add(scene.texcoords);
     add(scene.material_of);
     add(scene.materials);
+    add(scene.optics);
     add(scene.lights);
+    hash.update_value(scene.camera_media);
+    hash.update_value(std::uint8_t{scene.media_overlap});
     hash.update_value(scene.environment);
     hash.update_value(scene.render_from_camera);
     hash.update_value(std::uint8_t{scene.orthographic});
     hash.update_value(scene.half_height);
+    if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
+        add(scene.textures.texels);
+        add(scene.textures.textures);
+        add(scene.textures.materials);
+    }
     return hash.hex();
 }
 

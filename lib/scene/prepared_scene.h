@@ -8,8 +8,9 @@
 #include "tandem/camera/camera.h"
 #include "tandem/geometry/affine.h"
 #include "tandem/light/environment.h"
-#include "tandem/light/point_light.h"
+#include "tandem/light/punctual_light.h"
 #include "tandem/material/phong.h"
+#include "tandem/scene/prepared_textures.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -28,8 +29,13 @@ struct PreparedScene {
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;
-    std::vector<PointLight> lights;
+    PreparedTextures textures;
+    std::vector<Optics> optics;  ///< by material
+    std::vector<PunctualLight> lights;
+    CameraMedia camera_media{};
+    bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
+    EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
     std::uint64_t dropped_primitives = 0;  ///< faces of the Scene without area: no ray hits them
 
     Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
@@ -58,7 +64,7 @@ struct PreparedScene {
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
 /// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
-/// node_of and dropped_primitives, which serve messages, nor over origin.
+/// node_of and dropped_primitives, which serve messages, nor over origin and effects.
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

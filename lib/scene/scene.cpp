@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tandem/math/ray.h"
+#include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
 
@@ -55,6 +56,10 @@ class Problems {
             require(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0 && c.y >= 0 && c.z >= 0,
                     where, "has a light whose colour is not three numbers of 0 or more");
             require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a number of 0 or more");
+            require(node.light->kind != LightKind::spot ||
+                        (node.light->inner_cone >= 0 && node.light->inner_cone < node.light->outer_cone &&
+                         node.light->outer_cone <= 1.5707963267948967),
+                    where, "has a spot light whose angles are not 0 <= inner < outer <= pi / 2");
         }
     }
 
@@ -92,6 +97,14 @@ class Problems {
         require(reflectance(material.phong.specular), where, "has a specular reflectance outside [0, 1]");
         require(material.phong.shininess >= 0 && material.phong.shininess <= 1e8F, where,
                 "has a shininess outside [0, 1e8]");
+        const Optics& optics = material.optics;
+        require(reflectance(optics.mirror), where, "has a mirror reflectance outside [0, 1]");
+        require(optics.transmission >= 0 && optics.transmission <= 1, where, "has a transmission outside [0, 1]");
+        require(optics.ior >= 1e-3F && optics.ior <= 1e3F, where, "has a refractive index outside [0.001, 1000]");
+        const auto absorbs = [](float a) { return a >= 0 && std::isfinite(a); };
+        require(absorbs(optics.absorption.x) && absorbs(optics.absorption.y) && absorbs(optics.absorption.z), where,
+                "has an absorption that is not three numbers of 0 or more");
+        require(optics.priority <= 127, where, "has a dielectric priority above 127");
     }
 
     void check_mesh(std::size_t index) {
@@ -229,7 +242,9 @@ std::vector<std::string> validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) problems.check_mesh(i);
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();
-    return problems.take();
+    std::vector<std::string> found = problems.take();
+    for (std::string& problem : find_texture_problems(scene)) found.push_back(std::move(problem));
+    return found;
 }
 
 }  // namespace tandem

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "tandem/light/environment.h"
+#include "tandem/material/optics.h"
 #include "tandem/material/phong.h"
 #include "tandem/math/transform.h"
+#include "tandem/scene/texture.h"
 
 namespace tandem {
 
@@ -43,7 +45,7 @@ struct Mesh {
     std::string name{};
     std::vector<Vec3f> positions{};
     std::vector<Vec3f> normals{};            ///< for shading, per vertex, unit; empty: each face has its own
-    std::vector<Vec2f> texcoords{};          ///< per vertex, kept for textures to come; may be empty
+    std::vector<Vec2f> texcoords{};          ///< per vertex; may be empty, but under a texture
     std::vector<std::uint32_t> triangles{};  ///< three vertices each
     std::vector<std::uint32_t> quads{};      ///< four vertices each
 };
@@ -74,17 +76,34 @@ struct OrthographicCamera {
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
-struct PointLightSource {
+enum class LightKind { point, spot, directional };
+
+/// A light at the origin of its node; spots and directional lights shine along the node's -z. Without fall-off its
+/// colour times intensity is what Phong's model takes, at any distance, as in the paper. With `inverse_square` the
+/// intensity is in candela, and a surface of diffuse reflectance kd is as bright as a Lambertian one of that albedo.
+struct LightSource {
+    LightKind kind = LightKind::point;
     Vec3f colour{1, 1, 1};  ///< RGB, linear
     float intensity = 1;
+    double inner_cone = 0;         ///< of a spot, radians from its axis: full intensity up to there,
+    double outer_cone = 0.785398;  ///< none from there on; above inner_cone, up to pi / 2
+    bool inverse_square = false;   ///< not for directional lights
+    bool casts_shadows = true;
 };
 
 /// `double_sided`: faces of meshes turn their normal to the side that a ray comes from. Without it their back sees no
-/// light but the ambient one. The other shapes are closed and have no back.
+/// light but the ambient one. The other shapes are closed and have no back. A body of glass needs a closed shape.
 struct Material {
     std::string name;
     PhongMaterial phong;
     bool double_sided = false;
+    Optics optics{};                                    ///< mirrors and glass
+    std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
+    std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (texture/normal_map.h)
+    float normal_scale = 1;                             ///< of the normals' parts along the surface
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1
+    float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
 };
 
 /// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
@@ -98,7 +117,7 @@ struct Node {
     std::optional<Transform> matrix{};  ///< replaces trs; such a node cannot be animated
     std::vector<Geometry> geometry{};
     std::optional<Camera> camera{};
-    std::optional<PointLightSource> light{};
+    std::optional<LightSource> light{};
 };
 
 enum class Interpolation { step, linear, cubic };
@@ -120,10 +139,18 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
     double frames_per_second = 24;
+    bool bodies_lie_apart = false;  ///< take bodies of glass for apart, even if they touch or hold one another
 };
+
+/// Does the light bring any?
+[[nodiscard]] inline bool is_lit(const LightSource& light) {
+    return light.intensity > 0 && (light.colour.x > 0 || light.colour.y > 0 || light.colour.z > 0);
+}
 
 /// Time of a frame, in seconds. Rounded to float, as glTF stores the times of keys: a key that was written for a
 /// frame is hit exactly.

@@ -5,10 +5,17 @@
 #include "tandem/geometry/affine.h"
 #include "tandem/geometry/quad.h"
 #include "tandem/light/environment.h"
-#include "tandem/light/point_light.h"
+#include "tandem/light/punctual_light.h"
+#include "tandem/material/optics.h"
 #include "tandem/material/phong.h"
 
 namespace tandem {
+
+/// The media that the camera stands in, by material, in the order of entering them.
+struct CameraMedia {
+    std::uint32_t count;
+    std::uint32_t material[8];
+};
 
 /// Pointers are to memory of the side that reads them. Ids as in PreparedScene.
 struct SceneView {
@@ -18,11 +25,14 @@ struct SceneView {
     const Vec3f* normals;  ///< of the corners of faces (FaceAttributes)
     const std::uint32_t* material_of;
     const PhongMaterial* materials;
-    const PointLight* lights;
+    const Optics* optics;  ///< by material
+    const PunctualLight* lights;
 #define TANDEM_PRIMITIVE(Type, name, names) std::uint32_t name##_count;
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     std::uint32_t light_count;
+    std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
+    CameraMedia camera_media;
     Environment environment;
 };
 

@@ -8,7 +8,7 @@
 
 #include "backend_source.h"
 #include "tandem/geometry/intersect.h"
-#include "tandem/integrator/pixel.h"
+#include "tandem/integrator/pixel_job.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/seconds.h"
 
@@ -52,12 +52,12 @@ class LoopBackend final : public Backend {
         const PreparedScene& prepared = dynamic_cast<LoopScene&>(*scene).prepared;
         const SceneView window = view(prepared);
         const auto width = static_cast<std::uint32_t>(job.width);
-        const PixelJob pixel_job = {camera_view(prepared, job.width, job.height), job.seed, job.frame,
-                                    static_cast<std::uint32_t>(job.samples), width};
+        const PixelJob pixel_job = make_pixel_job(prepared, job);
         RenderResult result{Film(job.width, job.height, job.samples), {}};
         for (std::uint32_t i = 0; i < result.film.pixel_count(); ++i) {
             result.film.sums()[i] =
-                render_pixel<float>(LoopTracer{window}, window, pixel_job, i % width, i / width, true).sum;
+                render_pixel<EffectSet<0>, float>(LoopTracer{window}, window, pixel_job, i % width, i / width, true)
+                    .sum;
         }
         if (spoiled_) result.film.sums()[0].x += 1e-12;
         result.stats.seconds.render = watch.seconds();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
+#include "tandem/effects/names.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
@@ -19,6 +20,16 @@ std::vector<std::string> blocks(const std::string& language) {
         at = end;
     }
     return found;
+}
+
+TEST(EffectsPage, ListsEveryEffectWithWhatItAdds) {
+    const std::string page = test::read_bytes(std::string(TANDEM_SOURCE_DIR) + "/docs/effects.md");
+    for (const EffectName& effect : effect_names()) {
+        const std::size_t row = page.find(std::string("| `") + effect.name + "` | ");
+        ASSERT_NE(row, std::string::npos) << effect.name;
+        const std::string line = page.substr(row, page.find('\n', row) - row);
+        EXPECT_TRUE(line.ends_with(std::string("| ") + effect.adds + " |")) << line;
+    }
 }
 
 class SceneFormatPage : public test::GltfFiles {};

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "gltf/files.h"
+#include "tandem/film/image_codecs.h"
 #include "tandem/scene/prepare.h"
 
 namespace {
@@ -137,6 +138,21 @@ TEST_F(Fuzz, PaperScene) {
 TEST_F(Fuzz, CompactText) { run(test::Json::parse(test::rich_file().text()).dump(), ".gltf", 3000); }
 
 TEST_F(Fuzz, Meshes) { run(test::mesh_file().glb(), ".glb", 3000); }
+
+TEST_F(Fuzz, Textures) {
+    test::TestFile file = test::small_file();
+    const Bytes png = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    const std::string text(reinterpret_cast<const char*>(png.data()), png.size());
+    const std::size_t accessor = file.add_bytes("SCALAR", 5121, png.size(), text);
+    file.json["images"] = {{{"mimeType", "image/png"}, {"bufferView", file.json["accessors"][accessor]["bufferView"]}}};
+    file.json["samplers"] = {{{"wrapS", 33071}, {"magFilter", 9728}}};
+    file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    const test::Json info = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}}}}}};
+    file.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", info}};
+    file.json["materials"][0]["normalTexture"] = info;
+    file.json["materials"][0]["alphaMode"] = "MASK";
+    run(file.glb(), ".glb", 3000);
+}
 
 TEST_F(Fuzz, Binary) { run(test::rich_file().glb(), ".glb", 3000); }
 

@@ -86,7 +86,58 @@ TEST_F(Import, ReadsPointLights) {
     const Scene scene = import(file).scene;
     ASSERT_TRUE(scene.nodes[3].light);
     EXPECT_EQ(scene.nodes[3].light->colour, Vec3f(1, 0.5F, 0.25F));
-    EXPECT_EQ(scene.nodes[3].light->intensity, 2);
+    EXPECT_FLOAT_EQ(scene.nodes[3].light->intensity, static_cast<float>(2 / std::numbers::pi));
+    EXPECT_TRUE(scene.nodes[3].light->inverse_square);
+    EXPECT_TRUE(scene.nodes[3].light->casts_shadows);
+}
+
+TEST_F(Import, ReadsSpotAndDirectionalLights) {
+    TestFile file = rich_file();
+    Json& light = file.json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    light = Json::parse(R"({"type": "spot", "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}})");
+    const LightSource spot = *import(file).scene.nodes[3].light;
+    EXPECT_EQ(spot.kind, LightKind::spot);
+    EXPECT_EQ(spot.inner_cone, 0.2);
+    EXPECT_EQ(spot.outer_cone, 0.5);
+    light = Json::parse(R"({"type": "directional", "intensity": 3})");
+    const LightSource sun = *import(file).scene.nodes[3].light;
+    EXPECT_EQ(sun.kind, LightKind::directional);
+    EXPECT_FALSE(sun.inverse_square);
+    light = Json::parse(R"({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}})");
+    EXPECT_THROW((void)import(file), InputError);
+    light = Json::parse(R"({"type": "spot"})");
+    EXPECT_THROW((void)import(file), InputError);
+}
+
+TEST_F(Import, ReadsLightsAsPhongSeesThem) {
+    TestFile file = rich_file();
+    Json& light = file.json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    light["extensions"]["TANDEM_lights_phong"] = {{"falloff", false}, {"shadows", false}};
+    const LightSource source = *import(file).scene.nodes[3].light;
+    EXPECT_EQ(source.intensity, 2);
+    EXPECT_FALSE(source.inverse_square);
+    EXPECT_FALSE(source.casts_shadows);
+}
+
+TEST_F(Import, ReadsMirrorsAndGlass) {
+    TestFile file = small_file();
+    Json& extensions = file.json["materials"][0]["extensions"];
+    extensions["TANDEM_materials_phong"] = {{"mirror", {0.1, 0.2, 0.3}}};
+    extensions["KHR_materials_transmission"] = {{"transmissionFactor", 0.75}};
+    extensions["KHR_materials_ior"] = {{"ior", 1.25}};
+    extensions["KHR_materials_volume"] = {
+        {"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {1, 0.5, 0.25}}};
+    extensions["TANDEM_materials_dielectric"] = {{"priority", 7}};
+    const Optics optics = import(file).scene.materials[0].optics;
+    EXPECT_EQ(optics.mirror, Vec3f(0.1F, 0.2F, 0.3F));
+    EXPECT_EQ(optics.transmission, 0.75F);
+    EXPECT_EQ(optics.ior, 1.25F);
+    EXPECT_EQ(optics.absorption.x, 0);
+    EXPECT_FLOAT_EQ(optics.absorption.y, static_cast<float>(std::numbers::ln2 / 2));
+    EXPECT_FLOAT_EQ(optics.absorption.z, static_cast<float>(std::numbers::ln2));
+    EXPECT_EQ(optics.priority, 7U);
+    extensions["TANDEM_materials_dielectric"] = {{"priority", 128}};
+    EXPECT_THROW((void)import(file), InputError);
 }
 
 TEST_F(Import, ReadsPhongMaterialsWithTandemsDefaults) {

@@ -48,7 +48,11 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_TRUE(contains(test::sentences(box.report), "rendered: triangle mesh at meshes[0].primitives[0] (6 uses)"));
     const auto helmet = import_gltf(*folder / "FlightHelmet/FlightHelmet.gltf");
     EXPECT_EQ(helmet.scene.nodes.size(), 6U);
-    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[0] (15 uses)"));
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[2] (10 uses): Tandem reads it"));
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[1] (5 uses)"));
+    ASSERT_EQ(helmet.scene.images.size(), 10U);
+    EXPECT_EQ(helmet.scene.images[0].texels.size(),
+              std::size_t{helmet.scene.images[0].width} * helmet.scene.images[0].height);
     const auto fox = import_gltf(*folder / "Fox.glb");
     EXPECT_EQ(fox.scene.nodes.size(), 26U);
     EXPECT_EQ(fox.scene.animation.size(), 21U);
@@ -60,7 +64,7 @@ PreparedScene seen_from(Scene scene, const Vec3d& eye) {
     Node node;
     node.trs.translation = eye;
     node.camera = PerspectiveCamera{0.8};
-    node.light = PointLightSource{};
+    node.light = LightSource{};
     scene.nodes.push_back(node);
     return prepare(scene);
 }

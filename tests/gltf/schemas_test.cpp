@@ -24,7 +24,7 @@ bool accepts(const Json& schema, const Json& value) {
         if (std::find(ignored.begin(), ignored.end(), keyword) != ignored.end()) continue;
         bool good = true;
         if (keyword == "type") {
-            good = rule == value.type_name();
+            good = rule == value.type_name() || (rule == "integer" && value.is_number_integer());
         } else if (keyword == "minimum") {
             good = !value.is_number() || value.get<double>() >= rule.get<double>();
         } else if (keyword == "maximum") {
@@ -82,7 +82,8 @@ TEST_F(Schemas, Phong) {
             {"{}", "[]", "3", R"({"ambient": [0, 0.5, 1]})", R"({"ambient": [0, 0.5]})", R"({"ambient": [0, 0, 0, 0]})",
              R"({"diffuse": [0, 0, 1.01]})", R"({"diffuse": [0, 0, -0.01]})", R"({"diffuse": [0, 0, "1"]})",
              R"({"specular": 1})", R"({"specular": [1, 1, 1], "shininess": 0})", R"({"shininess": 1e8})",
-             R"({"shininess": 1.1e8})", R"({"shininess": -1})", R"({"shininess": null})", R"({"extras": 7})"},
+             R"({"shininess": 1.1e8})", R"({"shininess": -1})", R"({"shininess": null})", R"({"extras": 7})",
+             R"({"mirror": [0, 0.5, 1]})", R"({"mirror": 1})"},
             [](Json& d, const Json& v) { d["materials"][0]["extensions"]["TANDEM_materials_phong"] = v; });
 }
 
@@ -93,6 +94,22 @@ TEST_F(Schemas, Environment) {
              R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2, 3]}})", R"({"gradient": [1, 1, 1]})",
              R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2]}, "ambient": [1, 1, 1]})"},
             [](Json& d, const Json& v) { d["scenes"][0]["extensions"]["TANDEM_environment"] = v; });
+}
+
+TEST_F(Schemas, LightsOfPhong) {
+    compare(schema("light.TANDEM_lights_phong.schema.json"),
+            {"{}", "[]", R"({"falloff": false})", R"({"falloff": 0})", R"({"shadows": true, "falloff": true})",
+             R"({"shadows": "no"})"},
+            [](Json& d, const Json& v) {
+                d["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
+                d["extensions"]["KHR_lights_punctual"]["lights"][0]["extensions"]["TANDEM_lights_phong"] = v;
+            });
+}
+
+TEST_F(Schemas, Dielectric) {
+    compare(schema("material.TANDEM_materials_dielectric.schema.json"),
+            {"{}", "3", R"({"priority": 0})", R"({"priority": 127})", R"({"priority": 128})", R"({"priority": -1})"},
+            [](Json& d, const Json& v) { d["materials"][0]["extensions"]["TANDEM_materials_dielectric"] = v; });
 }
 
 TEST(SchemasOfFiles, AcceptThePapersScene) {

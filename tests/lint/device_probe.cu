@@ -1,7 +1,12 @@
 // Everything of the kernel side that computes, for ptx.py to look at: the exact functions and one pixel.
 #include "tandem/geometry/intersect.h"
 #include "tandem/integrator/pixel.h"
+#include "tandem/integrator/roulette.h"
+#include "tandem/light/quad_light.h"
+#include "tandem/light/sphere_light.h"
 #include "tandem/math/exact_math.h"
+#include "tandem/sampler/mis.h"
+#include "tandem/sampler/warp.h"
 
 namespace tandem {
 
@@ -14,8 +19,36 @@ __global__ void exact_functions(const float* x, const float* y, float* out) {
     out[4 * blockDim.x + i] = exact_pow(x[i], y[i]);
 }
 
+template <class View>
+TANDEM_HD void sample_and_weigh(const View& view, double u, double v, double* out) {
+    const LightSample<float> sample = sample_light(view, u, v);
+    out[0] = sample.direction.x + sample.direction.y + sample.direction.z;
+    out[1] = sample.point.x + sample.point.y + sample.point.z;
+    out[2] = sample.distance;
+    out[3] = power_heuristic(sample.pdf, pdf_of(view, sample.direction));
+}
+
+__global__ void sphere_light(Vec3d point, Vec3d centre, double radius, double u, double v, double* out) {
+    sample_and_weigh(view_sphere_light<float>(point, centre, radius), u, v, out);
+}
+
+__global__ void quad_light(Vec3d point, Vec3d v0, Vec3d v1, Vec3d v2, Vec3d v3, double u, double v, double* out) {
+    sample_and_weigh(view_quad_light<float>(point, v0, v1, v2, v3), u, v, out);
+}
+
+__global__ void warps(int blades, double u, double v, double* out) {
+    const Vec2<double> lens = sample_aperture<float>(blades, 0.0, u, v);
+    const auto bounce = sample_cosine_hemisphere<float>(sample_sphere<float>(u, v).direction, v, u);
+    const double probability = survival_probability(bounce.direction, 0.05);
+    out[0] = lens.x;
+    out[1] = lens.y;
+    out[2] = balance_heuristic(bounce.pdf, probability);
+    out[3] = survives<float>(probability, u) ? 1.0 : 0.0;
+}
+
 __global__ void one_pixel(SceneView scene, PixelJob job, double* out) {
-    const auto pixel = render_pixel<float>(LoopTracer{scene}, scene, job, blockIdx.x, threadIdx.x, true);
+    const auto pixel = render_pixel<EffectSet<all_effects.bits()>, float>(LoopTracer{scene}, scene, job, blockIdx.x,
+                                                                          threadIdx.x, true);
     out[0] = pixel.sum.x;
     out[1] = pixel.sum.y;
     out[2] = pixel.sum.z;

@@ -35,6 +35,7 @@ LIBRARIES = {
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
     "tinygltf": (r"tiny_?gltf", lambda path: path.startswith("lib/gltf/")),
+    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/film/")),
     "OpenImageIO": (r"OpenImageIO/", lambda path: path.startswith("lib/film/")),
 }
 

@@ -25,7 +25,11 @@ PreparedScene one_of_each() {
     scene.material_of = {0, 0, 0, 0, 0, 0};
     scene.node_of = {0, 1, 2, 3, 4, 5};
     scene.materials.resize(1);
-    scene.lights = {{{1, 1, 1}, {2, 2, 2}}};
+    scene.lights.resize(1);
+    scene.lights[0].intensity = {2, 2, 2};
+    scene.textures.texels = {1, 2};
+    scene.textures.textures = {{0, 2, 1}};
+    scene.textures.materials.resize(1);
     return scene;
 }
 
@@ -55,6 +59,17 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"diffuse", [](PreparedScene& s) { s.materials[0].diffuse.y = 0.5F; }},
         {"specular", [](PreparedScene& s) { s.materials[0].specular.z = 0.5F; }},
         {"shininess", [](PreparedScene& s) { s.materials[0].shininess = 7; }},
+        {"texel", [](PreparedScene& s) { s.textures.texels[1] = 7; }},
+        {"texture size", [](PreparedScene& s) { s.textures.textures[0].width = 7; }},
+        {"wrap mode", [](PreparedScene& s) { s.textures.textures[0].wrap_t = Wrap::clamp_to_edge; }},
+        {"filter", [](PreparedScene& s) { s.textures.textures[0].filter = Filter::nearest; }},
+        {"colour space", [](PreparedScene& s) { s.textures.textures[0].space = ColourSpace::linear; }},
+        {"diffuse texture", [](PreparedScene& s) { s.textures.materials[0].diffuse.texture = 0; }},
+        {"texture place", [](PreparedScene& s) { s.textures.materials[0].diffuse.v_row[2] = 7; }},
+        {"normal texture", [](PreparedScene& s) { s.textures.materials[0].normal.texture = 0; }},
+        {"normal scale", [](PreparedScene& s) { s.textures.materials[0].normal_scale = 7; }},
+        {"alpha cutoff", [](PreparedScene& s) { s.textures.materials[0].alpha_cutoff = 7; }},
+        {"no texture", [](PreparedScene& s) { s.textures = {}; }},
         {"light position", [](PreparedScene& s) { s.lights[0].position.x = 7; }},
         {"light intensity", [](PreparedScene& s) { s.lights[0].intensity.y = 7; }},
         {"background bottom", [](PreparedScene& s) { s.environment.bottom.x = 7; }},

@@ -122,7 +122,7 @@ TEST(Prepare, PutsEverythingIntoRenderSpace) {
     scene.nodes.push_back({.name = "camera", .trs = {at, {}, {1, 1, 1}}, .camera = PerspectiveCamera{}});
     scene.nodes.push_back(
         {.name = "ball", .trs = {at + Vec3d{0, 0, -3}, {}, {1, 1, 1}}, .geometry = {{SphereShape{1}, 0, {}}}});
-    scene.nodes.push_back({.name = "light", .trs = {at + Vec3d{1, 2, 3}, {}, {1, 1, 1}}, .light = PointLightSource{}});
+    scene.nodes.push_back({.name = "light", .trs = {at + Vec3d{1, 2, 3}, {}, {1, 1, 1}}, .light = LightSource{}});
     const PreparedScene prepared = prepare(scene);
     const auto in_world = [&](const Vec3f& p) { return world_from_render(prepared, widen(p)); };
     EXPECT_EQ(in_world(prepared.spheres[0].centre), at + Vec3d(0, 0, -3));

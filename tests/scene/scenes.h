@@ -18,7 +18,7 @@ inline Scene small_scene() {
     scene.nodes[1].name = "body";
     scene.nodes[1].geometry = {{SphereShape{1}, 0, {}}};
     scene.nodes[2].name = "lamp";
-    scene.nodes[2].light = PointLightSource{};
+    scene.nodes[2].light = LightSource{};
     AnimationChannel channel;
     channel.node = 2;
     channel.times = {0, 1, 3};

@@ -149,7 +149,7 @@ Score light_on_surface(const Subject& subject, Random&, std::size_t) {
     for (const Vec3d& place : {Vec3d{0, 0, 1}, Vec3d{0, 0, 4}, Vec3d{0, 0, 0}, Vec3d{0, 0, 1 + 1e-20}}) {
         Scene scene = scene_of({{{0, 0, 0}, 1}});
         scene.nodes[0].trs.translation = {0, 0, 4};
-        Node lamp{.name = "lamp", .light = PointLightSource{}};
+        Node lamp{.name = "lamp", .light = LightSource{}};
         lamp.trs.translation = place;
         scene.nodes.push_back(lamp);
         const auto resident = subject.backend.load(prepare(scene), subject.tier);

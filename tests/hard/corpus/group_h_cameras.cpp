@@ -134,10 +134,10 @@ Score counters(Random& random, std::size_t calls) {
     };
     for (std::size_t i = 0; i < calls; ++i) {
         const std::uint32_t pixel = near_an_end(), sample = near_an_end(), frame = near_an_end();
-        const auto block = random_block<float>(7, frame, pixel, sample, Dimension::film);
+        const auto block = SampleId<float>{7, frame, pixel, sample}.block(Dimension::film);
         const bool is_new = asked.insert({pixel, sample, frame, 0}).second;
         const bool differs = given.insert({block.word[0], block.word[1], block.word[2], block.word[3]}).second;
-        const auto many = random_block<Packet>(7, frame, UInt<Packet>(pixel), sample, Dimension::film);
+        const auto many = SampleId<Packet>{7, frame, UInt<Packet>(pixel), sample}.block(Dimension::film);
         bool same = true;
         for (int k = 0; k < 4; ++k) same = same && many.word[k][3] == block.word[k];
         score.decide(is_new != differs || !same,

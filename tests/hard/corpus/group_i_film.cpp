@@ -56,7 +56,7 @@ Score uniform(const Subject& subject, Random&, std::size_t rays) {
     const PixelJob pixel = make_pixel_job(scene, job);
     long double right = 0;
     for (std::uint32_t sample = 0; sample < pixel.samples; ++sample) {
-        const auto random = random_block<float>(pixel.seed, pixel.frame, 0, sample, Dimension::film);
+        const auto random = SampleId<float>{pixel.seed, pixel.frame, 0, sample}.block(Dimension::film);
         const Ray<float> ray = camera_ray<float>(pixel.camera, 0, 0, to_unit_interval<float>(random.word[0]),
                                                  to_unit_interval<float>(random.word[1]));
         right += background(scene.environment, ray.direction).x;
@@ -100,7 +100,8 @@ Score enormous_fireflies(const Subject& subject, Random&, std::size_t rays) {
 /// sky around it stays as it is.
 Score not_finite(const Subject& subject, Random&, std::size_t) {
     Scene scene = scene_of({{{0, 0, -5}, 1}});
-    Node lamp{.name = "lamp", .light = PointLightSource{{3e38F, 3e38F, 3e38F}, 3e38F}};
+    Node lamp{.name = "lamp",
+              .light = LightSource{.colour = {3e38F, 3e38F, 3e38F}, .intensity = 3e38F, .casts_shadows = false}};
     scene.nodes.push_back(lamp);
     const PreparedScene prepared = prepare(scene);
     const PreparedScene empty = prepare(scene_of({}));

@@ -27,7 +27,7 @@ constexpr const char* exact = "exact arithmetic";
 /// A scene with one of everything.
 Scene one_of_each() {
     Scene scene = scene_of({{{0, 0, -5}, 1}}, {{{1, 1, -6}, {2, 2, -5}}});
-    scene.nodes.push_back({.name = "lamp", .light = PointLightSource{}});
+    scene.nodes.push_back({.name = "lamp", .light = LightSource{}});
     return scene;
 }
 
@@ -186,7 +186,7 @@ Score equal_lights(const Subject& subject, Random&, std::size_t) {
         Scene scene = scene_of({{{0, 0, -5}, 1}, {{0, 0, -5}, 1}, {{0, 0, -5}, 1}});
         scene.environment = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
         for (int i = 0; i < lamps; ++i) {
-            Node lamp{.name = "lamp", .light = PointLightSource{{1, 0.3F, 0.7F}, intensity}};
+            Node lamp{.name = "lamp", .light = LightSource{.colour = {1, 0.3F, 0.7F}, .intensity = intensity}};
             lamp.trs.translation = {3, 4, 2};
             scene.nodes.push_back(lamp);
         }

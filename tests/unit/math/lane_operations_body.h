@@ -2,10 +2,17 @@
 #pragma once
 
 #include "tandem/geometry/intersect.h"
+#include "tandem/geometry/parametrisation.h"
 #include "tandem/geometry/quad.h"
+#include "tandem/integrator/roulette.h"
+#include "tandem/light/quad_light.h"
+#include "tandem/light/sphere_light.h"
 #include "tandem/math/exact_math.h"
 #include "tandem/math/lanes.h"
+#include "tandem/sampler/mis.h"
 #include "tandem/sampler/philox.h"
+#include "tandem/sampler/warp.h"
+#include "tandem/texture/texture_view.h"
 #include "unit/math/lane_operations.h"
 
 namespace tandem::test {
@@ -121,6 +128,59 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
     const auto at = barycentrics(t.v0, t.v1, t.v2, ray, Mask<Real>(true));
     return at.u + at.v * at.v;
 }
+/// A number of [0, 1] that hangs on a.
+template <class D>
+TANDEM_HD D uniform(const D& a) {
+    return D(1.0) / (D(1.0) + a * a);
+}
+/// All that a light gives, as one number.
+template <class Real, class View>
+TANDEM_HD Double<Real> light_sum(const View& view, const Double<Real>& u, const Double<Real>& v) {
+    const auto s = sample_light(view, uniform(u), uniform(v));
+    const auto sum = (s.direction.x + s.direction.y * s.direction.z) + (s.point.x + s.point.y * s.point.z);
+    return (sum + s.distance) + (s.pdf + pdf_of(view, s.direction)) * view.solid_angle;
+}
+template <class D>
+TANDEM_HD Vec3<D> corner(double x, double y, double z) {
+    return {D(x), D(y), D(z)};
+}
+template <class Real>
+TANDEM_HD Double<Real> sphere_light(const Double<Real>& a, const Double<Real>& b, const Double<Real>& c) {
+    using D = Double<Real>;
+    return light_sum<Real>(view_sphere_light<Real>({a, b, D(0.0)}, corner<D>(1, 0.5, 0), D(1.5)), b, c);
+}
+template <class Real>
+TANDEM_HD Double<Real> quad_light(const Double<Real>& a, const Double<Real>& b, const Double<Real>& c) {
+    using D = Double<Real>;
+    const auto view = view_quad_light<Real>({a, b, D(0.0)}, corner<D>(-1, 0, 0), corner<D>(1, -1, 0),
+                                            corner<D>(1, 1, 0.5), corner<D>(-1, 2, 1));
+    return light_sum<Real>(view, b, c);
+}
+template <class Real>
+TANDEM_HD Double<Real> warp_sum(const Double<Real>& a, const Double<Real>& b) {
+    using D = Double<Real>;
+    const D u = uniform(a), v = uniform(b);
+    const auto lens = sample_aperture<Real>(7, D(0.1), u, v);
+    const auto disk = sample_aperture<Real>(0, D(0.1), u, v);
+    const auto sphere = sample_sphere<Real>(u, v);
+    const auto up = sample_cosine_hemisphere<Real>(sphere.direction, v, u);
+    return (lens.x * lens.y + disk.x * disk.y) + (up.direction.x + up.direction.y * up.direction.z) * up.pdf;
+}
+
+/// A picture of 3 x 2 texels; the levels need no meaning here.
+template <class Real>
+TANDEM_HD Float<Real> sampled(const Double<Real>& u, const Double<Real>& v) {
+    static constexpr std::uint32_t texels[] = {0x01020304U, 0x05060700U, 0x00010203U, 0x07060504U, 0x03020100U, 1U};
+    static constexpr float levels[] = {0.0F, 0.3F, 0.7F, 0.1F, 1.0F, 0.2F, 0.6F, 0.9F};
+    const TextureView view = {texels, levels, 3, 2, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear};
+    const Rgba<Real> value = sample<Real>(view, u, v);
+    return (value.r + value.g) + (value.b + value.a);
+}
+template <class Real>
+TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const Double<Real>& z) {
+    const auto at = parametrisation_detail::on_globe<Real>(Vec3<Double<Real>>{x, y, z});
+    return at.u + at.v;
+}
 
 #define TANDEM_LANE_OPERATIONS(OPERATION)                                                                            \
     OPERATION(F, add, a + b)                                                                                         \
@@ -166,6 +226,8 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
     OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))                 \
     OPERATION(D, exp_wide, exp_wide<Real>(a))                                                                        \
     OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b)))          \
+    OPERATION(D, sample, sampled<Real>(a, b))                                                                        \
+    OPERATION(D, globe, globe<Real>(a, b, c))                                                                        \
     OPERATION(U, add, a + b)                                                                                         \
     OPERATION(U, subtract, a - b)                                                                                    \
     OPERATION(U, multiply, a* b)                                                                                     \
@@ -205,7 +267,15 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
     OPERATION(F, barycentrics, barycentric_sum<Real>(Triangle{{1, 2, -1}, {-3, 0, 1}, {0, -4, 0}}, ray_of(a, b, c))) \
     OPERATION(F, quad, first_parameter<Real>(Quad{{1, 2, -1}, {-3, 0, 1}, {0, -4, 0}, {2, -3, 1}}, ray_of(a, b, c))) \
     OPERATION(D, inverse_square_root, inverse_square_root(select(absolute(a) >= D(0x1p-1022), absolute(a), D(2.0)))) \
-    OPERATION(D, difference_of_products, difference_of_products(a, b, c, a))
+    OPERATION(D, difference_of_products, difference_of_products(a, b, c, a))                                         \
+    OPERATION(D, sine_of_turns, sin_cos_turns<Real>(a).sine)                                                         \
+    OPERATION(D, cosine_of_turns, sin_cos_turns<Real>(a).cosine)                                                     \
+    OPERATION(D, atan2_turns, atan2_turns<Real>(a, b))                                                               \
+    OPERATION(D, warp, warp_sum<Real>(a, b))                                                                         \
+    OPERATION(D, sphere_light, sphere_light<Real>(a, b, c))                                                          \
+    OPERATION(D, quad_light, quad_light<Real>(a, b, c))                                                              \
+    OPERATION(D, mis, balance_heuristic(a, b) + power_heuristic(b, c))                                               \
+    OPERATION(D, survives, survives<Real>(survival_probability(Vec3<D>{a, b, c}, D(0.05)), uniform(a)))
 
 #define TANDEM_DEFINE_OPERATION(Type, name, expression)                                           \
     template <class Real>                                                                         \

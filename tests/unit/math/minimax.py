@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints the polynomial coefficients of lib/math/exact_math.h and the error of each fit (needs mpmath).
+"""Prints the polynomial coefficients of lib/math/exact_math.h, turns.h and fast_math.h (angles) and the error of each
+fit (needs mpmath).
 
 A Remez exchange on the weighted error; coefficients are then rounded to double one by one, lowest first, and the
 others fitted again, so that the rounding of one is taken up by the rest.
@@ -87,6 +88,15 @@ if __name__ == "__main__":
     # cos r = 1 - z/2 + z^2 C(z)
     fit("cos", lambda z: taylor(lambda n, x: (-1)**n * x**n / mp.factorial(2 * n + 4), z), lambda z: z * z, tiny,
         quarter_pi2, 7)
+    # atan t = t + t z A(z), z = t^2; relative to t
+    eighth2 = (mp.tan(mp.pi / 8) * (1 + mp.mpf(2)**-20))**2
+    for terms in (4, 11):
+        fit("atan", lambda z: (mp.atan(mp.sqrt(z)) - mp.sqrt(z)) / (z * mp.sqrt(z)), lambda z: z, tiny, eighth2, terms)
+    # the same for float
+    fit("sin, float", lambda z: taylor(lambda n, x: (-1)**(n + 1) * x**n / mp.factorial(2 * n + 3), z), lambda z: z,
+        tiny, quarter_pi2, 3)
+    fit("cos, float", lambda z: taylor(lambda n, x: (-1)**n * x**n / mp.factorial(2 * n + 4), z), lambda z: z * z,
+        tiny, quarter_pi2, 3)
     for name, value in (("ln 2", mp.log(2)), ("pi/2", mp.pi / 2), ("2/pi", 2 / mp.pi)):
         parts, rest = [], value
         for _ in range(3):

@@ -1,0 +1,22 @@
+/// What a cubin says about a kernel in it, read from the file itself: no tool, no driver and no GPU is needed. A cubin
+/// is an ELF file of 64 bits; the parts that are NVIDIA's own are described in "CUDA Binary Utilities" only as far as
+/// cuobjdump prints them, and were compared with it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace tandem::cuda {
+
+struct CubinFacts {
+    int registers = 0;                ///< per thread
+    int stack_bytes = 0;              ///< per thread: local arrays, spills and calls
+    std::span<const std::byte> code;  ///< its instructions, with padding and the subroutines that are its own
+};
+
+/// Empty if the bytes are not a whole cubin, or have no such kernel. `code` points into `cubin`.
+[[nodiscard]] std::optional<CubinFacts> cubin_facts(std::span<const std::byte> cubin, std::string_view kernel);
+
+}  // namespace tandem::cuda

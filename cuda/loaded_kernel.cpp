@@ -1,0 +1,25 @@
+#include "cuda/loaded_kernel.h"
+
+#include <utility>
+
+#include "cuda/cuda_error.h"
+
+namespace tandem::cuda {
+
+LoadedCode::LoadedCode(std::span<const std::byte> cubin, const std::string& kernel) {
+    check(cudaLibraryLoadData(&library_, cubin.data(), nullptr, nullptr, 0, nullptr, nullptr, 0),
+          "loading a specialised kernel");
+    const cudaError_t code = cudaLibraryGetKernel(&kernel_, library_, kernel.c_str());
+    if (code != cudaSuccess) (void)cudaLibraryUnload(std::exchange(library_, nullptr));
+    check(code, "finding a specialised kernel");
+}
+
+// a failure to unload cannot be answered
+LoadedCode::~LoadedCode() { (void)cudaLibraryUnload(library_); }
+
+void LoadedCode::start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,
+                       void** arguments) const {
+    check(cudaLaunchKernel(function(), grid, dim3(block_threads), arguments, 0, stream), doing);
+}
+
+}  // namespace tandem::cuda

@@ -1,0 +1,48 @@
+/// A kernel from a cubin, through the runtime's library interface: like all of the runtime it opens the driver only
+/// when it is used, so that programs start without one. The other door to the GPU beside launch.h; host code can use
+/// it.
+#pragma once
+
+#include <cuda_runtime_api.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace tandem::cuda {
+
+/// A cubin that is loaded, for the device that is current, and its kernel.
+class LoadedCode {
+  public:
+    /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the cubin.
+    LoadedCode(std::span<const std::byte> cubin, const std::string& kernel);
+    ~LoadedCode();
+    LoadedCode(const LoadedCode&) = delete;
+    LoadedCode& operator=(const LoadedCode&) = delete;
+
+    /// For the runtime's functions that take a kernel: cudaFuncGetAttributes(), cudaOccupancy...().
+    [[nodiscard]] const void* function() const { return kernel_; }
+
+  protected:
+    void start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream, void** arguments) const;
+
+  private:
+    cudaLibrary_t library_ = nullptr;
+    cudaKernel_t kernel_ = nullptr;
+};
+
+/// The same for a kernel of these parameters. They must be those of the kernel's source: nothing checks it.
+template <class... Parameters>
+class LoadedKernel : public LoadedCode {
+  public:
+    using LoadedCode::LoadedCode;
+
+    /// Starts it, and throws if that failed. `doing` completes "CUDA failed while ...".
+    void launch(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,
+                Parameters... arguments) const {
+        void* addresses[] = {&arguments...};
+        start(doing, grid, block_threads, stream, addresses);
+    }
+};
+
+}  // namespace tandem::cuda

@@ -1,0 +1,46 @@
+#include "cuda/specialise.h"
+
+#include <string_view>
+#include <utility>
+
+#include "tandem/film/sha256.h"
+#include "tandem/render/seconds.h"
+
+namespace tandem::cuda {
+
+std::string cache_key(const JitInput& input, const std::string& version) {
+    Sha256 hash;
+    // each part with its length before it, so that no two inputs run together to the same bytes
+    const auto add = [&](const void* data, std::size_t bytes) {
+        hash.update_value(std::uint64_t{bytes});
+        hash.update(data, bytes);
+    };
+    const auto add_text = [&](std::string_view text) { add(text.data(), text.size()); };
+    add_text("tandem kernel 1");
+    add_text(version);
+    add(input.code.data(), input.code.size());
+    add_text(input.facts_name);
+    add(input.facts.data(), input.facts.size() * sizeof(std::uint32_t));
+    for (const std::string& option : link_options(input)) add_text(option);  // tier, architecture, kernel
+    return hash.hex();
+}
+
+Specialised specialise(const JitInput& input, const KernelCache& cache) {
+    const Stopwatch watch;
+    const std::string key = cache_key(input, jit_version());
+    KernelCache::Found found = cache.find(key);
+    Specialised result;
+    result.cache_problem = std::move(found.problem);
+    result.from_cache = !found.cubin.empty();
+    if (result.from_cache) {
+        result.cubin = std::move(found.cubin);
+    } else {
+        result.cubin = link(input);
+        const std::string problem = cache.store(key, result.cubin);
+        if (!problem.empty()) result.cache_problem = problem;
+    }
+    result.seconds = watch.seconds();
+    return result;
+}
+
+}  // namespace tandem::cuda

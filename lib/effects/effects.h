@@ -1,0 +1,67 @@
+/// The effects that a kernel can simulate, as bits; effects.def is the one table.
+#pragma once
+
+#include <cstdint>
+
+#include "tandem/math/host_device.h"
+
+namespace tandem {
+
+enum class Effect : std::uint32_t {
+#define TANDEM_EFFECT(name, words, adds) name,
+#include "tandem/effects/effects.def"
+#undef TANDEM_EFFECT
+};
+
+inline constexpr std::uint32_t effect_count = 0
+#define TANDEM_EFFECT(name, words, adds) +1
+#include "tandem/effects/effects.def"
+#undef TANDEM_EFFECT
+    ;
+
+/// A set of effects.
+class EffectMask {
+  public:
+    constexpr EffectMask() = default;
+    TANDEM_HD constexpr EffectMask(Effect effect) : bits_(1U << static_cast<std::uint32_t>(effect)) {}
+    TANDEM_HD static constexpr EffectMask from_bits(std::uint32_t bits) {
+        EffectMask mask;
+        mask.bits_ = bits;
+        return mask;
+    }
+
+    [[nodiscard]] TANDEM_HD constexpr std::uint32_t bits() const { return bits_; }
+    [[nodiscard]] TANDEM_HD constexpr bool has(Effect effect) const { return (bits_ & EffectMask(effect).bits_) != 0; }
+    [[nodiscard]] TANDEM_HD constexpr bool covers(EffectMask other) const { return (other.bits_ & ~bits_) == 0; }
+    [[nodiscard]] TANDEM_HD constexpr bool empty() const { return bits_ == 0; }
+
+    TANDEM_HD friend constexpr EffectMask operator|(EffectMask a, EffectMask b) { return from_bits(a.bits_ | b.bits_); }
+    TANDEM_HD friend constexpr EffectMask operator&(EffectMask a, EffectMask b) { return from_bits(a.bits_ & b.bits_); }
+    /// What is in `a` and not in `b`.
+    TANDEM_HD friend constexpr EffectMask operator-(EffectMask a, EffectMask b) {
+        return from_bits(a.bits_ & ~b.bits_);
+    }
+    TANDEM_HD constexpr EffectMask& operator|=(EffectMask other) { return *this = *this | other; }
+    friend constexpr bool operator==(EffectMask, EffectMask) = default;
+
+  private:
+    std::uint32_t bits_ = 0;
+};
+
+TANDEM_HD constexpr EffectMask operator|(Effect a, Effect b) { return EffectMask(a) | EffectMask(b); }
+
+inline constexpr EffectMask all_effects = EffectMask::from_bits((1U << effect_count) - 1);
+
+/// A set that is known when a kernel is compiled: what it does not have leaves no code. Kernels ask has() of the type.
+template <std::uint32_t bits>
+struct EffectSet {
+    [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return EffectMask::from_bits(bits).has(effect); }
+};
+
+/// Does a path go on behind its first vertex?
+template <class Effects>
+TANDEM_HD constexpr bool has_bounces() {
+    return Effects::has(Effect::reflection) || Effects::has(Effect::refraction);
+}
+
+}  // namespace tandem

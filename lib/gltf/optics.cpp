@@ -1,0 +1,65 @@
+#include "tandem/gltf/optics.h"
+
+#include <cmath>
+
+#include "tandem/gltf/materials.h"
+
+namespace tandem::gltf {
+
+namespace {
+
+/// Beer's coefficient of a channel whose light is down to `colour` after `distance` metres.
+float absorption(float colour, double distance) {
+    const double kept = std::fmax(double{colour}, 1e-30);  // black stays a number
+    return static_cast<float>(-std::log(kept) / distance);
+}
+
+}  // namespace
+
+Optics read_optics(const Json& material, const std::string& path, ImportReport& report) {
+    Optics optics;
+    const auto where = [&](const char* extension) { return path + ".extensions." + extension; };
+    if (const Json* phong = find_extension(material, "TANDEM_materials_phong")) {
+        optics.mirror = read_colour(*phong, "mirror", optics.mirror);
+    }
+    if (const Json* ior = find_extension(material, "KHR_materials_ior")) {
+        optics.ior = ior->value("ior", optics.ior);
+        if (optics.ior == 0) {
+            optics.ior = 1e3F;
+            report.add(Treatment::approximated, "KHR_materials_ior", where("KHR_materials_ior"),
+                       "an index of 0 stands for infinity; Tandem takes 1000");
+        } else {
+            report.add(Treatment::rendered, "KHR_materials_ior", where("KHR_materials_ior"),
+                       "the refractive index of the body, where it transmits light");
+        }
+    }
+    const Json* volume = find_extension(material, "KHR_materials_volume");
+    const double thickness = volume == nullptr ? 0 : volume->value("thicknessFactor", 0.0);
+    if (const Json* transmission = find_extension(material, "KHR_materials_transmission")) {
+        optics.transmission = transmission->value("transmissionFactor", 0.0F);
+        const bool is_thin = optics.transmission > 0 && !(thickness > 0);
+        report.add(is_thin ? Treatment::approximated : Treatment::rendered, "KHR_materials_transmission",
+                   where("KHR_materials_transmission"),
+                   is_thin ? "without a thickness in KHR_materials_volume it means a thin wall; Tandem takes the body "
+                             "for solid glass"
+                           : "a body of glass");
+    }
+    if (volume != nullptr) {
+        const Vec3f colour = read_colour(*volume, "attenuationColor", {1, 1, 1});
+        if (const Json* distance = find(*volume, "attenuationDistance")) {
+            const auto metres = distance->get<double>();
+            optics.absorption = {absorption(colour.x, metres), absorption(colour.y, metres),
+                                 absorption(colour.z, metres)};
+        }
+        report.add(Treatment::rendered, "KHR_materials_volume", where("KHR_materials_volume"),
+                   "absorption along the path; the thickness is that of the shape");
+    }
+    if (const Json* dielectric = find_extension(material, "TANDEM_materials_dielectric")) {
+        optics.priority = dielectric->value("priority", 0U);
+        report.add(Treatment::rendered, "TANDEM_materials_dielectric", where("TANDEM_materials_dielectric"),
+                   "which body fills the place where several overlap");
+    }
+    return optics;
+}
+
+}  // namespace tandem::gltf

@@ -1,0 +1,14 @@
+/// Mirrors and glass: TANDEM_materials_phong.mirror, KHR_materials_transmission, _ior, _volume and
+/// TANDEM_materials_dielectric.
+#pragma once
+
+#include "tandem/gltf/document.h"
+#include "tandem/gltf/report.h"
+#include "tandem/material/optics.h"
+
+namespace tandem::gltf {
+
+/// `material`: its JSON object; `path`: where that is in the file.
+[[nodiscard]] Optics read_optics(const Json& material, const std::string& path, ImportReport& report);
+
+}  // namespace tandem::gltf

@@ -1,0 +1,146 @@
+/// How a path goes on behind a vertex.
+#pragma once
+
+#include "tandem/geometry/spawn_ray.h"
+#include "tandem/integrator/path_state.h"
+#include "tandem/integrator/surface.h"
+#include "tandem/material/fresnel.h"
+#include "tandem/material/reflect.h"
+
+namespace tandem {
+
+/// How a ray meets a surface.
+template <class Real>
+struct Meeting {
+    Vec3<Double<Real>> direction;  ///< of the ray, unit
+    Vec3<Double<Real>> normal;     ///< for shading, on the ray's side
+    Vec3<Double<Real>> facing;     ///< geometric normal, on the ray's side
+    Mask<Real> from_inside;        ///< against the outward normal
+};
+
+template <class Real>
+TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Vec3<Double<Real>>& to_viewer) {
+    using D = Double<Real>;
+    Meeting<Real> meeting;
+    meeting.direction = -to_viewer;
+    meeting.from_inside = point.from_inside;
+    meeting.facing = select(meeting.from_inside, -point.normal, point.normal);
+    const Mask<Real> away = dot(meeting.direction, surface.normal) > D(0.0);
+    meeting.normal = select(away, -surface.normal, surface.normal);
+    return meeting;
+}
+
+/// What is left of Phong's terms where a dielectric takes its share of the light: of the light that goes in, and of
+/// highlights, which are on the outside of bodies.
+template <class Effects, class Real>
+TANDEM_HD Surface<Real> without_transmitted(const Surface<Real>& surface, const Meeting<Real>& meeting) {
+    if (!Effects::has(Effect::refraction)) return surface;
+    const Real zero(0.0F);
+    if (!any(surface.transmission > zero)) return surface;
+    Surface<Real> result = surface;
+    const Real scattered = Real(1.0F) - surface.transmission;
+    result.ambient = surface.ambient * scattered;
+    result.diffuse = surface.diffuse * scattered;
+    const Mask<Real> within = meeting.from_inside && surface.transmission > zero;
+    result.specular = select(within, Vec3<Real>{zero, zero, zero}, surface.specular);
+    return result;
+}
+
+namespace scatter_detail {
+
+template <class Real>
+TANDEM_HD Real largest(const Vec3<Real>& a) {
+    return greater(greater(a.x, a.y), a.z);
+}
+
+/// Mirrored by the normal for shading; by the geometric one where that would lead through the surface.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> mirrored(const Meeting<Real>& meeting) {
+    const Vec3<Double<Real>> direction = reflect(meeting.direction, meeting.normal);
+    const Mask<Real> through = !(dot(direction, meeting.facing) > Double<Real>(0.0));
+    if (!any(through)) return direction;
+    return select(through, reflect(meeting.direction, meeting.facing), direction);
+}
+
+/// As refract(), by the normal for shading; by the geometric one where that would not lead through the surface.
+template <class Real>
+TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<Real>& eta) {
+    Refraction<Real> result = refract<Real>(meeting.direction, meeting.normal, eta);
+    const Mask<Real> back = result.transmits && !(dot(result.direction, meeting.facing) < Double<Real>(0.0));
+    if (!any(back)) return result;
+    const Refraction<Real> other = refract<Real>(meeting.direction, meeting.facing, eta);
+    result.transmits = select(back, other.transmits, result.transmits);
+    result.direction = select(back, other.direction, result.direction);
+    result.cosine_in = select(back, other.cosine_in, result.cosine_in);
+    result.cosine_out = select(back, other.cosine_out, result.cosine_out);
+    return result;
+}
+
+}  // namespace scatter_detail
+
+/// Chooses how a path goes on, by reflection in a mirror or by what a dielectric does: each with a chance in proportion
+/// to its share of the light, so that a surface of one kind leaves nothing to chance but Fresnel's reflectance. Lanes
+/// that do not go on leave path.alive. Returns the lanes whose media are lost (Border).
+///
+/// Radiance is followed as L / n^2, which borders leave as it is; a camera in air sees L.
+/// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
+template <class Effects, class Real>
+TANDEM_HD Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                             std::uint32_t vertex, const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Meeting<Real>& meeting, PathState<Effects, Real, true>& path) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    using namespace scatter_detail;
+    const Real zero(0.0F);
+    const Word one(1U);
+    Mask<Real> lost(false);
+    const Real mirror = Effects::has(Effect::reflection) ? largest(surface.mirror) : zero;
+    const Real glass = Effects::has(Effect::refraction) ? surface.transmission : zero;
+    path.alive = path.alive && (mirror > zero || glass > zero);
+    if (!any(path.alive)) return lost;
+
+    PhiloxBlock<Word> random;
+    if (Effects::has(Effect::refraction)) random = sample.block(Dimension::scatter, vertex);
+    Mask<Real> takes_glass = path.alive && glass > zero;
+    Real chance(1.0F);
+    if (Effects::has(Effect::reflection) && Effects::has(Effect::refraction)) {
+        const Mask<Real> both = takes_glass && mirror > zero;
+        const Real total = mirror + glass;
+        takes_glass = takes_glass && !(both && to_unit_interval<Real>(random.word[0]) * total < mirror);
+        chance = select(both, select(takes_glass, glass, mirror) / total, chance);
+    }
+    const Mask<Real> takes_mirror = path.alive && !takes_glass;
+    Mask<Real> goes_through(false);
+    Vec3<D> direction = meeting.direction;
+    if (Effects::has(Effect::refraction) && any(takes_glass)) {
+        auto media = path.media;
+        const Border<Real> border = cross_border(scene, media, surface.material, meeting.from_inside, takes_glass);
+        lost = border.lost;
+        const D eta = refractive_index<Real>(scene, border.before, takes_glass) /
+                      refractive_index<Real>(scene, border.behind, takes_glass);
+        const Refraction<Real> refraction = refracted(meeting, eta);
+        const D reflectance = fresnel_dielectric(refraction, eta);
+        goes_through = takes_glass && !(widen(to_unit_interval<Real>(random.word[1])) < reflectance);
+        path.media = select(goes_through, media, path.media);
+        direction = select(goes_through, refraction.direction, direction);
+        path.throughput = select(takes_glass, path.throughput * (glass / chance), path.throughput);
+        path.refractions = path.refractions + select(goes_through, one, Word(0U));
+    }
+    const Mask<Real> bounces_off = path.alive && !goes_through;
+    if (any(bounces_off)) direction = select(bounces_off, mirrored(meeting), direction);
+    if (Effects::has(Effect::reflection) && any(takes_mirror)) {
+        const Vec3<Real> weight = {surface.mirror.x / chance, surface.mirror.y / chance, surface.mirror.z / chance};
+        path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
+    }
+    path.reflections = path.reflections + select(bounces_off, one, Word(0U));
+    path.alive =
+        path.alive && path.reflections <= Word(limits.reflection) && path.refractions <= Word(limits.refraction);
+    // The side follows from the choice: that of a direction next to the surface could be rounding's.
+    const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
+    path.ray = {departure(point, inside), to_real<Real>(direction)};
+    path.source = {point.primitive, inside};
+    return lost && path.alive;
+}
+
+}  // namespace tandem

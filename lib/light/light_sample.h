@@ -1,0 +1,21 @@
+/// A point of a light, drawn for the point that it is to light.
+#pragma once
+
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+template <class Real>
+struct LightSample {
+    Vec3<Double<Real>> direction;  ///< unit, from the lit point to the light; meaningful where pdf > 0
+    Vec3<Double<Real>> point;      ///< on the light, world space
+    Double<Real> distance;         ///< from the lit point, metres
+    Double<Real> pdf;              ///< of the direction with respect to solid angle, 1/sr; 0: there is nothing to see
+};
+
+/// How far beyond a border a direction still counts as one of the light, relative: samples are rounded, and none may
+/// be refused by the density of its own light.
+template <class Real>
+inline constexpr double direction_slack = is_fast<Real> ? 0x1p-20 : 0x1p-49;
+
+}  // namespace tandem

@@ -1,0 +1,147 @@
+#include "tandem/scene/prepare_textures.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "tandem/error/error.h"
+#include "tandem/math/exact_math.h"
+#include "tandem/texture/levels.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr std::size_t most_texels = std::size_t{1} << 30;
+
+bool has_one_colour(const Image& image) {
+    return std::all_of(image.texels.begin(), image.texels.end(), [&](std::uint32_t t) { return t == image.texels[0]; });
+}
+
+std::uint32_t least_alpha(const Image& image) {
+    std::uint32_t least = 255;
+    for (const std::uint32_t texel : image.texels) least = std::min(least, texel >> 24);
+    return least;
+}
+
+TextureUse with_transform(const TextureReference& reference, std::uint32_t texture) {
+    const float cosine = exact_cos(reference.rotation);
+    const float sine = exact_sin(reference.rotation);
+    const Vec2f& scale = reference.scale;
+    return {texture,
+            {cosine * scale.x, sine * scale.y, reference.offset.x},
+            {-sine * scale.x, cosine * scale.y, reference.offset.y}};
+}
+
+class Preparer {
+  public:
+    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong) : scene_(scene), phong_(phong) {
+        result_.levels = texture_levels();
+    }
+
+    PreparedTextures run() {
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
+        const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(), [](const auto& m) {
+            return m.diffuse.texture != no_texture || m.normal.texture != no_texture || m.alpha_cutoff > 0;
+        });
+        return needed ? std::move(result_) : PreparedTextures{};
+    }
+
+  private:
+    void add(std::size_t index) {
+        const Material& material = scene_.materials[index];
+        MaterialTextures prepared;
+        std::uint32_t alpha = 255;  // the least of the texture
+        if (material.alpha_mode == AlphaMode::mask) {
+            prepared.alpha = material.alpha;
+            prepared.alpha_cutoff = material.alpha_cutoff;
+        }
+        if (material.diffuse_texture) {
+            const TextureReference& reference = *material.diffuse_texture;
+            const Image& image = image_of(reference);
+            if (has_one_colour(image)) {
+                multiply(phong_[index], image.texels[0]);
+                prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
+            } else {
+                if (prepared.alpha_cutoff > 0) alpha = least_alpha(image);
+                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb));
+            }
+        }
+        // beyond the rounding of the kernels' product
+        if (double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
+            prepared.alpha = 1;
+            prepared.alpha_cutoff = 0;
+        }
+        if (material.normal_texture) {
+            const TextureReference& reference = *material.normal_texture;
+            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear));
+            prepared.normal_scale = material.normal_scale;
+        }
+        result_.materials.push_back(prepared);
+    }
+
+    const Image& image_of(const TextureReference& reference) const {
+        return scene_.images[scene_.textures[reference.texture].image];
+    }
+
+    void multiply(PhongMaterial& phong, std::uint32_t texel) const {
+        const Vec3f factor = {result_.levels[texel & 255U], result_.levels[texel >> 8 & 255U],
+                              result_.levels[texel >> 16 & 255U]};
+        phong.diffuse *= factor;
+        phong.ambient *= factor;
+    }
+
+    /// Index of the descriptor.
+    std::uint32_t add(const TextureReference& reference, ColourSpace space) {
+        const auto [known, is_new] =
+            descriptor_of_.try_emplace({reference.texture, space}, static_cast<std::uint32_t>(result_.textures.size()));
+        if (is_new) {
+            const Texture& texture = scene_.textures[reference.texture];
+            const Image& image = image_of(reference);
+            const bool one = has_one_colour(image);
+            result_.textures.push_back({first_texel_of(texture.image), one ? 1 : image.width, one ? 1 : image.height,
+                                        texture.wrap_s, texture.wrap_t, texture.filter, space});
+        }
+        return known->second;
+    }
+
+    std::uint32_t first_texel_of(std::uint32_t index) {
+        const auto [known, is_new] =
+            first_texel_of_.try_emplace(index, static_cast<std::uint32_t>(result_.texels.size()));
+        if (is_new) {
+            const Image& image = scene_.images[index];
+            const std::size_t count = has_one_colour(image) ? 1 : image.texels.size();
+            if (count > most_texels - result_.texels.size()) {
+                throw InputError("the textures of the scene have more than 2^30 texels; make their images smaller");
+            }
+            result_.texels.insert(result_.texels.end(), image.texels.begin(),
+                                  image.texels.begin() + static_cast<std::ptrdiff_t>(count));
+        }
+        return known->second;
+    }
+
+    const Scene& scene_;
+    std::vector<PhongMaterial>& phong_;
+    std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
+    std::map<std::uint32_t, std::uint32_t> first_texel_of_;                          ///< by image
+    PreparedTextures result_;
+};
+
+}  // namespace
+
+TextureSet view(const PreparedTextures& textures) {
+    if (textures.materials.empty()) return {nullptr, nullptr, nullptr, nullptr};
+    return {textures.texels.data(), textures.textures.data(), textures.materials.data(), textures.levels.data()};
+}
+
+bool has_texture(const PreparedTextures& textures, std::size_t material) {
+    if (textures.materials.empty()) return false;
+    const MaterialTextures& m = textures.materials[material];
+    return m.diffuse.texture != no_texture || m.normal.texture != no_texture;
+}
+
+PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong) {
+    return Preparer(scene, phong).run();
+}
+
+}  // namespace tandem

@@ -1,0 +1,21 @@
+/// From the author's textures to flat arrays.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tandem/scene/prepared_textures.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+/// The textures of the materials of a valid scene, without what costs and changes nothing: a diffuse texture of one
+/// colour becomes a factor of `phong`, the reflectances by index of the material; a normal map of one colour becomes
+/// one texel; a mask that lets everything through is none; and pictures that nothing shows are left out. Throws
+/// InputError if there are more than 2^30 texels.
+[[nodiscard]] PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong);
+
+/// What is wrong with images, textures and their uses, one sentence each; for validate().
+[[nodiscard]] std::vector<std::string> find_texture_problems(const Scene& scene);
+
+}  // namespace tandem

@@ -1,0 +1,25 @@
+/// The textures of a scene as the kernels read them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tandem/texture/texture_set.h"
+
+namespace tandem {
+
+/// The arrays of a TextureSet. All are empty where no material has a texture or is cut out.
+struct PreparedTextures {
+    std::vector<std::uint32_t> texels;
+    std::vector<TextureDescriptor> textures;
+    std::vector<MaterialTextures> materials;  ///< one per material of the scene
+    std::vector<float> levels;                ///< texture_levels()
+};
+
+/// The window of the kernels onto the arrays, which must outlive it.
+[[nodiscard]] TextureSet view(const PreparedTextures& textures);
+
+/// Does the picture of this material depend on where a point lies on its surface?
+[[nodiscard]] bool has_texture(const PreparedTextures& textures, std::size_t material);
+
+}  // namespace tandem

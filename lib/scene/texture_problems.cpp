@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tandem/scene/prepare_textures.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr std::uint32_t most_edge = 16384;
+
+std::string label(const char* kind, const std::string& name, std::size_t index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} '{}'", kind, name);
+}
+
+class Finder {
+  public:
+    explicit Finder(const Scene& scene) : scene_(scene) {}
+
+    std::vector<std::string> run() {
+        for (std::size_t i = 0; i < scene_.images.size(); ++i) check_image(i);
+        for (std::size_t i = 0; i < scene_.textures.size(); ++i) {
+            require(scene_.textures[i].image < scene_.images.size(), fmt::format("texture {}", i),
+                    "shows an image that does not exist");
+        }
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) check_material(i);
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) check_node(i);
+        return std::move(found_);
+    }
+
+  private:
+    void require(bool condition, const std::string& where, const char* what) {
+        if (!condition) found_.push_back(where + " " + what);
+    }
+
+    void check_image(std::size_t index) {
+        const Image& image = scene_.images[index];
+        const std::string where = label("image", image.name, index);
+        const bool good =
+            image.width >= 1 && image.width <= most_edge && image.height >= 1 && image.height <= most_edge;
+        require(good, where, "has a width or height that is not from 1 to 16384");
+        require(!good || image.texels.size() == std::size_t{image.width} * image.height, where,
+                "has a number of texels that is not its width times its height");
+    }
+
+    void check_material(std::size_t index) {
+        const Material& material = scene_.materials[index];
+        const std::string where = label("material", material.name, index);
+        if (material.diffuse_texture) check_reference(*material.diffuse_texture, where + ", diffuse texture,");
+        if (material.normal_texture) check_reference(*material.normal_texture, where + ", normal texture,");
+        require(std::isfinite(material.normal_scale), where, "has a normal scale that is not finite");
+        require(material.alpha >= 0 && material.alpha <= 1, where, "has an alpha outside [0, 1]");
+        require(material.alpha_cutoff >= 0 && std::isfinite(material.alpha_cutoff), where,
+                "has an alpha cutoff that is not a number of 0 or more");
+    }
+
+    void check_reference(const TextureReference& reference, const std::string& where) {
+        require(reference.texture < scene_.textures.size(), where, "uses a texture that does not exist");
+        const float limit = 1e18F;
+        const auto good = [&](float a) { return std::abs(a) <= limit; };
+        require(good(reference.offset.x) && good(reference.offset.y) && good(reference.scale.x) &&
+                    good(reference.scale.y) && good(reference.rotation),
+                where, "has an offset, a rotation or a scale that is not finite or beyond 1e18");
+    }
+
+    /// A mesh tells where its texture lies; the other shapes know it.
+    void check_node(std::size_t index) {
+        const Node& node = scene_.nodes[index];
+        for (const Geometry& geometry : node.geometry) {
+            const auto* shape = std::get_if<MeshShape>(&geometry.shape);
+            if (shape == nullptr || shape->mesh >= scene_.meshes.size()) continue;
+            if (geometry.material >= scene_.materials.size()) continue;
+            const Material& material = scene_.materials[geometry.material];
+            const Mesh& mesh = scene_.meshes[shape->mesh];
+            const bool textured = material.diffuse_texture || material.normal_texture;
+            if (!textured || !mesh.texcoords.empty() || mesh.positions.empty()) continue;
+            if (!reported_.insert({shape->mesh, geometry.material}).second) continue;
+            found_.push_back(fmt::format("{} shows a mesh without texture coordinates under the textures of {}",
+                                         label("node", node.name, index),
+                                         label("material", material.name, geometry.material)));
+        }
+    }
+
+    const Scene& scene_;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> reported_;  ///< mesh and material
+    std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_texture_problems(const Scene& scene) { return Finder(scene).run(); }
+
+}  // namespace tandem

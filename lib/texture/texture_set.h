@@ -1,0 +1,79 @@
+/// The textures of a scene as flat arrays, and which material has which.
+#pragma once
+
+#include "tandem/texture/texture_view.h"
+
+namespace tandem {
+
+inline constexpr std::uint32_t no_texture = 0xFFFFFFFFU;
+
+/// What the levels of red, green and blue mean: given by what a texture is used for.
+enum class ColourSpace : std::uint32_t { srgb, linear };
+
+/// A texture in the arrays of a TextureSet.
+struct TextureDescriptor {
+    std::uint32_t first_texel = 0;
+    std::uint32_t width = 1, height = 1;
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    Filter filter = Filter::linear;
+    ColourSpace space = ColourSpace::srgb;
+};
+
+/// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1).
+struct TextureUse {
+    std::uint32_t texture = no_texture;
+    float u_row[3] = {1, 0, 0};
+    float v_row[3] = {0, 1, 0};
+};
+
+/// The textures of one material. Its alpha is `alpha` times that of the diffuse texture; where that is below
+/// `alpha_cutoff`, there is no surface. 0 cuts nothing.
+struct MaterialTextures {
+    TextureUse diffuse;  ///< multiplies the diffuse and the ambient reflectance
+    TextureUse normal;   ///< normals in the frame of the surface: normal_map.h
+    float normal_scale = 1;
+    float alpha = 1;
+    float alpha_cutoff = 0;
+};
+static_assert(sizeof(MaterialTextures) == 68 && sizeof(TextureDescriptor) == 28,
+              "no byte is undefined; scene_hash() reads all");
+
+/// Pointers are to memory of the side that reads them.
+struct TextureSet {
+    const std::uint32_t* texels;
+    const TextureDescriptor* textures;
+    const MaterialTextures* materials;  ///< by index of the material; null if none has a texture or is cut out
+    const float* levels;                ///< 256 for ColourSpace::srgb, then 256 for ColourSpace::linear
+};
+
+TANDEM_HD bool has_textures(const TextureSet& set) { return set.materials != nullptr; }
+
+TANDEM_HD TextureView texture_view(const TextureSet& set, std::uint32_t texture) {
+    const TextureDescriptor& d = set.textures[texture];
+    return {set.texels + d.first_texel,
+            set.levels + (d.space == ColourSpace::srgb ? 0 : 256),
+            d.width,
+            d.height,
+            d.wrap_s,
+            d.wrap_t,
+            d.filter};
+}
+
+/// A texture of a material at the coordinates (u, v) of its surface; white if there is none.
+template <class Real>
+TANDEM_HD Rgba<Real> sample(const TextureSet& set, const TextureUse& use, const Double<Real>& u,
+                            const Double<Real>& v) {
+    using D = Double<Real>;
+    if (use.texture == no_texture) return {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
+    const auto along = [&](const float* row)
+                           TANDEM_INLINE_LAMBDA { return (D(row[0]) * u + D(row[1]) * v) + D(row[2]); };
+    return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
+}
+
+/// Where the material is there at all, given the alpha of its diffuse texture.
+template <class Real>
+TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& texture_alpha) {
+    return Real(material.alpha) * texture_alpha >= Real(material.alpha_cutoff);
+}
+
+}  // namespace tandem

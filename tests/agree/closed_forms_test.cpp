@@ -1,0 +1,163 @@
+// Pictures whose values have a closed form, on every backend and tier that promises bits.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/backend_list.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+Material black(std::string name) { return {std::move(name), {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1}}; }
+
+Node body(const Shape& shape, const Vec3d& at, std::uint32_t material) {
+    Node node{.name = "body", .trs = {.translation = at}};
+    node.geometry.push_back({shape, material, {}});
+    return node;
+}
+
+/// An orthographic camera at `at` that looks along -z, or straight down. Its film is 2 * ymag high.
+Node camera(const Vec3d& at, double ymag, bool down = false) {
+    Node eye{.name = "eye", .trs = {.translation = at}, .camera = OrthographicCamera{ymag}};
+    if (down) eye.trs.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+    return eye;
+}
+
+Scene uniform_light(const Vec3f& colour) {
+    Scene scene;
+    scene.environment = {colour, colour, {1, 1, 1}};
+    return scene;
+}
+
+class ClosedForms : public test::ExactBackend {
+  protected:
+    /// The mean of all pixels' means, after a check that no path met anything out of order.
+    [[nodiscard]] Vec3d mean_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
+        RenderJob job;
+        job.width = job.height = size;
+        job.samples = samples;
+        job.tier = GetParam().tier;
+        job.limits = limits;
+        const RenderResult result = backend_->render(load(prepare(scene)), job);
+        EXPECT_EQ(result.stats.counters, RenderCounters{});
+        Vec3d sum{0, 0, 0};
+        for (const Vec3d& pixel : result.film.sums()) sum = sum + pixel;
+        return sum * (1.0 / (static_cast<double>(result.film.pixel_count()) * samples));
+    }
+};
+
+// Between two facing mirrors of reflectance r, each of which adds a: a sum over r^k. Ends at the limit of reflections.
+TEST_P(ClosedForms, FacingMirrorsMakeAGeometricSeries) {
+    Scene scene = uniform_light({0, 0, 0});
+    Material mirror = black("mirror");
+    mirror.phong.ambient = {0.5F, 0.25F, 0.125F};
+    mirror.optics.mirror = {0.5F, 0.75F, 0.9F};
+    scene.materials = {mirror};
+    scene.nodes = {camera({0, 0, 0}, 0.1), body(BoxShape{{2, 2, 1}}, {0, 0, -2}, 0),
+                   body(BoxShape{{2, 2, 1}}, {0, 0, 3}, 0)};
+    for (const std::uint32_t limit : {0U, 1U, 7U, 100U}) {
+        const Vec3d mean = mean_of(scene, 1, {.reflection = limit, .refraction = 0});
+        for (int channel = 0; channel < 3; ++channel) {
+            const double a = double{mirror.phong.ambient[channel]}, r = double{mirror.optics.mirror[channel]};
+            EXPECT_NEAR(mean[channel], a * (1 - std::pow(r, limit + 1.0)) / (1 - r), 4e-6) << limit;
+        }
+    }
+}
+
+// A furnace: in uniform light clear glass of any shape is not to be seen. R + T = 1 at every border.
+TEST_P(ClosedForms, ClearGlassVanishesInUniformLight) {
+    Scene scene = uniform_light({1, 1, 1});
+    Material glass = black("glass");
+    glass.optics.transmission = 1;
+    glass.optics.ior = 1.5F;
+    Material diamond = glass;
+    diamond.optics.ior = 2.4F;
+    scene.materials = {glass, diamond};
+    scene.nodes = {camera({0, 0, 4}, 1.5), body(SphereShape{0.7}, {-0.7, 0, 0}, 0),
+                   body(SphereShape{0.5}, {0.65, 0.5, 0}, 1), body(BoxShape{{0.8, 0.5, 0.6}}, {0.7, -0.7, 0}, 0)};
+    scene.nodes.back().trs.rotation = {0.2, 0.3, 0.1, 0.9};
+    const Vec3d mean = mean_of(scene, 8, {.reflection = 255, .refraction = 255}, 48);
+    // a path in the block may be reflected for long; those that are cut off at 255 are lost
+    EXPECT_NEAR(mean.x, 1, 1e-6);
+    EXPECT_NEAR(mean.y, 1, 1e-6);
+}
+
+// Beer's law: straight through a body whose index is that of air.
+TEST_P(ClosedForms, AbsorptionIsExponentialInTheWay) {
+    Scene scene = uniform_light({1, 1, 1});
+    Material tinted = black("tinted");
+    tinted.optics = {.transmission = 1, .ior = 1, .absorption = {0, 0.3F, 2}};
+    scene.materials = {tinted};
+    scene.nodes = {camera({0, 0, 4}, 0.1), body(BoxShape{{2, 2, 1.75}}, {0, 0, 0}, 0)};
+    const Vec3d mean = mean_of(scene, 1, {});
+    EXPECT_NEAR(mean.x, 1, 1e-7);
+    EXPECT_NEAR(mean.y, std::exp(-0.3 * 1.75), 1e-7);
+    EXPECT_NEAR(mean.z, std::exp(-2 * 1.75), 1e-7);
+}
+
+// A slab seen from above, between a bright sky and a dark ground: 2 R / (1 + R) of the light comes from above, with
+// Fresnel's R at normal incidence.
+TEST_P(ClosedForms, ASlabReflectsAsFresnelSays) {
+    for (const float ior : {1.33F, 1.5F, 2.4F}) {
+        Scene scene = uniform_light({0, 0, 0});
+        scene.environment.top = {1, 1, 1};
+        Material glass = black("glass");
+        glass.optics = {.transmission = 1, .ior = ior};
+        scene.materials = {glass};
+        scene.nodes = {camera({0, 4, 0}, 0.1, true), body(BoxShape{{2, 1, 2}}, {0, 0, 0}, 0)};
+        const double r = std::pow((double{ior} - 1) / (double{ior} + 1), 2);
+        const double expected = 2 * r / (1 + r);
+        const int samples = 256;
+        const double deviation = std::sqrt(expected * (1 - expected) / (16.0 * 16 * samples));
+        const Vec3d mean = mean_of(scene, samples, {.reflection = 64, .refraction = 64});
+        EXPECT_NEAR(mean.x, expected, 5 * deviation) << ior;
+    }
+}
+
+// A ball of index n focuses rays along its axis at n r / (2 (n - 1)) from its centre.
+TEST_P(ClosedForms, ABallLensFocusesWhereItShould) {
+    const double ior = 1.5, radius = 1, focus = ior * radius / (2 * (ior - 1));
+    Material glass = black("glass");
+    glass.optics = {.transmission = 1, .ior = static_cast<float>(ior)};
+    Material target = black("target");
+    target.phong.ambient = {1, 1, 1};
+    for (const double offset : {0.0, 0.25}) {  // of the target, along the axis
+        Scene scene = uniform_light({0, 0, 0});
+        scene.materials = {glass, target};
+        scene.nodes = {camera({0, 0, 4}, 0.05), body(SphereShape{radius}, {0, 0, 0}, 0),
+                       body(SphereShape{0.002}, {0, 0, -focus - offset}, 1)};
+        // 4 % are reflected at each of the two borders
+        const Vec3d mean = mean_of(scene, 64, {});
+        if (offset == 0) {
+            EXPECT_NEAR(mean.x, 0.96 * 0.96, 0.01);
+        } else {
+            EXPECT_LT(mean.x, 0.1);
+        }
+    }
+}
+
+// A point light of I candela over pi at distance d: kd I / d^2 from a surface that faces it.
+TEST_P(ClosedForms, LightFallsOffWithTheSquareOfTheDistance) {
+    for (const double height : {0.5, 2.0, 20.0}) {
+        Scene scene = uniform_light({0, 0, 0});
+        Material matt = black("matt");
+        matt.phong.diffuse = {0.8F, 0.5F, 0.1F};
+        scene.materials = {matt};
+        scene.nodes = {camera({0, 0, 40}, 1e-4), body(BoxShape{{4, 4, 1}}, {0, 0, -0.5}, 0)};
+        scene.nodes.push_back({.name = "lamp",
+                               .trs = {.translation = {0, 0, height}},
+                               .light = LightSource{.intensity = 3, .inverse_square = true}});
+        const Vec3d mean = mean_of(scene, 1, {});
+        for (int channel = 0; channel < 3; ++channel) {
+            const double expected = double{matt.phong.diffuse[channel]} * 3 / (height * height);
+            EXPECT_NEAR(mean[channel] / expected, 1, 1e-6) << height;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, ClosedForms, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
+
+}  // namespace
+}  // namespace tandem

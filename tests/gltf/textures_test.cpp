@@ -1,0 +1,211 @@
+// Textures from glTF files: what arrives in the scene, and what is refused.
+#include <gtest/gtest.h>
+
+#include "gltf/files.h"
+#include "tandem/film/image_codecs.h"
+#include "tandem/scene/prepare.h"
+
+namespace tandem {
+namespace {
+
+using test::contains;
+using test::Json;
+using test::sentences;
+using test::TestFile;
+
+/// A PNG of 2 x 1 pixels: (255, 0, 0) and (0, 188, 255).
+std::string small_png() {
+    const Bytes bytes = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+const std::vector<std::uint32_t> small_texels = {0xFF0000FFU, 0xFFFFBC00U};
+
+std::string png_uri() { return "data:image/png;base64," + test::base64(small_png()); }
+
+/// small_file() whose ball shows a picture.
+TestFile textured_file(const std::string& uri = png_uri()) {
+    TestFile file = test::small_file();
+    file.json["images"] = {{{"name", "wall"}, {"uri", uri}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    return file;
+}
+
+class Textures : public test::GltfFiles {
+  protected:
+    void expect_refused(const TestFile& file, const std::string& sentence) const {
+        EXPECT_TRUE(contains(error_of(write("inside/scene.gltf", file.text())), sentence));
+    }
+    void expect_image_refused(const std::string& uri, const std::string& reason) const {
+        expect_refused(textured_file(uri), "images[0].uri: " + reason);
+    }
+};
+
+TEST_F(Textures, ComeFromDataUris) {
+    const ImportResult result = import(textured_file());
+    const Scene& scene = result.scene;
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].name, "wall");
+    EXPECT_EQ(scene.images[0].width, 2U);
+    EXPECT_EQ(scene.images[0].texels, small_texels);
+    ASSERT_EQ(scene.textures.size(), 1U);
+    EXPECT_EQ(scene.textures[0].wrap_s, Wrap::repeat) << "glTF's default";
+    EXPECT_EQ(scene.textures[0].filter, Filter::linear);
+    ASSERT_TRUE(scene.materials[0].diffuse_texture);
+    EXPECT_FALSE(scene.materials[0].normal_texture);
+    const std::string all = sentences(result.report);
+    EXPECT_TRUE(contains(
+        all, "ignored: base colour texture at materials[0].pbrMetallicRoughness.baseColorTexture: Tandem reads it"));
+    EXPECT_TRUE(contains(all, "ignored: image at images[0]: Tandem reads it"));
+    const TextureSet set = view(prepare(scene).textures);
+    EXPECT_EQ(set.materials == nullptr, false);
+}
+
+TEST_F(Textures, ComeFromFilesAndBufferViewsAlike) {
+    write("pictures/a wall.png", small_png());
+    EXPECT_EQ(import(textured_file("pictures/a%20wall.png")).scene.images[0].texels, small_texels);
+    TestFile file = textured_file();
+    const std::size_t accessor = file.add_bytes("SCALAR", 5121, small_png().size(), small_png());
+    file.json["images"][0] = {{"mimeType", "image/png"},
+                              {"bufferView", file.json["accessors"][accessor]["bufferView"]}};
+    EXPECT_EQ(import(file).scene.images[0].texels, small_texels);
+    EXPECT_EQ(import_gltf(write("scene.glb", file.glb())).scene.images[0].texels, small_texels);
+}
+
+TEST_F(Textures, KeepTheirSamplers) {
+    TestFile file = textured_file();
+    file.json["textures"][0]["sampler"] = 0;
+    file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9987}}};
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.textures[0].wrap_s, Wrap::clamp_to_edge);
+    EXPECT_EQ(result.scene.textures[0].wrap_t, Wrap::mirrored_repeat);
+    EXPECT_EQ(result.scene.textures[0].filter, Filter::nearest);
+    EXPECT_TRUE(contains(
+        sentences(result.report),
+        "ignored: texture sampler at samplers[0]: Tandem reads it and does not draw it yet (there are no mipmaps"));
+    file.json["samplers"][0] = {{"wrapS", 10497}};
+    EXPECT_TRUE(contains(sentences(import(file).report), "ignored: texture sampler at samplers[0]: "));
+    file.json["samplers"][0] = {{"wrapS", 7}};
+    expect_refused(file, "samplers[0].wrapS: must be one of 33071 33648 10497, but is 7");
+}
+
+TEST_F(Textures, OfNormalsHaveAScale) {
+    TestFile file = textured_file();
+    file.json["materials"][0]["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.textures.size(), 1U) << "one for both uses";
+    ASSERT_TRUE(result.scene.materials[0].normal_texture);
+    EXPECT_EQ(result.scene.materials[0].normal_scale, 0.5F);
+    EXPECT_TRUE(
+        contains(sentences(result.report), "ignored: normal texture at materials[0].normalTexture: Tandem reads it"));
+}
+
+TEST_F(Textures, AreMovedByKhrTextureTransform) {
+    TestFile file = textured_file();
+    file.json["extensionsUsed"] = {"KHR_texture_transform"};
+    Json& info = file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["extensions"]["KHR_texture_transform"] = {{"offset", {1, 2}}, {"rotation", 0.5}, {"scale", {3, 4}}};
+    const ImportResult result = import(file);
+    const TextureReference& use = *result.scene.materials[0].diffuse_texture;
+    EXPECT_EQ(use.offset, Vec2f(1, 2));
+    EXPECT_EQ(use.rotation, 0.5F);
+    EXPECT_EQ(use.scale, Vec2f(3, 4));
+    EXPECT_TRUE(contains(sentences(result.report), "ignored: KHR_texture_transform at materials[0]."));
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+    EXPECT_TRUE(contains(sentences(import(file).report), "it lies at TEXCOORD_1; Tandem reads TEXCOORD_0 only"));
+    info["extensions"]["KHR_texture_transform"] = {{"scale", {3}}};
+    expect_refused(file, "KHR_texture_transform.scale: must be 2 numbers");
+}
+
+TEST_F(Textures, ThatTandemDoesNotShowAreNotOpened) {
+    TestFile file = textured_file("../secret.png");
+    Json& info = file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["texCoord"] = 1;
+    const ImportResult result = import(file);
+    EXPECT_FALSE(result.scene.materials[0].diffuse_texture);
+    const std::string all = sentences(result.report);
+    EXPECT_TRUE(
+        contains(all, "ignored: base colour texture at materials[0].pbrMetallicRoughness.baseColorTexture: it lies"));
+    EXPECT_TRUE(contains(all, "ignored: image at images[0]: no texture that Tandem renders uses it"));
+    info["texCoord"] = 0;
+    file.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    EXPECT_TRUE(contains(sentences(import(file).report), "its texture has no image in PNG or JPEG"));
+}
+
+TEST_F(Textures, CutOutWhatAlphaMasks) {
+    TestFile file = textured_file();
+    Json& material = file.json["materials"][0];
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.75};
+    EXPECT_EQ(import(file).scene.materials[0].alpha_mode, AlphaMode::opaque);
+    material["alphaMode"] = "MASK";
+    material["alphaCutoff"] = 0.25;
+    const ImportResult masked = import(file);
+    EXPECT_EQ(masked.scene.materials[0].alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(masked.scene.materials[0].alpha, 0.75F);
+    EXPECT_EQ(masked.scene.materials[0].alpha_cutoff, 0.25F);
+    EXPECT_TRUE(contains(sentences(masked.report), "ignored: alphaMode MASK at materials[0].alphaMode: "));
+    material["alphaMode"] = "BLEND";
+    const ImportResult blended = import(file);
+    EXPECT_EQ(blended.scene.materials[0].alpha_cutoff, 0.5F);
+    EXPECT_TRUE(contains(sentences(blended.report), "ignored: alphaMode BLEND at materials[0].alphaMode: "));
+    EXPECT_TRUE(contains(sentences(blended.report), "ignored: alphaCutoff at materials[0].alphaCutoff: "));
+}
+
+TEST_F(Textures, OnMeshesWithoutCoordinatesShowTheirCorner) {
+    TestFile file = test::mesh_file();
+    const TestFile textured = textured_file();
+    for (const char* array : {"images", "textures", "materials"}) file.json[array] = textured.json[array];
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.meshes[0].texcoords, std::vector<Vec2f>(6, Vec2f(0, 0)));
+    EXPECT_TRUE(contains(sentences(result.report),
+                         "approximated: texture without coordinates at meshes[0].primitives[0].attributes: "));
+}
+
+TEST_F(Textures, OutsideOfTheFolderAreRefused) {
+    write("secret.png", small_png());
+    for (const char* uri : {"../secret.png", "%2e%2e/secret.png", "pictures/../../secret.png"}) {
+        expect_image_refused(uri, "leads out of the folder");
+    }
+    expect_image_refused((folder_ / "secret.png").string(), "is an absolute path");
+    expect_image_refused("file:///etc/passwd", "has a scheme");
+    std::filesystem::create_directories(folder_ / "inside");
+    std::filesystem::create_symlink(folder_ / "secret.png", folder_ / "inside/link.png");
+    expect_image_refused("link.png", "names 'link.png', a link that leads out");
+}
+
+TEST_F(Textures, ThatCannotBeReadAreRefused) {
+    expect_image_refused("none.png", "names 'none.png', which is not there");
+    write("inside/text.png", "hello");
+    expect_image_refused("text.png", "'text.png' is not a picture that Tandem reads as a texture: PNG or JPEG");
+    write("inside/short.png", small_png().substr(0, 40));
+    expect_image_refused("short.png", "'short.png' is not a readable PNG image: the file is cut off");
+    std::string huge = small_png();
+    huge[18] = huge[22] = '\x7F';  // the width and height of the header, whose checksum is wrong now
+    write("inside/huge.png", huge);
+    expect_image_refused("huge.png", "'huge.png' is not a readable PNG image: ");
+    expect_image_refused("data:image/gif;base64,AAAA",
+                         "is a data URI that does not begin with 'data:image/png;base64,'");
+    expect_image_refused("data:image/png;base64,AAA*", "is a data URI whose base64 is broken");
+    expect_image_refused("data:image/png;base64,", "'data URI' is not a picture");
+}
+
+TEST_F(Textures, OfMalformedFilesAreRefused) {
+    TestFile file = textured_file();
+    file.json["images"][0] = Json::object();
+    expect_refused(file, "images[0]: has neither a uri nor a bufferView; add one");
+    file.json["images"][0] = {{"uri", "a.png"}, {"bufferView", 0}};
+    file.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 4}}};
+    file.data = "abcd";
+    expect_refused(file, "images[0]: has a uri and a bufferView; keep one");
+    file.json["images"][0] = {{"bufferView", 0}};
+    expect_refused(file, "images[0].bufferView: 'bufferView 0' is not a picture");
+    file = textured_file();
+    file.json["textures"][0]["source"] = 3;
+    expect_refused(file, "textures[0].source: is 3, but the file's array 'images' has 1 elements");
+    file = textured_file();
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 1}};
+    expect_refused(file, "baseColorTexture.index: is 1, but the file's array 'textures' has 1 elements");
+}
+
+}  // namespace
+}  // namespace tandem

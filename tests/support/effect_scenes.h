@@ -1,0 +1,21 @@
+/// Scenes that call for effects, small enough for the oracle.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tandem/effects/effects.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::test {
+
+struct EffectScene {
+    std::string name;
+    Scene scene;
+    EffectMask effects;  ///< that it calls for
+};
+
+/// Each effect alone, and mixtures.
+[[nodiscard]] const std::vector<EffectScene>& effect_scenes();
+
+}  // namespace tandem::test
