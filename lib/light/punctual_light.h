@@ -31,8 +31,9 @@ struct LightRay {
 
 /// The light at `position`. `Effects`: what the scene may call for (effects/effects.h).
 ///
-/// Gives: intensity within 4 ulp of float, 0 outside of a spot light's cone; the fall-off between its angles is the
-///        square of the cosine's share, as in KHR_lights_punctual, "inner and outer cone angles".
+/// Gives: 0 outside of a spot light's cone; the fall-off between its angles is the square of the cosine's share, as in
+///        KHR_lights_punctual, "inner and outer cone angles". Held by tests/agree/closed_forms_test.cpp (1e-6 of the
+///        law of the distance) and tests/agree/effects_test.cpp (the oracle).
 template <class Effects, class Real>
 TANDEM_HD LightRay<Real> light_at(const PunctualLight& light, const Vec3<Double<Real>>& position) {
     using D = Double<Real>;

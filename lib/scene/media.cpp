@@ -1,6 +1,7 @@
 #include "tandem/scene/media.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
