@@ -18,7 +18,8 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]): compiles
+# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
+# [DEFINES NAME=VALUE...]): compiles
 # FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET the function
 #
 #   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
@@ -26,7 +27,8 @@ endfunction()
 # whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this; for what goes into
 # the library itself that is an object library.
 function(tandem_add_lto_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES;DEFINES")
+  list(TRANSFORM arg_DEFINES PREPEND -D)
   if(NOT arg_NAMESPACE)
     set(arg_NAMESPACE tandem::cuda)
   endif()
@@ -45,7 +47,7 @@ function(tandem_add_lto_kernels target)
   add_custom_command(
     OUTPUT ${fatbin}
     COMMAND
-      ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" -rdc=true
+      ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" ${arg_DEFINES} -rdc=true
       -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin ${source} -o ${fatbin}
       -MD -MF ${fatbin}.d -MT ${fatbin}
     DEPENDS ${source}

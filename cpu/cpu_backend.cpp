@@ -15,6 +15,7 @@
 
 #include "cpu/fp_environment.h"
 #include "cpu/instruction_sets.h"
+#include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
 #include "tandem/render/ready_frame.h"
@@ -240,7 +241,7 @@ class CpuBackend final : public Backend {
         result.stats.counters.dropped_primitives = resident.prepared().dropped_primitives;
         result.stats.rays = static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
         result.stats.effects = effects;
-        result.stats.carried = variants[variant].effects - effects;
+        result.stats.carried = variants[variant].effects - effects - host_effects;
         result.stats.variant = fmt::format(
             "{}, {}, {}", set_.name, resident.view().embree != nullptr ? "embree" : "loop", variants[variant].name);
         return std::make_unique<ReadyFrame>(std::move(result));

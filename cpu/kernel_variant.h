@@ -83,7 +83,7 @@ RenderCounters render_pixels(const Tracer& tracer, const SceneView& scene, const
 template <class Reals, std::size_t variant>
 RenderCounters render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
     using Effects = EffectSet<variants[variant].effects.bits()>;
-    if constexpr (leaves_surfaces<Effects>()) {
+    if constexpr (can_leave_surfaces<Effects>()) {
         return render_pixels<Effects, Reals>(CalledTracer{view}, view.scene, job, tile, sums);
     } else {
         if (view.embree != nullptr) {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "cuda/device_scene.h"
+#include "cuda/scene_kernels.h"
+#include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
 
@@ -65,9 +69,10 @@ class CudaFrame final : public PendingFrame {
 
 class CudaBackend final : public Backend {
   public:
-    CudaBackend() {
+    explicit CudaBackend(Specialise specialise) : specialise_(specialise) {
         check(cudaSetDevice(0), "choosing the GPU");
         check(cudaGetDeviceProperties(&properties_, 0), "reading what the GPU is");
+        kernels_.emplace(properties_.major * 10 + properties_.minor);
     }
 
     /// Nothing may be running when the streams go.
@@ -137,12 +142,23 @@ class CudaBackend final : public Backend {
 
         const EffectMask effects = resident.camera().effects;
         const std::size_t variant = variant_for(variants, effects);
+        SceneKernels::Found linked;
+        if (specialise_ == Specialise::always) {
+            linked =
+                kernels_->find(job.tier, resident.view(), linked_facts(resident.view().scene, effects, job.limits));
+        }
         compute_.wait_for(resident.uploaded());
         memory->render_start.record(compute_.get());
         check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
-        kernels(job.tier).render(variant, resident.view(), pixel_job, static_cast<std::uint32_t>(job.height),
-                                 reinterpret_cast<Vec3d*>(memory->film.data()),
-                                 reinterpret_cast<DeviceCounters*>(memory->counters.data()), compute_.get());
+        auto* device_sums = reinterpret_cast<Vec3d*>(memory->film.data());
+        auto* counters = reinterpret_cast<DeviceCounters*>(memory->counters.data());
+        const auto height = static_cast<std::uint32_t>(job.height);
+        if (linked.kernel != nullptr) {
+            launch_linked(*linked.kernel, resident.view(), pixel_job, height, device_sums, counters, compute_.get());
+        } else {
+            kernels(job.tier).render(variant, resident.view(), pixel_job, height, device_sums, counters,
+                                     compute_.get());
+        }
         memory->render_end.record(compute_.get());
 
         download_.wait_for(memory->render_end);
@@ -154,7 +170,8 @@ class CudaBackend final : public Backend {
               "downloading counters");
         memory->download_end.record(download_.get());
 
-        const KernelFacts facts = kernels(job.tier).render_facts(variant, resident.view());
+        const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->function())
+                                                           : kernels(job.tier).render_facts(variant, resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         result.stats.rays = pixels * pixel_job.samples;
@@ -164,10 +181,12 @@ class CudaBackend final : public Backend {
         result.stats.occupancy = facts.occupancy;
         static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
         result.stats.effects = effects;
-        result.stats.carried = variants[variant].effects - effects;
-        result.stats.variant =
-            fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
-                        structure_names[static_cast<int>(structure_of(resident.view()))], variants[variant].name);
+        if (linked.kernel == nullptr) result.stats.carried = variants[variant].effects - effects - host_effects;
+        result.stats.seconds.compile = linked.seconds;
+        result.stats.warning = std::move(linked.warning);
+        result.stats.variant = fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
+                                           structure_names[static_cast<int>(structure_of(resident.view()))],
+                                           linked.kernel != nullptr ? "for the scene" : variants[variant].name);
         return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(result));
     }
 
@@ -194,6 +213,8 @@ class CudaBackend final : public Backend {
               "downloading hits");
     }
 
+    Specialise specialise_;
+    std::optional<SceneKernels> kernels_;
     cudaDeviceProp properties_{};
     Stream upload_, compute_, download_;
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
@@ -216,6 +237,8 @@ std::string why_cuda_unavailable() {
     return count > 0 ? "" : "there is no CUDA GPU";
 }
 
-std::unique_ptr<Backend> make_cuda_backend(const BackendOptions&) { return std::make_unique<CudaBackend>(); }
+std::unique_ptr<Backend> make_cuda_backend(const BackendOptions& options) {
+    return std::make_unique<CudaBackend>(options.specialise);
+}
 
 }  // namespace tandem

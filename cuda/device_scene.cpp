@@ -55,6 +55,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     camera_.orthographic = scene.orthographic;
     camera_.half_height = scene.half_height;
     camera_.effects = scene.effects;
+    camera_.lens = scene.lens;
     camera_.dropped_primitives = scene.dropped_primitives;
 
     const SceneView host = tandem::view(scene);
@@ -75,6 +76,12 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     const std::size_t materials = layout.add(scene.materials);
     const std::size_t optics = layout.add(scene.optics);
     const std::size_t lights = layout.add(scene.lights);
+    const std::size_t area_lights = layout.add(scene.area_lights);
+    const std::size_t texcoords = layout.add(scene.texcoords);
+    const std::size_t texels = layout.add(scene.textures.texels);
+    const std::size_t textures = layout.add(scene.textures.textures);
+    const std::size_t material_textures = layout.add(scene.textures.materials);
+    const std::size_t levels = layout.add(scene.textures.levels);
     const std::size_t nodes = layout.add(bvh.nodes);
     const std::size_t entry_spheres = layout.add(bvh.entry_spheres);
     const std::size_t entry_ids = layout.add(bvh.entry_ids);
@@ -93,6 +100,14 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     view_.scene.materials = reinterpret_cast<const PhongMaterial*>(base + materials);
     view_.scene.optics = reinterpret_cast<const Optics*>(base + optics);
     view_.scene.lights = reinterpret_cast<const PunctualLight*>(base + lights);
+    view_.scene.area_lights = reinterpret_cast<const AreaLight*>(base + area_lights);
+    view_.scene.texcoords = reinterpret_cast<const Vec2f*>(base + texcoords);
+    if (has_textures(view_.scene.textures)) {
+        view_.scene.textures = {reinterpret_cast<const std::uint32_t*>(base + texels),
+                                reinterpret_cast<const TextureDescriptor*>(base + textures),
+                                reinterpret_cast<const MaterialTextures*>(base + material_textures),
+                                reinterpret_cast<const float*>(base + levels)};
+    }
     if (!bvh.nodes.empty()) {
         view_.bvh.nodes = reinterpret_cast<const BvhNode*>(base + nodes);
         view_.bvh.entry_spheres = reinterpret_cast<const Sphere*>(base + entry_spheres);

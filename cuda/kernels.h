@@ -36,6 +36,9 @@ struct KernelFacts {
     double occupancy;  ///< resident warps over the most there can be
 };
 
+/// Of a render kernel. Throws if CUDA cannot tell.
+[[nodiscard]] KernelFacts kernel_facts(const void* kernel);
+
 /// The sets of effects that the render kernel is compiled for ahead of time.
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},

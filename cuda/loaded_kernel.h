@@ -23,26 +23,20 @@ class LoadedCode {
     /// For the runtime's functions that take a kernel: cudaFuncGetAttributes(), cudaOccupancy...().
     [[nodiscard]] const void* function() const { return kernel_; }
 
-  protected:
-    void start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream, void** arguments) const;
-
-  private:
-    cudaLibrary_t library_ = nullptr;
-    cudaKernel_t kernel_ = nullptr;
-};
-
-/// The same for a kernel of these parameters. They must be those of the kernel's source: nothing checks it.
-template <class... Parameters>
-class LoadedKernel : public LoadedCode {
-  public:
-    using LoadedCode::LoadedCode;
-
-    /// Starts it, and throws if that failed. `doing` completes "CUDA failed while ...".
+    /// Starts it, and throws if that failed. `doing` completes "CUDA failed while ...". The parameters must be of the
+    /// types of the kernel's source: nothing checks it.
+    template <class... Parameters>
     void launch(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,
                 Parameters... arguments) const {
         void* addresses[] = {&arguments...};
         start(doing, grid, block_threads, stream, addresses);
     }
+
+  private:
+    void start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream, void** arguments) const;
+
+    cudaLibrary_t library_ = nullptr;
+    cudaKernel_t kernel_ = nullptr;
 };
 
 }  // namespace tandem::cuda

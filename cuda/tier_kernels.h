@@ -7,15 +7,10 @@
 
 #include "cuda/kernels.h"
 #include "cuda/launch.h"
+#include "cuda/render_thread.h"
 
 namespace tandem::cuda {
 
-// A block covers 16 x 8 pixels as four warps of 8 x 4: neighbours in a warp see the same things.
-inline constexpr unsigned int warp_width = 8;
-inline constexpr unsigned int warp_height = 4;
-inline constexpr unsigned int block_width = 16;
-inline constexpr unsigned int block_height = 8;
-inline constexpr unsigned int block_threads = block_width * block_height;
 /// Blocks that must fit on a multiprocessor: 64 registers a thread. Measured on an H200 against 5, 6 and 7
 /// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
 template <class Real>
@@ -25,17 +20,7 @@ template <class Effects, class Real, class Tracer>
 __global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const unsigned int warp = threadIdx.x / 32;
-    const unsigned int lane = threadIdx.x % 32;
-    const std::uint32_t x =
-        blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width + lane % warp_width;
-    const std::uint32_t y =
-        blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
-    if (x >= job.width || y >= height) return;
-    const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true);
-    sums[static_cast<std::size_t>(y) * job.width + x] = pixel.sum;
-    if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
-    if (pixel.lost_media != 0) atomicAdd(&counters->lost_media, pixel.lost_media);
+    render_thread<Effects, Real>(tracer, job, height, sums, counters);
 }
 
 /// What a trace asks: the nearest hits of rays that leave nothing, of rays that leave surfaces, or only whether shadow
@@ -87,10 +72,6 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     return faces ? f(BvhTracerFor<all>{scene.scene, bvh}) : f(BvhTracerFor<bodies>{scene.scene, bvh});
 }
 
-inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
-    return static_cast<unsigned int>((items + per_block - 1) / per_block);
-}
-
 /// Calls f with the render kernel of a variant and the tracer that it is for.
 template <class Real, class F>
 auto with_render_kernel(std::size_t variant, const DeviceSceneView& scene, DeviceCounters* counters, F f) {
@@ -128,17 +109,7 @@ void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStre
 template <class Real>
 KernelFacts render_kernel_facts(std::size_t variant, const DeviceSceneView& scene) {
     return with_render_kernel<Real>(variant, scene, nullptr, [](auto* kernel, const auto&) {
-        cudaFuncAttributes attributes{};
-        check(cudaFuncGetAttributes(&attributes, kernel), "reading the facts of a kernel");
-        int blocks = 0;
-        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, block_threads, 0),
-              "reading the occupancy of a kernel");
-        int device = 0;
-        int threads = 1;
-        check(cudaGetDevice(&device), "finding the current GPU");
-        check(cudaDeviceGetAttribute(&threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), "reading GPU facts");
-        return KernelFacts{attributes.numRegs, static_cast<int>(attributes.localSizeBytes),
-                           static_cast<double>(blocks) * block_threads / threads};
+        return kernel_facts(reinterpret_cast<const void*>(kernel));
     });
 }
 

@@ -5,6 +5,7 @@
 
 #include "accuracy.h"
 #include "common/run_main.h"
+#include "effects.h"
 #include "hard.h"
 #include "output.h"
 #include "paper.h"
@@ -33,6 +34,7 @@ struct Everything {
     PaperOptions paper;
     TargetOptions targets;
     HardOptions hard;
+    EffectsOptions effects;
     bool list_targets = false;
 };
 
@@ -59,6 +61,20 @@ void add_backends_option(CLI::App& app, Options& options) {
     app.add_option("--backends", options.backends, "Which take part")->delimiter(',')->capture_default_str();
 }
 
+template <class Options>
+void add_tiers_option(CLI::App& app, Options& options) {
+    app.add_option("--tiers,--tier", options.tiers, "Which take part")->delimiter(',')->capture_default_str();
+}
+
+template <class Options>
+void add_round_options(CLI::App& app, Options& options) {
+    app.add_option("--threads", options.threads, "Of the CPU; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    app.add_option("--repetitions", options.repetitions, "Rounds")->capture_default_str()->check(CLI::Range(1, 1000));
+    app.add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
+}
+
 CLI::App* add_parity(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand("parity", "Does everything draw the same picture? Status 1 if not");
     command->add_option("SCENE", all.parity.scenes, "Files, or named:NAME")->capture_default_str();
@@ -81,13 +97,7 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
     command->add_option("--ray-edge", all.versus.ray_edge, "Trace the square of this many rays")
         ->capture_default_str()
         ->check(CLI::Range(1, 16384));
-    command->add_option("--threads", all.versus.threads, "Of the CPU; 0 is one per core")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 1024));
-    command->add_option("--repetitions", all.versus.repetitions, "Rounds")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--seed", all.versus.seed, "Of the random numbers")->capture_default_str();
+    add_round_options(*command, all.versus);
     return command;
 }
 
@@ -95,18 +105,12 @@ CLI::App* add_accuracy(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand("accuracy", "What each digit costs: every tier, its time beside its error");
     command->add_option("SCENE", all.accuracy.scenes, "Files, or named:NAME")->capture_default_str();
     add_backends_option(*command, all.accuracy);
-    command->add_option("--tiers", all.accuracy.tiers, "Which take part")->delimiter(',')->capture_default_str();
+    add_tiers_option(*command, all.accuracy);
     add_picture_options(*command, all.texts, all.accuracy);
     command->add_option("--rays", all.accuracy.rays, "Per kind of primitive")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 26));
-    command->add_option("--threads", all.accuracy.threads, "Of the CPU; 0 is one per core")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 1024));
-    command->add_option("--repetitions", all.accuracy.repetitions, "Rounds")
-        ->capture_default_str()
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--seed", all.accuracy.seed, "Of the random numbers")->capture_default_str();
+    add_round_options(*command, all.accuracy);
     return command;
 }
 
@@ -157,6 +161,16 @@ CLI::App* add_hard(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_effects(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand("effects", "What each effect of a scene costs, and what it buys");
+    command->add_option("SCENE", all.effects.scenes, "Files, or named:NAME");
+    add_backends_option(*command, all.effects);
+    add_tiers_option(*command, all.effects);
+    add_picture_options(*command, all.texts, all.effects);
+    add_round_options(*command, all.effects);
+    return command;
+}
+
 /// The command line as it can be typed again.
 std::string command_line(int count, const char* const* words) {
     std::string line = "tandem-bench";
@@ -195,6 +209,7 @@ int run(int count, char** words) {
     const CLI::App* paper = add_paper(app, all);
     const CLI::App* targets = add_targets(app, all);
     const CLI::App* hard = add_hard(app, all);
+    const CLI::App* effects = add_effects(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -231,6 +246,9 @@ int run(int count, char** words) {
         satisfied = run_targets(all.targets, source, report);
     } else if (hard->parsed()) {
         satisfied = run_hard(all.hard, source, report);
+    } else if (effects->parsed()) {
+        take_texts(all.texts, all.effects);
+        satisfied = run_effects(all.effects, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;

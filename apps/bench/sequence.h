@@ -42,7 +42,8 @@ struct SequenceTimes {
     [[nodiscard]] double render_share() const { return wall > 0 ? render / wall : 0; }
 };
 
-/// `job.frame` is set from the options. Errors of the encoding threads are thrown here.
+/// `job.frame` is set from the options. Each frame is one moment, without motion blur. Errors of the encoding threads
+/// are thrown here.
 [[nodiscard]] SequenceTimes render_sequence(Backend& backend, const Scene& scene, const RenderJob& job,
                                             const SequenceOptions& options);
 

@@ -55,12 +55,20 @@ Json describe_cameras(const Scene& scene) {
     Json cameras = Json::array();
     for (const Node& node : scene.nodes) {
         if (!node.camera) continue;
+        Json camera = {{"node", node.name}};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&*node.camera)) {
-            cameras.push_back({{"node", node.name}, {"type", "perspective"}, {"yfov_radians", perspective->yfov}});
+            camera.update({{"type", "perspective"},
+                           {"yfov_radians", perspective->yfov},
+                           {"aperture_radius_metres", perspective->lens.aperture_radius},
+                           {"focus_distance_metres", perspective->lens.focus_distance}});
         } else {
             const double ymag = std::get<OrthographicCamera>(*node.camera).ymag;
-            cameras.push_back({{"node", node.name}, {"type", "orthographic"}, {"ymag_metres", ymag}});
+            camera.update({{"type", "orthographic"}, {"ymag_metres", ymag}});
         }
+        const Shutter& shutter = shutter_of(*node.camera);
+        camera["shutter_seconds"] = {shutter.open, shutter.close};
+        camera["shutter_instants"] = shutter.instants;
+        cameras.push_back(std::move(camera));
     }
     return cameras;
 }
@@ -93,6 +101,7 @@ Json describe_materials(const Scene& scene) {
                              {"transmission", material.optics.transmission},
                              {"ior", material.optics.ior},
                              {"absorption", colour(material.optics.absorption)},
+                             {"emission", colour(material.optics.emission)},
                              {"priority", material.optics.priority}});
     }
     return materials;
@@ -152,12 +161,24 @@ std::string line_of_node(const Json& node) {
 }
 
 std::string line_of_camera(const Json& camera) {
+    std::string line;
     if (camera.contains("ymag_metres")) {
-        return fmt::format("{}, orthographic, {:g} m high", quoted(camera["node"]),
+        line = fmt::format("{}, orthographic, {:g} m high", quoted(camera["node"]),
                            2 * camera["ymag_metres"].get<double>());
+    } else {
+        line = fmt::format("{}, perspective, {:.4g} degrees high", quoted(camera["node"]),
+                           camera["yfov_radians"].get<double>() * 180 / std::numbers::pi);
+        if (const auto radius = camera["aperture_radius_metres"].get<double>(); radius > 0) {
+            line += fmt::format(", aperture {:g} m in radius, sharp at {:g} m", radius,
+                                camera["focus_distance_metres"].get<double>());
+        }
     }
-    return fmt::format("{}, perspective, {:.4g} degrees high", quoted(camera["node"]),
-                       camera["yfov_radians"].get<double>() * 180 / std::numbers::pi);
+    const auto open = camera["shutter_seconds"][0].get<double>(), close = camera["shutter_seconds"][1].get<double>();
+    if (close > open) {
+        line += fmt::format(", shutter open from {:g} s to {:g} s of a frame, {} instants", open, close,
+                            camera["shutter_instants"].get<int>());
+    }
+    return line;
 }
 
 std::string line_of_light(const Json& light) {
@@ -179,6 +200,7 @@ std::string line_of_material(const Json& material) {
                             material["transmission"].get<float>(), material["ior"].get<float>(),
                             components(material["absorption"]), material["priority"].get<std::uint32_t>());
     }
+    if (material["emission"] != black) line += ", emission " + components(material["emission"]);
     return line;
 }
 
@@ -210,7 +232,9 @@ Json describe(const std::string& specification, const Scene& scene, const Import
     description["materials"] = describe_materials(scene);
     description["environment"] = {{"bottom", colour(environment.bottom)},
                                   {"top", colour(environment.top)},
-                                  {"ambient", colour(environment.ambient)}};
+                                  {"ambient", colour(environment.ambient)},
+                                  {"illuminates", environment.illuminates != 0},
+                                  {"indirect", environment.indirect != 0}};
     description["animation"] = describe_animation(scene);
     description["report"] = std::move(notes);
     return description;
@@ -243,9 +267,11 @@ std::string to_text(const Json& description) {
     add_list(text, "lights", description["lights"], most_lines, line_of_light);
     add_list(text, "materials", description["materials"], most_lines, line_of_material);
     const Json& environment = description["environment"];
-    text += fmt::format("environment: gradient from {} at the bottom to {} at the top, ambient {}\n",
+    text += fmt::format("environment: gradient from {} at the bottom to {} at the top, ambient {}{}{}\n",
                         components(environment["bottom"]), components(environment["top"]),
-                        components(environment["ambient"]));
+                        components(environment["ambient"]),
+                        environment["illuminates"].get<bool>() ? ", lights surfaces" : "",
+                        environment["indirect"].get<bool>() ? ", indirect light" : "");
     const Json& animation = description["animation"];
     text += fmt::format("animation: {} channels, {} keys, {} frames at {:g} a second\n",
                         animation["channels"].get<std::size_t>(), animation["keys"].get<std::size_t>(),

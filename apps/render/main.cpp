@@ -25,6 +25,8 @@ struct Words {
     std::string effects;
     std::string limits = to_string(PathLimits{});
     std::string backend = "cpu";
+    std::string specialise = "always";
+    int instants = 0;  // 0: as the cameras say
 };
 
 void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
@@ -52,13 +54,20 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_option("--effects", words.effects,
                    "force effects on or off, as in -shadows,+refraction; all or none. What the scene calls for if not "
                    "given");
-    app.add_option("--limits", words.limits, "how often a path may be reflected and refracted")
-        ->type_name("R,T")
+    app.add_option("--shutter-instants", words.instants,
+                   "at how many moments of an open shutter a frame is rendered, but no more than samples; what the "
+                   "camera says if not given")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--limits", words.limits, "how often a path may be reflected, refracted and scattered")
+        ->type_name("R,T,D")
         ->capture_default_str();
     app.add_option("--backend", words.backend, "cpu, cuda or oracle")->capture_default_str();
     app.add_option("--tier", words.tier, "accuracy tier")->capture_default_str();
     app.add_option("--threads", backend.threads, "of the CPU backends; 0: one per core")
         ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+    app.add_option("--specialise", words.specialise, "GPU: make a kernel for the scene always, or never")
         ->capture_default_str();
     app.add_option("--json", command.json, "write times, hashes and counts there; - is standard output");
     app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as P3 text instead of P6");
@@ -105,10 +114,12 @@ int render(int argc, char** argv) {
 
     const std::atomic<bool>& interrupted = watch_interrupts();
     ImportReport import;
-    const Scene scene = load_scene(command.scene, &import);
+    Scene scene = load_scene(command.scene, &import);
+    if (words.instants > 0) set_shutter_instants(scene, words.instants);
     if (!command.quiet) say_what_is_not_rendered(import);
     sequence.frames = frames_of(words, scene);
     check_output(sequence);
+    backend_options.specialise = parse_specialise(words.specialise);
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     return run_render(command, scene, *backend, interrupted);
 }

@@ -12,6 +12,7 @@ std::string frame_line(const FrameRecord& record) {
     std::string line = fmt::format("frame {}  {}  {}", record.metadata.frame, record.metadata.film_sha256, record.file);
     if (record.skipped) line += "  kept";
     for (const std::string& clause : in_words(record.counters)) line += "  " + clause;
+    if (!record.warning.empty()) line += "  " + record.warning;
     if (record.nan_values > 0) line += fmt::format("  {} values are NaN, written as 0", record.nan_values);
     return line;
 }
@@ -26,9 +27,13 @@ nlohmann::ordered_json frame_json(const FrameRecord& record) {
     json["variant"] = record.variant;
     json["effects"] = to_string(record.effects);
     json["carried"] = to_string(record.carried);
+    if (record.registers > 0) json["registers"] = record.registers;
+    if (record.occupancy > 0) json["occupancy"] = record.occupancy;
+    if (!record.warning.empty()) json["warning"] = record.warning;
     const FrameSeconds& seconds = record.seconds;
     json["seconds"] = {{"prepare", seconds.prepare},
                        {"build", seconds.backend.build},
+                       {"compile", seconds.backend.compile},
                        {"upload", seconds.backend.upload},
                        {"render", seconds.backend.render},
                        {"download", seconds.backend.download},

@@ -13,7 +13,8 @@
 
 #include "render/frame_pattern.h"
 #include "tandem/error/error.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/render/motion_blur.h"
+#include "tandem/render/ready_frame.h"
 #include "tandem/version/version.h"
 
 namespace tandem {
@@ -112,31 +113,64 @@ class Sequence {
     struct Started {
         FrameRecord record;
         std::unique_ptr<PendingFrame> pending;
+        EffectMask on_host;  ///< FramePlan::effects
     };
 
     void start(std::int32_t frame) {
-        Stopwatch watch;
-        const PreparedScene prepared =
-            prepare(scene_, {.frame = frame, .camera = options_.camera, .effects = options_.effects});
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
+        const FramePlan plan =
+            plan_frame(scene_, {.frame = frame, .camera = options_.camera, .effects = options_.effects}, job);
         FrameRecord record;
         record.file = pattern_.path(job.frame);
+        if (is_blurred(plan)) {
+            start_blurred(plan, job, std::move(record));
+        } else {
+            start_still(plan, job, std::move(record));
+        }
+    }
+
+    void start_still(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
+        Stopwatch watch;
+        const PreparedScene prepared = prepare(scene_, plan.instants.front().prepare);
         record.metadata = describe(job, scene_hash(prepared));
         record.seconds.prepare = watch.lap();
-        if (!options_.force) {
-            if (auto finished = finished_frame(record.file, format_, record.metadata)) {
-                record.metadata = std::move(*finished);
-                record.skipped = true;
-                started_.push_back({std::move(record), nullptr});
-                return;
-            }
-        }
+        if (is_finished(record)) return;
         while (with_backend_ >= most_with_backend) pass_to_writer();
         make_resident(prepared, job.tier, record);
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
-        started_.push_back({std::move(record), std::move(pending)});
+        started_.push_back({std::move(record), std::move(pending), plan.effects});
+    }
+
+    /// At once: two instants are with the backend at a time, and no other frame.
+    void start_blurred(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
+        std::error_code ignored;
+        if (!options_.force && std::filesystem::exists(record.file, ignored)) {
+            record.metadata = describe(job, frame_hash(scene_, plan));
+            if (is_finished(record)) return;
+        }
+        while (with_backend_ > 0) pass_to_writer();
+        resident_.reset();
+        FrameHash hash(plan);
+        RenderedFrame frame = render_frame(backend_, scene_, plan, &hash);
+        record.metadata = describe(job, hash.get());
+        record.seconds.prepare = frame.prepare;
+        record.seconds.backend = frame.load;
+        ++with_backend_;
+        started_.push_back({std::move(record), std::make_unique<ReadyFrame>(std::move(frame.result)), plan.effects});
+        while (with_backend_ > 0) pass_to_writer();
+    }
+
+    /// Is the file there already? Then nothing is to be done for it.
+    bool is_finished(FrameRecord& record) {
+        if (options_.force) return false;
+        auto finished = finished_frame(record.file, format_, record.metadata);
+        if (!finished) return false;
+        record.metadata = std::move(*finished);
+        record.skipped = true;
+        started_.push_back({std::move(record), nullptr, {}});
+        return true;
     }
 
     ImageMetadata describe(const RenderJob& job, std::string scene_hash) const {
@@ -176,12 +210,16 @@ class Sequence {
         PhaseTimes& seconds = record.seconds.backend;
         seconds.build += result.stats.seconds.build;
         seconds.upload += result.stats.seconds.upload;
+        seconds.compile = result.stats.seconds.compile;
         seconds.render = result.stats.seconds.render;
         seconds.download = result.stats.seconds.download;
         record.counters = result.stats.counters;
         record.variant = result.stats.variant;
-        record.effects = result.stats.effects;
+        record.effects = result.stats.effects | frame.on_host;
         record.carried = result.stats.carried;
+        record.registers = result.stats.registers;
+        record.occupancy = result.stats.occupancy;
+        record.warning = result.stats.warning;
         while (writing_.size() >= most_writing_) report_first();
         writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),
                                       format_, options_.write));

@@ -27,7 +27,7 @@ struct SequenceOptions {
 
 /// Where the time of a frame went, in seconds. Frames overlap, so the sums are more than the wall time.
 struct FrameSeconds {
-    double prepare = 0;  ///< scene to flat arrays, and their hash
+    double prepare = 0;  ///< scene to flat arrays, and their hash; for all instants of a frame with motion blur
     PhaseTimes backend;  ///< zero build and upload where the scene is that of the frame before
     double hash = 0;     ///< SHA-256 of the film
     double encode = 0;   ///< means, tone curve, compression
@@ -44,13 +44,16 @@ struct FrameRecord {
     // of RenderStats
     std::string variant{};
     EffectMask effects{}, carried{};
+    int registers = 0;
+    double occupancy = 0;
+    std::string warning{};
 };
 
 /// Calls `on_frame` for each frame that is done, in order, on the calling thread, as soon as its file is there.
 ///
-/// Two frames are with the backend at a time; hashing, encoding and writing run in other threads meanwhile, as many at
-/// a time as there are writers (fewer where films are large).
-/// A frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
+/// Two frames are with the backend at a time, or two instants of a frame with motion blur; hashing, encoding and
+/// writing run in other threads meanwhile, as many at a time as there are writers (fewer where films are large). A
+/// frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
 /// same scene hash, frame, size, samples, seed, limits, tier and version. The backend may differ: films are equal.
 /// Once `interrupted` is set no frame is started; those in flight are finished and written.
 ///

@@ -133,7 +133,7 @@ struct BvhTracerFor {
         }
         if (overflow) [[unlikely]] {
             bvh_detail::count(bvh.stack_overflows);
-            best = bvh_detail::try_all<kinds>(scene, ray, source, best);
+            if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
         }
     }
 
@@ -150,7 +150,8 @@ struct BvhTracerFor {
             }
             const std::uint32_t id = bvh.entry_ids[i];
             const Double<Real> t_before = best.t;
-            if (id < scene.sphere_count) {
+            if (may_have(PrimitiveKinds::sphere) &&
+                (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
                 decide(around, id, filter.ray, source, true, best);
             } else {
                 intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);

@@ -1,7 +1,8 @@
-/// Cameras that send straight rays: pinhole (perspective) and orthographic.
+/// Cameras: perspective, through a pinhole or a thin lens, and orthographic.
 #pragma once
 
 #include "tandem/math/ray.h"
+#include "tandem/sampler/warp.h"
 
 namespace tandem {
 
@@ -18,6 +19,12 @@ struct CameraView {
     Vec3d direction_dx;
     Vec3d direction_dy;
     bool orthographic;
+    // of a thin lens; not for orthographic cameras
+    bool has_lens = false;
+    Vec3d lens_x{0, 0, 0}, lens_y{0, 0, 0};  ///< its radius, to the right and upwards
+    double inverse_focus = 0;                ///< 1 / depth of the plane that is sharp, 1/metres
+    double rotation = 0;                     ///< of the aperture's first corner, in turns
+    std::int32_t blades = 0;                 ///< of the aperture; 0: round
 };
 
 /// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
@@ -41,6 +48,18 @@ TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pix
     ray.direction = camera.orthographic ? constant<Real>(camera.direction)
                                         : at(camera.direction, camera.direction_dx, camera.direction_dy);
     return ray;
+}
+
+/// The camera ray through the point of the lens that u and v of [0, 1) choose: it meets the other at the plane that is
+/// sharp, since the directions of camera rays are as long as that plane at distance 1 is away.
+/// Source: R. Cook, T. Porter, L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, sec. 3.2: the thin lens.
+template <class Real>
+TANDEM_HD Ray<Real> through_lens(const CameraView& camera, const Ray<Real>& ray, const Real& u, const Real& v) {
+    using D = Double<Real>;
+    const Vec2<D> point = sample_aperture<Real>(camera.blades, constant<D>(camera.rotation), widen(u), widen(v));
+    const Vec3<D> offset = constant<D>(camera.lens_x) * point.x + constant<D>(camera.lens_y) * point.y;
+    const D inverse_focus = constant<D>(camera.inverse_focus);
+    return {to_real<Real>(widen(ray.origin) + offset), to_real<Real>(widen(ray.direction) - offset * inverse_focus)};
 }
 
 }  // namespace tandem

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tandem/scene/motion.h"
+
 namespace tandem {
 
 namespace {
@@ -48,7 +50,46 @@ void add_light(const LightSource& light, const std::string& name, Needs& needs) 
     }
 }
 
+void add_pictures(const PreparedTextures& textures, std::size_t material, const std::string& name, Needs& needs) {
+    if (textures.materials.empty()) return;
+    const MaterialTextures& of_material = textures.materials[material];
+    if (has_colours(textures, of_material.diffuse)) needs.add(Effect::textures, name + " has a texture");
+    if (of_material.normal.texture != no_texture) needs.add(Effect::normal_maps, name + " has a normal map");
+    if (of_material.alpha_cutoff > 0) needs.add(Effect::cutouts, name + " is cut out by its alpha");
+}
+
+void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& needs) {
+    if (scene.environment.indirect != 0) needs.add(Effect::indirect, "the environment asks for indirect light");
+    if (prepared.roulette_from != PreparedScene::never) {
+        needs.add(Effect::roulette, "paths of indirect light may be long");
+    }
+    if (scene.environment.illuminates != 0) {
+        needs.add(Effect::environment_light, "the environment lights surfaces");
+        const bool by_shadow_rays = scene.environment.indirect == 0 && prepared.area_light_shadows;
+        if (by_shadow_rays) needs.add(Effect::shadows, "the environment casts shadows");
+    }
+    if (prepared.lens.aperture_radius > 0 && !prepared.orthographic) {
+        needs.add(Effect::lens,
+                  fmt::format("the camera has an aperture of radius {:g} m", prepared.lens.aperture_radius));
+    }
+}
+
+void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs) {
+    const Shutter& shutter = prepared.shutter;
+    if (!is_open(shutter)) return;
+    const std::size_t camera = prepared.camera_node;
+    const std::string opens =
+        fmt::format("{} has its shutter open for {:g} s, in which ", label("camera", scene.nodes[camera].name, camera),
+                    shutter.close - shutter.open);
+    for (const std::size_t node : nodes_in_motion(scene, camera, prepared.time)) {
+        const std::string what = node == camera ? "it" : label("node", scene.nodes[node].name, node);
+        needs.add(Effect::motion_blur, opens + what + " moves");
+    }
+}
+
 void add_material(const Optics& optics, const std::string& name, Needs& needs) {
+    const float glow = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
+    if (glow > 0) needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
     const float mirror = std::max({optics.mirror.x, optics.mirror.y, optics.mirror.z});
     if (mirror > 0) needs.add(Effect::reflection, fmt::format("{} is a mirror of reflectance {:g}", name, mirror));
     if (!(optics.transmission > 0)) return;
@@ -65,13 +106,24 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     Needs needs;
     std::vector<bool> used(scene.materials.size(), false);
     for (const std::uint32_t material : prepared.material_of) used[material] = true;
-    if (prepared.material_of.empty()) return {};  // nothing receives light
+    add_motion(scene, prepared, needs);
+    if (prepared.material_of.empty()) return needs.take();  // nothing receives light
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.light && is_lit(*node.light)) add_light(*node.light, label("light", node.name, i), needs);
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        if (used[i]) add_material(scene.materials[i].optics, label("material", scene.materials[i].name, i), needs);
+        if (!used[i]) continue;
+        const std::string name = label("material", scene.materials[i].name, i);
+        add_material(scene.materials[i].optics, name, needs);
+        add_pictures(prepared.textures, i, name, needs);
+    }
+    add_surroundings(scene, prepared, needs);
+    if (!prepared.area_lights.empty()) {
+        const std::uint32_t first = prepared.material_of[prepared.area_lights.front().primitive];
+        const std::string name = label("material", scene.materials[first].name, first);
+        needs.add(Effect::area_lights, name + " lights through its surface");
+        if (prepared.area_light_shadows) needs.add(Effect::shadows, name + " casts shadows");
     }
     if (prepared.media_overlap) {
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -89,8 +141,29 @@ EffectMask mask_of(const std::vector<EffectNeed>& needs) {
     return mask;
 }
 
+namespace {
+
+/// Takes the picture away but for its alpha, if that cuts.
+void remove_colours(Scene& scene, Material& material) {
+    if (!material.diffuse_texture) return;
+    if (material.alpha_mode == AlphaMode::opaque) return material.diffuse_texture.reset();
+    Texture texture = scene.textures[material.diffuse_texture->texture];
+    Image image = scene.images[texture.image];
+    for (std::uint32_t& texel : image.texels) texel |= 0x00FFFFFFU;
+    texture.image = static_cast<std::uint32_t>(scene.images.size());
+    material.diffuse_texture->texture = static_cast<std::uint32_t>(scene.textures.size());
+    scene.images.push_back(std::move(image));
+    scene.textures.push_back(texture);
+}
+
+}  // namespace
+
 Scene without_effects(Scene scene, EffectMask off) {
     for (Node& node : scene.nodes) {
+        if (node.camera && off.has(Effect::motion_blur)) shutter_of(*node.camera) = {};
+        if (node.camera && off.has(Effect::lens)) {
+            if (auto* perspective = std::get_if<PerspectiveCamera>(&*node.camera)) perspective->lens = {};
+        }
         if (!node.light) continue;
         if (off.has(Effect::shadows)) node.light->casts_shadows = false;
         if (off.has(Effect::inverse_square)) node.light->inverse_square = false;
@@ -100,9 +173,18 @@ Scene without_effects(Scene scene, EffectMask off) {
     for (Material& material : scene.materials) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
         if (off.has(Effect::refraction)) material.optics.transmission = 0;
+        if (off.has(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
+        if (off.has(Effect::textures)) remove_colours(scene, material);
+        if (off.has(Effect::normal_maps)) material.normal_texture.reset();
+        if (off.has(Effect::emission)) material.optics.emission = {0, 0, 0};
         if (off.has(Effect::absorption)) material.optics.absorption = {0, 0, 0};
     }
     if (off.has(Effect::nested_media)) scene.bodies_lie_apart = true;
+    if (off.has(Effect::area_lights)) scene.area_lights = false;
+    if (off.has(Effect::shadows)) scene.area_light_shadows = false;
+    if (off.has(Effect::environment_light)) scene.environment.illuminates = 0;
+    if (off.has(Effect::indirect)) scene.environment.indirect = 0;
+    if (off.has(Effect::roulette)) scene.roulette = false;
     return scene;
 }
 

@@ -15,6 +15,10 @@ struct EffectNeed {
     std::string reason;  ///< a clause that names the material, light or camera: "material 'glass' has transmission 1"
 };
 
+/// Effects that are not simulated by kernels but around them, on the host: kernels neither have code for them nor carry
+/// it. PreparedScene::effects is without them.
+inline constexpr EffectMask host_effects = Effect::motion_blur;
+
 /// In the order of effects.def. A pure function of the scene and what prepare() made of it; what no ray can meet, such
 /// as a material without a primitive or a light without intensity, calls for nothing.
 [[nodiscard]] std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& prepared);

@@ -8,13 +8,13 @@
 namespace tandem {
 
 enum class Effect : std::uint32_t {
-#define TANDEM_EFFECT(name, words, adds) name,
+#define TANDEM_EFFECT(name, adds) name,
 #include "tandem/effects/effects.def"
 #undef TANDEM_EFFECT
 };
 
 inline constexpr std::uint32_t effect_count = 0
-#define TANDEM_EFFECT(name, words, adds) +1
+#define TANDEM_EFFECT(name, adds) +1
 #include "tandem/effects/effects.def"
 #undef TANDEM_EFFECT
     ;
@@ -32,6 +32,7 @@ class EffectMask {
 
     [[nodiscard]] TANDEM_HD constexpr std::uint32_t bits() const { return bits_; }
     [[nodiscard]] TANDEM_HD constexpr bool has(Effect effect) const { return (bits_ & EffectMask(effect).bits_) != 0; }
+    [[nodiscard]] TANDEM_HD constexpr bool has_any(EffectMask of) const { return (bits_ & of.bits_) != 0; }
     [[nodiscard]] TANDEM_HD constexpr bool covers(EffectMask other) const { return (other.bits_ & ~bits_) == 0; }
     [[nodiscard]] TANDEM_HD constexpr bool empty() const { return bits_ == 0; }
 
@@ -53,15 +54,37 @@ TANDEM_HD constexpr EffectMask operator|(Effect a, Effect b) { return EffectMask
 inline constexpr EffectMask all_effects = EffectMask::from_bits((1U << effect_count) - 1);
 
 /// A set that is known when a kernel is compiled: what it does not have leaves no code. Kernels ask has() of the type.
+/// Another type may know its set only when it is linked (cuda/linked_facts.h): `most` is what it can have.
 template <std::uint32_t bits>
 struct EffectSet {
-    [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return EffectMask::from_bits(bits).has(effect); }
+    static constexpr EffectMask most = EffectMask::from_bits(bits);
+    [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return most.has(effect); }
+    [[nodiscard]] TANDEM_HD static constexpr bool has_any(EffectMask of) { return most.has_any(of); }
+    /// What a scene or a job says: a kernel that is linked for it has it as a constant.
+    template <class T>
+    [[nodiscard]] TANDEM_HD static constexpr const T& light_count(const T& count) {
+        return count;
+    }
+    template <class T>
+    [[nodiscard]] TANDEM_HD static constexpr const T& limits(const T& limits) {
+        return limits;
+    }
 };
 
-/// Does a path go on behind its first vertex?
+/// What makes a path go on behind its first vertex.
+inline constexpr EffectMask bouncing_effects =
+    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect;
+
+/// Can a path go on behind its first vertex? For types.
+template <class Effects>
+TANDEM_HD constexpr bool can_bounce() {
+    return Effects::most.has_any(bouncing_effects);
+}
+
+/// Does it?
 template <class Effects>
 TANDEM_HD constexpr bool has_bounces() {
-    return Effects::has(Effect::reflection) || Effects::has(Effect::refraction);
+    return Effects::has_any(bouncing_effects);
 }
 
 }  // namespace tandem

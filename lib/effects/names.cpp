@@ -32,7 +32,7 @@ EffectMask parse_name(std::string_view name) {
 
 const std::vector<EffectName>& effect_names() {
     static const std::vector<EffectName> names = {
-#define TANDEM_EFFECT(name, words, adds) {Effect::name, #name, words, adds},
+#define TANDEM_EFFECT(name, adds) {Effect::name, #name, adds},
 #include "tandem/effects/effects.def"
 #undef TANDEM_EFFECT
     };

@@ -11,9 +11,8 @@ namespace tandem {
 
 struct EffectName {
     Effect effect;
-    const char* name;   ///< as on command lines and in JSON
-    const char* words;  ///< as in sentences
-    const char* adds;   ///< what it costs
+    const char* name;  ///< as on command lines and in JSON
+    const char* adds;  ///< what it costs
 };
 
 /// All of them, in the order of their bits.

@@ -68,7 +68,7 @@ FilmDifference compare(const Film& a, const Film& b) {
     }
     FilmDifference result;
     result.pixels = a.pixel_count();
-    double total = 0;
+    double total = 0, squares = 0;
     for (std::size_t i = 0; i < result.pixels; ++i) {
         if (!same_bits(a.sums()[i], b.sums()[i])) ++result.differing_sums;
         const Vec3f p = a.mean(i), q = b.mean(i);
@@ -83,9 +83,12 @@ FilmDifference compare(const Film& a, const Film& b) {
                                distance(double{p.z}, double{q.z})}) {
             result.largest = std::max(result.largest, d);
             total += d;
+            squares += d * d;
         }
     }
-    result.mean = total / static_cast<double>(3 * result.pixels);
+    const auto values = static_cast<double>(3 * result.pixels);
+    result.mean = total / values;
+    result.rms = std::sqrt(squares / values);
     return result;
 }
 

@@ -31,6 +31,7 @@ struct FilmDifference {
     std::array<std::size_t, tolerances.size()> differing_means{};  ///< pixels, by Tolerance
     double largest = 0;  ///< absolute difference of the means over all channels; infinite if only one of two is a NaN
     double mean = 0;     ///< the same, mean over all channels
+    double rms = 0;      ///< root of the mean square of the same
 
     /// The paper's residual rate, as a point of the curve over tolerances: the share of pixels, from 0 to 1.
     [[nodiscard]] double residual_rate(Tolerance tolerance) const {

@@ -67,10 +67,10 @@ TANDEM_HD_RARE Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Doubl
 /// Source: T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986; A. Williams et al., "An Efficient and Robust
 ///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Bound held by tests/unit/geometry/box_test.cpp.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
-                                                               const Vec3<Double<Real>>& upper,
-                                                               const Vec3<Double<Real>>& origin,
-                                                               const Vec3<Double<Real>>& direction) {
+requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Double<Real>> lower,
+                                                                      Vec3<Double<Real>> upper,
+                                                                      Vec3<Double<Real>> origin,
+                                                                      Vec3<Double<Real>> direction) {
     using D = Double<Real>;
     const D zero(0.0);
     const D infinity(__builtin_huge_val());

@@ -21,9 +21,9 @@ TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Re
 template <class Real, class From, class Primitive>
 TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
                       const Mask<Real>& candidate, Closest<Real>& best) {
-    Double<Real> t;
-    const Mask<Real> hit = first_from(source, primitive, id, ray, t);
-    offer<Real>(hit && candidate, t, UInt<Real>(id), best);
+    Double<Real> t(0.0);
+    const Mask<Real> hit = first_from(source, primitive, id, ray, candidate, t);
+    offer<Real>(hit, t, UInt<Real>(id), best);
 }
 
 // The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than
@@ -121,8 +121,10 @@ struct LoopTracerFor {
                 intersect(primitives[i], id, f, source, active, best);
             }
         };
-#define TANDEM_PRIMITIVE(Type, name, names) \
-    if constexpr ((kinds & PrimitiveKinds::name) != 0) try_all(scene.names, scene.name##_count);
+#define TANDEM_PRIMITIVE(Type, name, names)                                           \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                              \
+        if (may_have(PrimitiveKinds::name)) try_all(scene.names, scene.name##_count); \
+    }
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     }

@@ -177,7 +177,7 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const Vec2f* t
     const Vec2f b = own ? Vec2f{1, 0} : texcoords[corner + 1];
     const Vec2f c = own ? Vec2f{1, 1} : texcoords[corner + 2];
     const Vec2f d = own ? Vec2f{0, 1} : texcoords[corner + 3];
-    const Mask<Real> first = is_in_first_half(quad, ray, t);
+    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
     Parametrisation<Real> result{};
     if (any(here && first)) {
         result = parametrisation_detail::on_triangle<Real>(quad.v0, quad.v1, quad.v2, a, b, c, ray, here && first);

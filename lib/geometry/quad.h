@@ -24,20 +24,22 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
 /// The nearer of where a line meets the two triangles, which share the diagonal: as watertight there as two triangles
 /// of a mesh. Everything else as first_in_front() of a triangle. Held by tests/unit/geometry/quad_test.cpp.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t) {
-    Double<Real> t_second;
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t);
-    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second);
+TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true)) {
+    Double<Real> t_second(0.0);
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active);
+    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active);
     t = select(second && !(first && t <= t_second), t_second, t);
     return first || second;
 }
 
-/// Which of the two triangles a ray meets at t, in the lanes where first_in_front() gave t: the first one on the
-/// diagonal.
+/// Which of the two triangles a ray meets at t, in the lanes of `here`, where first_in_front() gave t: the first one on
+/// the diagonal.
 template <class Real>
-TANDEM_HD Mask<Real> is_in_first_half(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t) {
-    Double<Real> t_first;
-    return first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first) && t_first == t;
+TANDEM_HD Mask<Real> is_in_first_half(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
+                                      const Mask<Real>& here = Mask<Real>(true)) {
+    Double<Real> t_first(0.0);
+    return first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
 }
 
 /// Coordinates on a quad, 0 to 1 along v0 v1 and v0 v3, affine in each triangle and the same on both sides of the

@@ -4,7 +4,7 @@
 ///
 /// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
 /// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met
-/// again by a ray that leaves them. A new kind adds one overload of first_or_far().
+/// again by a ray that leaves them. A new kind of body adds one overload of first_or_far().
 #pragma once
 
 #include "tandem/geometry/affine.h"
@@ -92,16 +92,8 @@ TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& r
     return first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
 }
 
-// Flat ones are not met again by a ray that leaves them, to either side; nor is a quad, even if it is folded.
-template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Triangle& triangle, const Ray<Real>& ray, const Mask<Real>& own,
-                                  Double<Real>& t) {
-    return first_in_front(triangle, ray, t) && !own;
-}
-template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Quad& quad, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
-    return first_in_front(quad, ray, t) && !own;
-}
+template <class Primitive>
+inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_same_v<Primitive, Quad>;
 
 /// Where is a hit on primitive `id` the far side of what the ray left inward?
 template <class Real>
@@ -113,26 +105,35 @@ TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
     return Mask<Real>(false);
 }
 
-/// The first point of primitive `id` in front of a ray that comes from `source`.
+/// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
-                                Double<Real>& t) {
-    return first_in_front(primitive, ray, t);
+                                const Mask<Real>& active, Double<Real>& t) {
+    if constexpr (is_face<Primitive>) {
+        return first_in_front(primitive, ray, t, active);
+    } else {
+        return first_in_front(primitive, ray, t) && active;
+    }
 }
 
+// Flat ones are not met again by a ray that leaves them, to either side; nor is a quad, even if it is folded. That
+// comes first: at its origin a ray is where only exact arithmetic can decide.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, Double<Real>& t) {
+                                const Ray<Real>& ray, const Mask<Real>& active, Double<Real>& t) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
-    return first_or_far(primitive, ray, own, t) && (!own || source.inside);
+    if constexpr (is_face<Primitive>) {
+        return first_in_front(primitive, ray, t, active && !own);
+    } else {
+        return first_or_far(primitive, ray, own, t) && active && (!own || source.inside);
+    }
 }
 
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, Double<Real>& t) {
+                                const Ray<Real>& ray, const Mask<Real>& active, Double<Real>& t) {
     const Source<Real>& surface = source;
-    const Mask<Real> hit = first_from(surface, primitive, id, ray, t);
-    return hit && source.light != UInt<Real>(id);
+    return first_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), t);
 }
 
 }  // namespace tandem

@@ -51,7 +51,7 @@ template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const Vec3f* normals, const Ray<Real>& ray,
                                             const Double<Real>& t, const Mask<Real>& here) {
     const bool double_sided = quad.attributes.double_sided != 0;
-    const Mask<Real> first = is_in_first_half(quad, ray, t);
+    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
     Vec3<Double<Real>> normal{};
     if (any(here && first)) {
         normal = shading_normal<Real>(quad.v0, quad.v1, quad.v2, normals, 1, double_sided, ray, here && first);

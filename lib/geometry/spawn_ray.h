@@ -49,14 +49,15 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
 }  // namespace spawn_detail
 
 // The point of a primitive at a hit. `t` is the one that the tracer found; `exits`: it is the far side of the primitive
-// that the ray left inward, so the ray comes from within, whatever rounding has done to its origin.
+// that the ray left inward, so the ray comes from within, whatever rounding has done to its origin. The last one: the
+// lanes that matter.
 
 // For closed bodies `from_inside` follows from where the ray starts, so that a ray that grazes a body enters it before
 // it leaves it.
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits) {
+                                           const Mask<Real>& exits, const Mask<Real>&) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = sphere_normal(sphere, ray, t);
@@ -69,7 +70,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits) {
+                                           const Mask<Real>& exits, const Mask<Real>&) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     const Vec3<D> direction = widen(ray.direction);
@@ -92,7 +93,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray,
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits) {
+                                           const Mask<Real>& exits, const Mask<Real>&) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = ellipsoid_normal(body, ray, t);
@@ -106,7 +107,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits) {
+                                           const Mask<Real>& exits, const Mask<Real>&) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = parallelepiped_normal(body, ray, exits);
@@ -148,15 +149,15 @@ TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Triangle& triangle, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&) {
+                                           const Mask<Real>&, const Mask<Real>&) {
     const auto normal = geometric_normal<Real>(triangle.v0, triangle.v1, triangle.v2);
     return spawn_detail::plane_point(triangle.v0, normal, ray, t);
 }
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&) {
-    const Mask<Real> first = is_in_first_half(quad, ray, t);
+                                           const Mask<Real>&, const Mask<Real>& here) {
+    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
     const auto a = geometric_normal<Real>(quad.v0, quad.v1, quad.v2);
     const auto b = geometric_normal<Real>(quad.v0, quad.v2, quad.v3);
     // both halves have the corner v0
@@ -167,28 +168,34 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ra
 /// that it may be of.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
-                                              const From& source, const Double<Real>& t) {
+                                              const From& source, const Double<Real>& t,
+                                              const Mask<Real>& here = Mask<Real>(true)) {
     const Mask<Real> exits = leaves_inward<Real>(source, id);
     SurfacePoint<Real> point;
     visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
-        point = surface_point(primitive, ray, t, exits);
+        point = surface_point(primitive, ray, t, exits, here);
     });
     point.primitive = UInt<Real>(id);
     return point;
 }
 
+/// Puts `own` into the lanes of `here`.
+template <class Real>
+TANDEM_HD void keep(const Mask<Real>& here, const SurfacePoint<Real>& own, SurfacePoint<Real>& point) {
+    point.position = select(here, own.position, point.position);
+    point.normal = select(here, own.normal, point.normal);
+    point.clearance = select(here, own.clearance, point.clearance);
+    point.from_inside = select(here, own.from_inside, point.from_inside);
+    point.primitive = select(here, own.primitive, point.primitive);
+}
+
 /// The point of a scene at `hit`, which `ray` from `source` found, in the lanes of `found`.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
-TANDEM_HD SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                           const Closest<Real>& hit, const Mask<Real>& found) {
+TANDEM_HD_STEP SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                                const Closest<Real>& hit, const Mask<Real>& found) {
     SurfacePoint<Real> result = {ray.origin, widen(ray.direction)};
     for_each_value(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const SurfacePoint<Real> point = surface_point_of<kinds>(scene, id, ray, source, hit.t);
-        result.position = select(here, point.position, result.position);
-        result.normal = select(here, point.normal, result.normal);
-        result.clearance = select(here, point.clearance, result.clearance);
-        result.from_inside = select(here, point.from_inside, result.from_inside);
-        result.primitive = select(here, UInt<Real>(id), result.primitive);
+        keep(here, surface_point_of<kinds>(scene, id, ray, source, hit.t, here), result);
     });
     return result;
 }

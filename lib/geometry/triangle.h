@@ -203,9 +203,10 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
 
-/// The parameter of the hit, or infinity for a miss.
+/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not looked at twice.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray) {
+requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray,
+                                                               Mask<Real> active) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D least = lesser(lesser(w.w0, w.w1), w.w2);
@@ -218,6 +219,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
         t = select(inside && plane.in_front && !plane.doubtful, plane.t, t);
         doubtful = doubtful || (inside && plane.doubtful);
     }
+    doubtful = doubtful && active;
     if (any(doubtful)) [[unlikely]] {
         for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
             if (lane(doubtful, i)) set_lane(t, i, exact_parameter(v0, v1, v2, one_ray(ray, i)));
@@ -229,7 +231,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
 /// The same in the tier fast: in float, and no second look. A line through an edge may miss both of its triangles.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD Real
-    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&) {
     const RoughCrossing<Real> crossing(v0, v1, v2, ray);
     const Real zero(0.0F);
     const Mask<Real> inside =
@@ -259,7 +261,8 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 
 }  // namespace triangle_detail
 
-/// Where a line meets the closed triangle (v0, v1, v2) in front of its origin; `t` is valid where the result is true.
+/// Where a line, in the lanes of `active`, meets the closed triangle (v0, v1, v2) in front of its origin; `t` is valid
+/// where the result is true.
 ///
 /// Needs: finite vertices, a traceable ray (is_traceable()).
 /// Gives: the right decision between hit and miss, always, in the tiers strict and precise: triangles that share an
@@ -279,14 +282,16 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 ///        tests/unit/geometry/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
-                                    Double<Real>& t) {
-    t = triangle_detail::parameter<Real>(v0, v1, v2, ray);
-    return t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
+                                    Double<Real>& t, const Mask<Real>& active = Mask<Real>(true)) {
+    if (!any(active)) return active;
+    t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active);
+    return active && t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t);
+TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true)) {
+    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active);
 }
 
 /// Where the line of a ray, in the lanes of `active` that hit the triangle, meets it. Within 2^-22 of the exact

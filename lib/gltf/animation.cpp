@@ -74,7 +74,7 @@ class AnimationReader {
         AnimationChannel read = read_keys(channel["sampler"].get<std::size_t>(), *animated, path);
         read.node = *node_of_[index];
         report_.add(Treatment::rendered, fmt::format("animation of {}", name), path,
-                    "at the times of the frames, without motion blur");
+                    "at the times of the frames, and while a shutter is open");
         scene_.animation.push_back(std::move(read));
     }
 

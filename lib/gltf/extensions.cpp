@@ -7,10 +7,23 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> rendered = {
-    "EXT_implicit_geometry", "EXT_mesh_gpu_instancing",    "KHR_implicit_shapes",         "KHR_lights_punctual",
-    "KHR_materials_ior",     "KHR_materials_transmission", "KHR_materials_volume",        "KHR_mesh_quantization",
-    "TANDEM_environment",    "TANDEM_lights_phong",        "TANDEM_materials_dielectric", "TANDEM_materials_phong",
+constexpr std::array<std::string_view, 16> rendered = {
+    "EXT_implicit_geometry",
+    "EXT_mesh_gpu_instancing",
+    "KHR_implicit_shapes",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "TANDEM_camera_lens",
+    "TANDEM_camera_shutter",
+    "TANDEM_environment",
+    "TANDEM_lights_phong",
+    "TANDEM_materials_dielectric",
+    "TANDEM_materials_phong",
 };
 
 struct Reason {

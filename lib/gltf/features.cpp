@@ -44,7 +44,6 @@ const std::map<std::string, Feature>& ignored_features() {
         {"materials[].pbrMetallicRoughness.roughnessFactor", {"roughnessFactor", phong_only}},
         {"materials[].occlusionTexture", {"occlusion texture", "Tandem renders no textures of occlusion"}},
         {"materials[].emissiveTexture", {"emissive texture", "Tandem renders no textures of emission"}},
-        {"materials[].emissiveFactor", {"emission", "Tandem does not render emission yet"}},
         {"extensions.KHR_lights_punctual.lights[].range",
          {"light range", "light falls off with the square of the distance"}},
         {"materials[].extensions.KHR_materials_transmission.transmissionTexture",

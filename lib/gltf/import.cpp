@@ -156,12 +156,49 @@ class SceneBuilder {
         return node;
     }
 
+    Lens read_lens(const Json& json, std::size_t camera) {
+        Lens lens;
+        lens.aperture_radius = json["apertureRadius"].get<double>();
+        lens.focus_distance = json["focusDistance"].get<double>();
+        lens.blades = json.value("blades", 0);
+        lens.rotation = json.value("rotation", 0.0);
+        const std::string path = fmt::format("cameras[{}].extensions.TANDEM_camera_lens", camera);
+        if (lens.blades == 1 || lens.blades == 2) document_.fail(path + ".blades", "must be 0 or from 3 to 32");
+        report_.add(Treatment::rendered, "TANDEM_camera_lens", path, "a thin lens");
+        return lens;
+    }
+
+    Shutter read_shutter(const Json& json, std::size_t camera) {
+        Shutter shutter;
+        shutter.open = json["open"].get<double>();
+        shutter.close = json["close"].get<double>();
+        shutter.instants = json.value("instants", shutter.instants);
+        const std::string path = fmt::format("cameras[{}].extensions.TANDEM_camera_shutter", camera);
+        if (shutter.close < shutter.open) document_.fail(path + ".close", "must not be before open");
+        report_.add(Treatment::rendered, "TANDEM_camera_shutter", path, "motion blur where something moves");
+        return shutter;
+    }
+
     Camera read_camera(std::size_t index, const std::string& node_path) {
         const tinygltf::Camera& camera = source_.model.cameras[index];
         report_.add(Treatment::rendered, camera.type + " camera", node_path + ".camera",
                     "its height; the width follows the film");
-        if (camera.type == "perspective") return PerspectiveCamera{camera.perspective.yfov};
-        return OrthographicCamera{camera.orthographic.ymag};
+        Shutter shutter;
+        if (const Json* json = find_extension(document_.json["cameras"][index], "TANDEM_camera_shutter")) {
+            shutter = read_shutter(*json, index);
+        }
+        const Json* lens = find_extension(document_.json["cameras"][index], "TANDEM_camera_lens");
+        if (camera.type == "perspective") {
+            PerspectiveCamera perspective{camera.perspective.yfov, {}, shutter};
+            if (lens != nullptr) perspective.lens = read_lens(*lens, index);
+            return perspective;
+        }
+        if (lens != nullptr) {
+            report_.add(Treatment::ignored, "TANDEM_camera_lens",
+                        fmt::format("cameras[{}].extensions.TANDEM_camera_lens", index),
+                        "an orthographic camera has no lens");
+        }
+        return OrthographicCamera{camera.orthographic.ymag, shutter};
     }
 
     void read_light(std::size_t index, const std::string& node_path, Node& node) {

@@ -73,6 +73,10 @@ Environment read_environment(const Document& document, const Json* scene, const 
         environment.bottom = read_colour(*gradient, "bottom", environment.bottom);
         environment.top = read_colour(*gradient, "top", environment.top);
     }
+    environment.illuminates = found->value("illuminates", false) ? 1U : 0U;
+    environment.indirect = found->value("indirect", false) ? 1U : 0U;
+    // light that is computed takes the place of the ambient term
+    if (environment.illuminates != 0 || environment.indirect != 0) environment.ambient = {0, 0, 0};
     environment.ambient = read_colour(*found, "ambient", environment.ambient);
     return environment;
 }

@@ -54,6 +54,17 @@ Optics read_optics(const Json& material, const std::string& path, ImportReport& 
         report.add(Treatment::rendered, "KHR_materials_volume", where("KHR_materials_volume"),
                    "absorption along the path; the thickness is that of the shape");
     }
+    if (find(material, "emissiveFactor") != nullptr) {
+        const Json* strength = find_extension(material, "KHR_materials_emissive_strength");
+        const float factor = strength == nullptr ? 1.0F : strength->value("emissiveStrength", 1.0F);
+        optics.emission = read_colour(material, "emissiveFactor", {0, 0, 0}) * factor;
+        report.add(Treatment::rendered, "emission", path + ".emissiveFactor",
+                   "the surface glows, and lights others by its area");
+        if (strength != nullptr) {
+            report.add(Treatment::rendered, "KHR_materials_emissive_strength", where("KHR_materials_emissive_strength"),
+                       "a factor of the emission");
+        }
+    }
     if (const Json* dielectric = find_extension(material, "TANDEM_materials_dielectric")) {
         optics.priority = dielectric->value("priority", 0U);
         report.add(Treatment::rendered, "TANDEM_materials_dielectric", where("TANDEM_materials_dielectric"),

@@ -62,21 +62,16 @@ class TextureReader {
         read_alpha(read, path, material);
     }
 
-    /// What the path loop does not draw yet.
-    void add_undrawn(const char* feature, const std::string& path, const char* reason) {
-        report_.add(Treatment::ignored, feature, path,
-                    fmt::format("Tandem reads it and does not draw it yet ({})", reason));
-    }
-
     void read_alpha(const Json& read, const std::string& path, Material& material) {
         const auto mode = read.value("alphaMode", std::string("OPAQUE"));
         const Json* cutoff = find(read, "alphaCutoff");
         if (mode != "OPAQUE") material.alpha_mode = AlphaMode::mask;
         if (mode == "MASK") {
             if (cutoff != nullptr) material.alpha_cutoff = cutoff->get<float>();
-            add_undrawn("alphaMode MASK", path + ".alphaMode", "there is no surface where alpha is below alphaCutoff");
+            report_.add(Treatment::rendered, "alphaMode MASK", path + ".alphaMode",
+                        "there is no surface where alpha is below alphaCutoff");
         } else if (mode == "BLEND") {
-            add_undrawn("alphaMode BLEND", path + ".alphaMode",
+            report_.add(Treatment::approximated, "alphaMode BLEND", path + ".alphaMode",
                         "surfaces do not blend; there is none where alpha is below 0.5");
         }
         if (cutoff != nullptr && mode != "MASK") {
@@ -102,11 +97,13 @@ class TextureReader {
         }
         TextureReference use;
         use.texture = texture(index, image->get<std::size_t>());
-        add_undrawn(feature, path, reason);
+        report_.add(Treatment::rendered, feature, path, reason);
         if (transform != nullptr) {
             use.offset = read_vec2(*transform, "offset", use.offset);
             use.rotation = transform->value("rotation", use.rotation);
             use.scale = read_vec2(*transform, "scale", use.scale);
+            report_.add(Treatment::rendered, transform_name, fmt::format("{}.extensions.{}", path, transform_name),
+                        "texture coordinates are scaled, turned and moved");
         }
         return use;
     }
@@ -133,7 +130,8 @@ class TextureReader {
         texture.wrap_t = wrap_mode(sampler.value("wrapT", repeat));
         if (!samplers_.try_emplace(index, 0).second) return;
         const bool same = sampler.value("minFilter", filter) == filter;
-        add_undrawn("texture sampler", fmt::format("samplers[{}]", index),
+        report_.add(same ? Treatment::rendered : Treatment::approximated, "texture sampler",
+                    fmt::format("samplers[{}]", index),
                     same ? "its filter and wrap modes" : "there are no mipmaps; magFilter counts at any distance");
     }
 
@@ -146,7 +144,7 @@ class TextureReader {
             if (texels_ > most_texels) {
                 source_.document.fail(path, "brings the images to more than 2^28 texels; make them smaller");
             }
-            add_undrawn("image", path, "8 bits a channel");
+            report_.add(Treatment::rendered, "image", path, "as 8 bits a channel");
         }
         return known->second;
     }

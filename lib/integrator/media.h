@@ -20,6 +20,12 @@ TANDEM_HD Double<Real> refractive_index(const SceneView& scene, const UInt<Real>
     return result;
 }
 
+/// exp(-depth). A call: three of them take the registers and the code of one.
+template <class Real>
+TANDEM_HD_CALL Real attenuation(Double<Real> depth) {
+    return to_real<Real>(exponential<Real>(-depth));
+}
+
 /// What is left of light over `distance` metres in a medium: exp(-absorption distance). Source: A. Beer, 1852. Held by
 /// tests/agree/closed_forms_test.cpp, within 1e-7.
 template <class Real>
@@ -33,7 +39,7 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
                        const Vec3f& absorption = scene.optics[material].absorption;
                        const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
                            if (!(a > 0.0F)) return before;  // also over an infinite distance
-                           return select(here, to_real<Real>(exponential<Real>(-D(a) * distance)), before);
+                           return select(here, attenuation<Real>(D(a) * distance), before);
                        };
                        result = {channel(absorption.x, result.x), channel(absorption.y, result.y),
                                  channel(absorption.z, result.z)};
@@ -47,14 +53,21 @@ struct NoMediumStack {
     TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
 };
 
+/// May media lie within each other? Then a path follows them by its stack.
+template <class Effects>
+TANDEM_HD bool has_stack(const SceneView& scene) {
+    return Effects::has(Effect::nested_media) && scene.media_overlap != 0;
+}
+
 /// The media that a camera ray starts in.
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD NoMediumStack<Real> media_at_camera(const SceneView&, const NoMediumStack<Real>&) {
     return {};
 }
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const MediumStack<Real>&) {
     MediumStack<Real> stack;
+    if (!has_stack<Effects>(scene)) return stack;
     for (std::uint32_t i = 0; i < scene.camera_media.count; ++i) {
         const std::uint32_t material = scene.camera_media.material[i];
         (void)stack.enter(UInt<Real>(material), UInt<Real>(scene.optics[material].priority), Mask<Real>(true));
@@ -63,13 +76,13 @@ TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const Medium
 }
 
 /// The medium that a path is in. `own`: the one if bodies lie apart.
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
     return own;
 }
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Real>& stack, const UInt<Real>& own) {
-    return scene.media_overlap != 0 ? stack.current() : own;
+    return has_stack<Effects>(scene) ? stack.current() : own;
 }
 
 /// The media on both sides of a border.
@@ -81,19 +94,19 @@ struct Border {
 
 // The border of the body of `material`, met from inside or from outside in the lanes of `active`. `stack` becomes what
 // it is behind the border.
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD Border<Real> cross_border(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
                                     const Mask<Real>& from_inside, const Mask<Real>&) {
     const UInt<Real> none(no_medium);
     return {select(from_inside, material, none), select(from_inside, none, material)};
 }
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD Border<Real> cross_border(const SceneView& scene, MediumStack<Real>& stack, const UInt<Real>& material,
                                     const Mask<Real>& from_inside, const Mask<Real>& active) {
     using Word = UInt<Real>;
-    if (scene.media_overlap == 0) {
+    if (!has_stack<Effects>(scene)) {
         NoMediumStack<Real> none;
-        return cross_border(scene, none, material, from_inside, active);
+        return cross_border<Effects>(scene, none, material, from_inside, active);
     }
     Border<Real> border;
     border.before = stack.current();

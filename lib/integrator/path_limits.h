@@ -9,6 +9,7 @@ namespace tandem {
 struct PathLimits {
     std::uint32_t reflection = 8;   ///< in mirrors and at borders of glass
     std::uint32_t refraction = 16;  ///< through borders of glass
+    std::uint32_t diffuse = 4;      ///< from matt surfaces, with indirect light
 
     friend constexpr bool operator==(const PathLimits&, const PathLimits&) = default;
 };

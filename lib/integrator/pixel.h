@@ -11,7 +11,7 @@ struct PixelJob {
     CameraView camera;
     std::uint64_t seed;
     std::uint32_t frame;
-    std::uint32_t samples;
+    std::uint32_t first_sample, samples;
     std::uint32_t width;  ///< pixels; a pixel's number is y * width + x
     PathLimits limits;
 };
@@ -24,38 +24,82 @@ TANDEM_HD Mask<Real> is_finite(const Vec3<Real>& a) {
 
 template <class Real>
 struct PixelSum {
-    Vec3<Wide<Real>> sum;   ///< over all samples, in their order
-    UInt<Real> invalid;     ///< samples that were NaN or infinite: counted, not added
-    UInt<Real> lost_media;  ///< see PathResult
+    Vec3<Wide<Real>> sum = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};  ///< over all samples, in their order
+    UInt<Real> invalid = UInt<Real>(0U);     ///< samples that were NaN or infinite: counted, not added
+    UInt<Real> lost_media = UInt<Real>(0U);  ///< see PathResult
 };
 
+/// The camera ray of a sample. `Effects`: what is simulated (effects/effects.h).
+template <class Effects, class Real>
+TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, const UInt<Real>& x,
+                               const UInt<Real>& y) {
+    using D = Double<Real>;
+    const auto random = id.block(Dimension::film);
+    const Ray<Real> ray = camera_ray(job.camera, from_uint<D>(x), from_uint<D>(y),
+                                     to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    if (!Effects::has(Effect::lens) || !job.camera.has_lens) return ray;
+    const auto at = id.block(Dimension::lens);
+    return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));
+}
+
+/// Adds what paths have brought, in the lanes of `ended`.
+template <class Real>
+TANDEM_HD void add(const PathResult<Real>& path, const Mask<Real>& ended, PixelSum<Real>& pixel) {
+    using W = Wide<Real>;
+    using Word = UInt<Real>;
+    const W zero(0.0);
+    const Mask<Real> valid = is_finite(path.radiance);
+    const Vec3<W> addend = to_wide(path.radiance);
+    pixel.sum = pixel.sum + select(ended && valid, addend, Vec3<W>{zero, zero, zero});
+    pixel.invalid = pixel.invalid + select(ended && !valid, Word(1U), Word(0U));
+    pixel.lost_media = pixel.lost_media + select(ended, path.lost_media, Word(0U));
+}
+
 /// The sum over the samples of pixel (x, y): in double, in the order of the samples, by one owner; this order is
-/// what makes films equal. A Real of many lanes renders one pixel per lane. `Effects`: what is simulated
-/// (effects/effects.h).
+/// what makes films equal. A Real of many lanes renders one pixel per lane, in the lanes of `active`. Where paths
+/// bounce, a lane of a packet and a thread of a warp go on with their next sample as soon as a path ends, and wait for
+/// the others at each vertex, not at each sample (docs/performance.md).
 template <class Effects, class Real, class Tracer>
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
-    using D = Double<Real>;
-    const UInt<Real> pixel = y * UInt<Real>(job.width) + x;
-    using W = Wide<Real>;
-    const D pixel_x = from_uint<D>(x);
-    const D pixel_y = from_uint<D>(y);
-    const W zero(0.0);
-    PixelSum<Real> result = {{zero, zero, zero}, UInt<Real>(0U), UInt<Real>(0U)};
-    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-        const SampleId<Real> id = {job.seed, job.frame, pixel, sample};
-        const auto random = id.block(Dimension::film);
-        const Real offset_x = to_unit_interval<Real>(random.word[0]);
-        const Real offset_y = to_unit_interval<Real>(random.word[1]);
-        const Ray<Real> ray = camera_ray(job.camera, pixel_x, pixel_y, offset_x, offset_y);
-        const PathResult<Real> path = trace_path<Effects>(tracer, scene, job.limits, id, ray, active);
-        const Mask<Real> valid = is_finite(path.radiance);
-        const Vec3<W> addend = to_wide(path.radiance);
-        result.sum = result.sum + select(valid, addend, Vec3<W>{zero, zero, zero});
-        result.invalid = result.invalid + select(valid, UInt<Real>(0U), UInt<Real>(1U));
-        result.lost_media = result.lost_media + path.lost_media;
+    using Word = UInt<Real>;
+    const Real zero(0.0F);
+    const PathResult<Real> nothing = {{zero, zero, zero}};
+    const PathLimits limits = Effects::limits(job.limits);
+    SampleId<Real> id = {job.seed, job.frame, y * Word(job.width) + x, Word(job.first_sample)};
+    PixelSum<Real> result;
+    if constexpr (!can_bounce<Effects>()) {
+        for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+            id.sample = Word(job.first_sample + sample);
+            PathState<Effects, Real> path(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+            PathResult<Real> brought = nothing;
+            advance<Effects>(tracer, scene, limits, id, Word(0U), path, brought);
+            add(brought, Mask<Real>(true), result);
+        }
+        return result;
+    } else {
+        const Word end(job.first_sample + job.samples);
+        PathState<Effects, Real> path(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+        PathResult<Real> brought = nothing;
+        Mask<Real> working = active;
+        Word vertex(0U);
+        while (true) {
+            advance<Effects>(tracer, scene, limits, id, vertex, path, brought);
+            vertex = vertex + Word(1U);
+            const Mask<Real> ended = working && !path.alive;
+            if (!any(ended)) continue;
+            add(brought, ended, result);
+            id.sample = id.sample + select(ended, Word(1U), Word(0U));
+            working = working && id.sample < end;
+            if (!any(working)) return result;
+            const Mask<Real> begins = ended && working;
+            const PathState<Effects, Real> fresh(scene, sample_ray<Effects, Real>(job, id, x, y), begins);
+            path = select(begins, fresh, path);
+            brought.radiance = select(begins, nothing.radiance, brought.radiance);
+            brought.lost_media = select(begins, nothing.lost_media, brought.lost_media);
+            vertex = select(begins, Word(0U), vertex);
+        }
     }
-    return result;
 }
 
 }  // namespace tandem

@@ -11,6 +11,7 @@ namespace tandem {
     return {.camera = camera_view(scene, job.width, job.height),
             .seed = job.seed,
             .frame = job.frame,
+            .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),
             .width = static_cast<std::uint32_t>(job.width),
             .limits = job.limits};

@@ -3,9 +3,11 @@
 
 #include "tandem/geometry/spawn_ray.h"
 #include "tandem/integrator/path_state.h"
+#include "tandem/integrator/roulette.h"
 #include "tandem/integrator/surface.h"
 #include "tandem/material/fresnel.h"
 #include "tandem/material/reflect.h"
+#include "tandem/sampler/warp.h"
 
 namespace tandem {
 
@@ -16,7 +18,14 @@ struct Meeting {
     Vec3<Double<Real>> normal;     ///< for shading, on the ray's side
     Vec3<Double<Real>> facing;     ///< geometric normal, on the ray's side
     Mask<Real> from_inside;        ///< against the outward normal
+    Mask<Real> is_front;           ///< the normal for shading is on the ray's side as it is: there light is scattered
 };
+
+/// Is there more than one way on?
+template <class Effects>
+TANDEM_HD constexpr bool has_choice() {
+    return Effects::has(Effect::reflection) + Effects::has(Effect::refraction) + Effects::has(Effect::indirect) > 1;
+}
 
 template <class Real>
 TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Real>& point,
@@ -28,6 +37,7 @@ TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Re
     meeting.facing = select(meeting.from_inside, -point.normal, point.normal);
     const Mask<Real> away = dot(meeting.direction, surface.normal) > D(0.0);
     meeting.normal = select(away, -surface.normal, surface.normal);
+    meeting.is_front = !away;
     return meeting;
 }
 
@@ -79,16 +89,31 @@ TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<
 
 }  // namespace scatter_detail
 
-/// Chooses how a path goes on, by reflection in a mirror or by what a dielectric does: each with a chance in proportion
-/// to its share of the light, so that a surface of one kind leaves nothing to chance but Fresnel's reflectance. Lanes
-/// that do not go on leave path.alive. Returns the lanes whose media are lost (Border).
+/// Sends the path on in its direction, through the hole that it has met, in the lanes of `holes`.
+template <class Effects, class Real>
+TANDEM_HD void pass_through(const SurfacePoint<Real>& point, const Meeting<Real>& meeting, const Mask<Real>& holes,
+                            PathState<Effects, Real, true>& path) {
+    using Word = UInt<Real>;
+    const Mask<Real> inside = !meeting.from_inside;
+    path.ray.origin = select(holes, departure(point, inside), path.ray.origin);
+    path.source.primitive = select(holes, point.primitive, path.source.primitive);
+    path.source.inside = select(holes, inside, path.source.inside);
+    path.holes = path.holes + select(holes, Word(1U), Word(0U));
+    path.alive = path.alive && path.holes <= Word(most_holes);
+}
+
+/// Chooses how a path goes on, by reflection in a mirror, by what a dielectric does or, with indirect light, by
+/// scattering from a matt surface: each with a chance in proportion to its share of the light, so that a surface of one
+/// kind leaves nothing to chance but Fresnel's reflectance. Lanes that do not go on leave path.alive. Returns the lanes
+/// whose media are lost (Border).
 ///
 /// Radiance is followed as L / n^2, which borders leave as it is; a camera in air sees L.
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
 template <class Effects, class Real>
-TANDEM_HD Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
-                             std::uint32_t vertex, const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                             const Meeting<Real>& meeting, PathState<Effects, Real, true>& path) {
+TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                                  const UInt<Real>& vertex, const Surface<Real>& surface,
+                                  const SurfacePoint<Real>& point, const Meeting<Real>& meeting,
+                                  PathState<Effects, Real, true>& path) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     using namespace scatter_detail;
@@ -97,25 +122,31 @@ TANDEM_HD Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, c
     Mask<Real> lost(false);
     const Real mirror = Effects::has(Effect::reflection) ? largest(surface.mirror) : zero;
     const Real glass = Effects::has(Effect::refraction) ? surface.transmission : zero;
-    path.alive = path.alive && (mirror > zero || glass > zero);
+    Real matt = zero;
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        matt = select(meeting.is_front, largest(surface.diffuse), zero);
+    }
+    path.alive = path.alive && (mirror > zero || glass > zero || matt > zero);
     if (!any(path.alive)) return lost;
 
     PhiloxBlock<Word> random;
-    if (Effects::has(Effect::refraction)) random = sample.block(Dimension::scatter, vertex);
-    Mask<Real> takes_glass = path.alive && glass > zero;
-    Real chance(1.0F);
-    if (Effects::has(Effect::reflection) && Effects::has(Effect::refraction)) {
-        const Mask<Real> both = takes_glass && mirror > zero;
-        const Real total = mirror + glass;
-        takes_glass = takes_glass && !(both && to_unit_interval<Real>(random.word[0]) * total < mirror);
-        chance = select(both, select(takes_glass, glass, mirror) / total, chance);
+    if (Effects::has(Effect::refraction) || Effects::has(Effect::indirect)) {
+        random = sample.block(Dimension::scatter, vertex);
     }
-    const Mask<Real> takes_mirror = path.alive && !takes_glass;
+    // a surface of one kind takes it with the chance 1, to the bit
+    const Real total = (mirror + glass) + matt;
+    const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
+    const Mask<Real> takes_mirror = path.alive && mirror > zero && (place < mirror || (glass == zero && matt == zero));
+    const Mask<Real> takes_glass =
+        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || matt == zero);
+    const Mask<Real> takes_matt = path.alive && !takes_mirror && !takes_glass;
+    const Real chance = select(takes_mirror, mirror, select(takes_glass, glass, matt)) / total;
     Mask<Real> goes_through(false);
     Vec3<D> direction = meeting.direction;
     if (Effects::has(Effect::refraction) && any(takes_glass)) {
         auto media = path.media;
-        const Border<Real> border = cross_border(scene, media, surface.material, meeting.from_inside, takes_glass);
+        const Border<Real> border =
+            cross_border<Effects>(scene, media, surface.material, meeting.from_inside, takes_glass);
         lost = border.lost;
         const D eta = refractive_index<Real>(scene, border.before, takes_glass) /
                       refractive_index<Real>(scene, border.behind, takes_glass);
@@ -127,15 +158,41 @@ TANDEM_HD Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, c
         path.throughput = select(takes_glass, path.throughput * (glass / chance), path.throughput);
         path.refractions = path.refractions + select(goes_through, one, Word(0U));
     }
-    const Mask<Real> bounces_off = path.alive && !goes_through;
+    const Mask<Real> bounces_off = path.alive && !goes_through && !takes_matt;
     if (any(bounces_off)) direction = select(bounces_off, mirrored(meeting), direction);
     if (Effects::has(Effect::reflection) && any(takes_mirror)) {
         const Vec3<Real> weight = {surface.mirror.x / chance, surface.mirror.y / chance, surface.mirror.z / chance};
         path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
     }
+    if (Effects::has(Effect::indirect)) {
+        path.pdf = D(0.0);
+        if (any(takes_matt)) {
+            const auto at = sample.block(Dimension::hemisphere, vertex);
+            const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
+                                                              widen(to_unit_interval<Real>(at.word[1])));
+            direction = select(takes_matt, drawn.direction, direction);
+            path.pdf = select(takes_matt, drawn.pdf, path.pdf);
+            // the cosine and Lambert's 1 / pi cancel with the density
+            const Vec3<Real> weight = {surface.diffuse.x / chance, surface.diffuse.y / chance,
+                                       surface.diffuse.z / chance};
+            path.throughput = select(takes_matt, path.throughput * weight, path.throughput);
+            path.scatterings = path.scatterings + select(takes_matt, one, Word(0U));
+            // where the normal for shading leads through the surface there is no light
+            const Mask<Real> below = takes_matt && !(dot(direction, meeting.facing) > D(0.0));
+            path.alive = path.alive && !below && path.scatterings <= Word(limits.diffuse);
+        }
+    }
     path.reflections = path.reflections + select(bounces_off, one, Word(0U));
     path.alive =
         path.alive && path.reflections <= Word(limits.reflection) && path.refractions <= Word(limits.refraction);
+    const Mask<Real> plays = Word(scene.roulette_from) <= vertex;
+    if (Effects::has(Effect::roulette) && any(plays)) {
+        const Real least(0.05F);
+        const Real chance_to_live = select(plays, survival_probability(path.throughput, least), Real(1.0F));
+        path.alive = path.alive && survives<Real>(widen(chance_to_live), widen(to_unit_interval<Real>(random.word[2])));
+        path.throughput = {path.throughput.x / chance_to_live, path.throughput.y / chance_to_live,
+                           path.throughput.z / chance_to_live};
+    }
     // The side follows from the choice: that of a direction next to the surface could be rounding's.
     const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
     path.ray = {departure(point, inside), to_real<Real>(direction)};

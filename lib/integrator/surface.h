@@ -3,9 +3,13 @@
 
 #include "tandem/effects/effects.h"
 #include "tandem/geometry/hit.h"
+#include "tandem/geometry/parametrisation.h"
 #include "tandem/geometry/ray_source.h"
 #include "tandem/geometry/shading_normal.h"
+#include "tandem/geometry/spawn_ray.h"
+#include "tandem/geometry/tangent_frame.h"
 #include "tandem/scene/scene_view.h"
+#include "tandem/texture/normal_map.h"
 
 namespace tandem {
 
@@ -18,7 +22,12 @@ struct Surface {
     UInt<Real> material;
     Vec3<Real> mirror;
     Real transmission;
+    Vec3<Real> emission;  ///< on the side that the ray comes from
+    Mask<Real> opaque = Mask<Real>(true);
 };
+
+/// How many holes a ray passes before it counts as stopped.
+inline constexpr std::uint32_t most_holes = 255;
 
 // The normal of each kind at parameter t of a ray that hits the primitive there, in the lanes of `here`: of a sphere of
 // any length, else unit. `exits`: where the ray leaves the very body that it left inward.
@@ -55,29 +64,126 @@ TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad,
     return shading_normal<Real>(quad, normals, ray, t, here);
 }
 
+/// Do materials hang on where a point lies on its surface?
+template <class Effects>
+TANDEM_HD constexpr bool has_pictures() {
+    return Effects::has(Effect::textures) || Effects::has(Effect::normal_maps) || Effects::has(Effect::cutouts);
+}
+
+/// Where the picture of primitive `id` is seen, as parametrisation().
+template <std::uint32_t kinds, class Real>
+TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, Ray<Real> ray,
+                                                        Double<Real> t, Mask<Real> here, Mask<Real> exits) {
+    Parametrisation<Real> at{};
+    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+        at = parametrisation(body, scene.texcoords, ray, t, here, exits);
+    });
+    return at;
+}
+
+/// The normal that a normal map makes of `normal`, unit. Where `turned`, on the back of a double-sided face, `normal`
+/// is turned round, and so is what the map says of the front.
+template <class Real>
+TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const MaterialTextures& textures,
+                                              const Parametrisation<Real>& at, const Vec3<Double<Real>>& normal,
+                                              const Mask<Real>& turned) {
+    const auto texel = sample<Real>(scene.textures, textures.normal, at.u, at.v);
+    const auto front = select(turned, -normal, normal);
+    const auto bent = mapped_normal<Real>(tangent_frame(front, at.dp_du, at.dp_dv), texel, textures.normal_scale);
+    return select(turned, -bent, bent);
+}
+
+/// Is the surface there at `hit`, or a hole, in the lanes of `found`?
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                       const Closest<Real>& hit, const Mask<Real>& found) {
+    Mask<Real> opaque(true);
+    for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
+        if (!(textures.alpha_cutoff > 0.0F)) return;
+        const Mask<Real> exits = leaves_inward<Real>(source, primitive);
+        Real alpha(1.0F);
+        if (textures.diffuse.texture != no_texture) {
+            const auto at = parametrisation_of<kinds>(scene, primitive, ray, hit.t, here, exits);
+            alpha = sample<Real>(scene.textures, textures.diffuse, at.u, at.v).a;
+        }
+        opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
+    });
+    return opaque;
+}
+
+/// Where a vertex has to be known better than as a point of its ray.
+inline constexpr EffectMask effects_on_surfaces = bouncing_effects | Effect::shadows | Effect::area_lights |
+                                                  Effect::emission | Effect::environment_light | Effect::normal_maps;
+template <class Effects>
+TANDEM_HD constexpr bool can_leave_surfaces() {
+    return Effects::most.has_any(effects_on_surfaces);
+}
+
 /// The surface at `hit`, which `ray` from `source` found, in the lanes of `found`. The rays of a packet hit few
 /// different primitives, so each of these is looked up and its normal formed once, for all its rays. `kinds`: the ones
-/// that may have been hit; `Effects`: what their materials may call for.
+/// that may have been hit; `Effects`: what their materials may call for. `point` becomes the hit, if these have
+/// effects_on_surfaces.
 template <class Effects, std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                   const Closest<Real>& hit, const Mask<Real>& found) {
+                                   const Closest<Real>& hit, const Mask<Real>& found, SurfacePoint<Real>& point) {
     using D = Double<Real>;
+    const bool needs_point = Effects::has_any(effects_on_surfaces);
+    if (needs_point) point = {ray.origin, widen(ray.direction)};
     Mask<Real> on_sphere(false);
     const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
-    Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black,     black, Real(1.0F),
-                             UInt<Real>(0U),           black, Real(0.0F)};
+    Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black,      black, Real(1.0F),
+                             UInt<Real>(0U),           black, Real(0.0F), black};
     for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         Vec3<D> normal = surface.normal;
         const Mask<Real> exits = leaves_inward<Real>(source, primitive);
-        visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-            normal = normal_at<Real>(scene, body, ray, hit.t, here, exits);
-            if constexpr (std::is_same_v<std::decay_t<decltype(body)>, Sphere>) on_sphere = on_sphere || here;
-        });
         const std::uint32_t number = scene.material_of[primitive];
+        const Real one(1.0F);
+        Rgba<Real> picture = {one, one, one, one};
+        bool both_sides = false;
+        SurfacePoint<Real> own;
+        visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if (needs_point) own = surface_point(body, ray, hit.t, exits, here);
+            if (needs_point && !is_face<Body>) {
+                normal = own.normal;
+            } else {
+                normal = normal_at<Real>(scene, body, ray, hit.t, here, exits);
+                if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
+            }
+            if constexpr (is_face<Body>) both_sides = body.attributes.double_sided != 0;
+        });
+        if (needs_point) {
+            own.primitive = UInt<Real>(primitive);
+            keep(here, own, point);
+        }
+        if (has_pictures<Effects>() && has_textures(scene.textures)) {
+            const MaterialTextures& textures = scene.textures.materials[number];
+            if (textures.diffuse.texture != no_texture || textures.normal.texture != no_texture) {
+                const auto at = parametrisation_of<kinds>(scene, primitive, ray, hit.t, here, exits);
+                if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
+                    picture = sample<Real>(scene.textures, textures.diffuse, at.u, at.v);
+                }
+                if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
+                    const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
+                    normal = bent_normal<Real>(scene, textures, at, normalize(normal), turned);
+                }
+            }
+            if (Effects::has(Effect::cutouts)) {
+                surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, picture.a));
+            }
+        }
         const PhongMaterial& material = scene.materials[number];
+        Vec3<Real> ambient = broadcast<Real>(material.ambient);
+        Vec3<Real> diffuse = broadcast<Real>(material.diffuse);
+        if (Effects::has(Effect::textures) && has_textures(scene.textures)) {
+            const Vec3<Real> factor = {picture.r, picture.g, picture.b};
+            ambient = ambient * factor;
+            diffuse = diffuse * factor;
+        }
         surface.normal = select(here, normal, surface.normal);
-        surface.ambient = select(here, broadcast<Real>(material.ambient), surface.ambient);
-        surface.diffuse = select(here, broadcast<Real>(material.diffuse), surface.diffuse);
+        surface.ambient = select(here, ambient, surface.ambient);
+        surface.diffuse = select(here, diffuse, surface.diffuse);
         surface.specular = select(here, broadcast<Real>(material.specular), surface.specular);
         surface.shininess = select(here, Real(material.shininess), surface.shininess);
         if (has_bounces<Effects>()) {
@@ -88,6 +194,13 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             }
             if (Effects::has(Effect::refraction)) {
                 surface.transmission = select(here, Real(optics.transmission), surface.transmission);
+            }
+        }
+        if (Effects::has(Effect::emission)) {
+            const Vec3f& emission = scene.optics[number].emission;
+            if (norm1(emission) > 0.0F) {
+                const Mask<Real> shines = here && (Mask<Real>(both_sides) || !own.from_inside);
+                surface.emission = select(shines, broadcast<Real>(emission), surface.emission);
             }
         }
     });

@@ -66,8 +66,8 @@ inline constexpr double smallest_height = is_fast<Real> ? 0x1p-14 : 0x1p-40;
 ///         Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983, times |a|.
 /// Held by tests/unit/light/triangle_light_test.cpp, also of all below.
 template <class Real>
-TANDEM_HD TriangleLightView<Real> view_triangle_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
-                                                      const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2) {
+TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> point, Vec3<Double<Real>> v0,
+                                                             Vec3<Double<Real>> v1, Vec3<Double<Real>> v2) {
     using D = Double<Real>;
     using triangle_light_detail::one_plus_cosine;
     const D zero(0.0F);
@@ -144,8 +144,7 @@ TANDEM_HD D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
 ///         its squares would underflow (smallest_spherical) points are drawn uniformly over the area, by the map that
 ///         the spherical one tends to.
 template <class Real>
-TANDEM_HD LightSample<Real> sample_light(const TriangleLightView<Real>& view, const Double<Real>& u,
-                                         const Double<Real>& v) {
+TANDEM_HD_SHARED LightSample<Real> sample_light(TriangleLightView<Real> view, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
     using namespace triangle_light_detail;
     const D one(1.0F);
@@ -184,7 +183,7 @@ TANDEM_HD LightSample<Real> sample_light(const TriangleLightView<Real>& view, co
 
 /// Density of sample_light() for a unit direction: 0 beside the triangle.
 template <class Real>
-TANDEM_HD Double<Real> pdf_of(const TriangleLightView<Real>& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD_SHARED Double<Real> pdf_of(TriangleLightView<Real> view, Vec3<Double<Real>> direction) {
     using D = Double<Real>;
     const D zero(0.0F);
     const Vec3<D> normal = accurate_cross(view.edge1, view.edge2);

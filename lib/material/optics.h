@@ -11,6 +11,7 @@ struct Optics {
     float transmission = 0;  ///< share of the light that meets a dielectric, and not Phong's ambient and diffuse terms
     float ior = 1.5F;        ///< refractive index of the dielectric
     Vec3f absorption{0, 0, 0};   ///< of the dielectric, RGB, per metre: Beer's law
+    Vec3f emission{0, 0, 0};     ///< radiance that leaves the outside of the surface, RGB
     std::uint32_t priority = 0;  ///< of the dielectric where bodies overlap (medium_stack.h)
 };
 

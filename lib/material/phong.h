@@ -20,7 +20,7 @@ struct PhongMaterial {
 /// Gives: within 1 ulp of float for every shininess up to 1e8: the cosine stays double, since rounding it to float
 ///        first costs shininess * 2^-24, 45 % at 1e6 (docs/numerics.md).
 template <class Real>
-TANDEM_HD Real specular_lobe(const Double<Real>& cosine, const Real& shininess) {
+TANDEM_HD_SHARED Real specular_lobe(Double<Real> cosine, Real shininess) {
     using D = Double<Real>;
     const D one(1.0);
     const D clamped = select(cosine > one, one, cosine);

@@ -9,8 +9,12 @@
 /// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
 /// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
-/// a
-///                         copy of its own, for the reason above. Pass arguments by value.
+///                         a copy of its own, for the reason above. Pass arguments by value.
+/// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: kernels whose code
+/// does
+///                         not fit the instruction cache wait for it (docs/performance.md). Inline on the host.
+/// TANDEM_HD_STEP          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
+///                         grows with the code and no faster; inline on the device, where a call costs a stack.
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
 /// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles, to
 ///                         float and back, also where it made the vector itself out of scalars, and the rounding.
@@ -38,15 +42,21 @@
 #define TANDEM_HD __host__ __device__ __forceinline__
 #define TANDEM_HD_RARE __host__ __device__ __noinline__
 #define TANDEM_HD_CALL static __host__ __device__ __noinline__
+#define TANDEM_HD_STEP static __host__ __device__ __forceinline__
+#define TANDEM_HD_SHARED static __host__ __device__ __noinline__
 #define TANDEM_INLINE_LAMBDA
 #elif defined(TANDEM_ONE_INSTRUCTION_SET)
 #define TANDEM_HD inline
 #define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
+#define TANDEM_HD_STEP TANDEM_HD_CALL
 #define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline
 #define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
+#define TANDEM_HD_STEP TANDEM_HD_CALL
 #define TANDEM_INLINE_LAMBDA __attribute__((always_inline))
 #endif

@@ -115,12 +115,16 @@ class OracleBackend final : public Backend {
                         std::atomic<std::uint64_t>& invalid) {
         Vector sum{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            const SampleId<float> id = {job.seed, job.frame, pixel, sample};
+            const SampleId<float> id = {job.seed, job.frame, pixel, job.first_sample + sample};
             const auto random = id.block(Dimension::film);
-            const Line line =
-                line_of(camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
-                                      to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1])));
-            const Vector value = oracle::trace_path(scene, job.limits, id, line);
+            Ray<T> ray = camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
+                                       to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1]));
+            if (job.camera.has_lens) {
+                const auto at = id.block(Dimension::lens);
+                ray =
+                    through_lens<T>(job.camera, ray, to_unit_interval<T>(at.word[0]), to_unit_interval<T>(at.word[1]));
+            }
+            const Vector value = oracle::trace_path(scene, job.limits, id, line_of(ray));
             if (is_float(value.x) && is_float(value.y) && is_float(value.z)) {
                 sum = sum + value;
             } else {

@@ -81,14 +81,17 @@ std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttribu
     const Vector own =
         unit({to_second.y * to_third.z - to_second.z * to_third.y, to_second.z * to_third.x - to_second.x * to_third.z,
               to_second.x * to_third.y - to_second.y * to_third.x});
+    const auto share = [&](int i) { return static_cast<Real>(fine.volume[i] / whole); };
+    const Vector weight = {share(0), share(1), share(2)};
     Vector normal = own;
     if (attributes.normals != no_attributes) {
-        const auto weight = [&](int i) { return static_cast<Real>(fine.volume[i] / whole); };
-        const Vector sum = interpolate(corners, normals + attributes.normals, {weight(0), weight(1), weight(2)});
+        const Vector sum = interpolate(corners, normals + attributes.normals, weight);
         if (inner(sum, sum) > 0x1p-40L) normal = unit(sum);
     }
     if (attributes.double_sided != 0 && inner(own, line.direction) > 0) normal = normal * -1;
-    return SurfaceHit{t, normal, own};
+    return SurfaceHit{t,      normal,
+                      own,    {corners.number[0], corners.number[1], corners.number[2]},
+                      weight, attributes.double_sided != 0};
 }
 
 }  // namespace tandem::oracle

@@ -32,6 +32,10 @@ struct SurfaceHit {
     Real t;
     Vector normal;          ///< unit, outward; of a face the one for shading
     Vector facet{0, 0, 0};  ///< of a face its own, unit; of other shapes hit_primitive() puts `normal` there
+    // of a face: the triangle's corners by their number in it, and what each of them weighs
+    std::uint32_t corner[3] = {0, 0, 0};
+    Vector weight{0, 0, 0};
+    bool double_sided = false;
 };
 
 /// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.

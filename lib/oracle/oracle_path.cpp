@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "tandem/material/medium_stack.h"  // for no_medium alone
+#include "tandem/oracle/oracle_textures.h"
 
 namespace tandem::oracle {
 
@@ -15,24 +17,105 @@ Vector background_towards(const Environment& environment, const Vector& directio
     return to_vector(environment.bottom) * (1 - m) + to_vector(environment.top) * m;
 }
 
+Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
+
 /// A point of a surface that a path has reached.
 struct Vertex {
     Vector point;
     Vector direction;  ///< of the path, unit
     Vector facet;      ///< the surface's own normal, outward
     Vector normal;     ///< for shading, as the scene says it
-    std::uint32_t primitive;
-    std::uint32_t material;
-    bool from_inside;
+    Texel picture{1, 1, 1, 1};
+    std::uint32_t primitive = no_primitive;
+    std::uint32_t material = 0;
+    bool from_inside = false;
+    bool shines = false;  ///< this side is one that light leaves from, if the surface glows
 };
+
+Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& nearest) {
+    Vertex vertex{};
+    vertex.point = ray.origin + ray.direction * nearest.surface.t;
+    vertex.direction = unit(ray.direction);
+    vertex.facet = nearest.surface.facet;
+    vertex.normal = nearest.surface.normal;
+    vertex.primitive = nearest.primitive;
+    vertex.material = scene.material_of[nearest.primitive];
+    vertex.from_inside = inner(vertex.direction, vertex.facet) > 0;
+    vertex.shines = !vertex.from_inside || nearest.surface.double_sided;
+    if (!has_textures(scene.textures)) return vertex;
+    const MaterialTextures& textures = scene.textures.materials[vertex.material];
+    const TexturePoint at = texture_point(scene, nearest.primitive, vertex.point, nearest.surface);
+    vertex.picture = sample_texture(scene, textures.diffuse, at);
+    if (textures.normal.texture != no_texture) {
+        const Texel texel = sample_texture(scene, textures.normal, at);
+        const bool turned = nearest.surface.double_sided && vertex.from_inside;
+        const Vector n = vertex.normal * (turned ? -1 : 1);
+        const Vector t = unit(at.along_u - n * inner(at.along_u, n));
+        Vector b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
+        if (inner(b, at.along_v) > 0) b = b * -1;
+        const Real scale = textures.normal_scale;
+        const Vector bent =
+            unit(t * ((2 * texel.r - 1) * scale) + b * ((2 * texel.g - 1) * scale) + n * (2 * texel.b - 1));
+        vertex.normal = bent * (turned ? -1 : 1);
+    }
+    return vertex;
+}
+
+bool is_hole(const SceneView& scene, const Vertex& vertex) {
+    if (!has_textures(scene.textures)) return false;
+    const MaterialTextures& textures = scene.textures.materials[vertex.material];
+    return Real{textures.alpha} * vertex.picture.a < Real{textures.alpha_cutoff};
+}
+
+/// Does anything but holes and `except` stand on the way from `vertex`, up to `to` times `way`?
+bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
+                std::uint32_t except = no_primitive) {
+    Line ray = {vertex.point, way};
+    RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
+    Real done = 0;
+    while (true) {
+        const NearestSurface between = nearest_surface(scene, ray, source, except);
+        if (between.primitive == no_primitive) return false;
+        done += between.surface.t;
+        if (done >= to) return false;
+        const Vertex met = vertex_at(scene, ray, between);
+        if (!is_hole(scene, met)) return true;
+        ray.origin = met.point;
+        source = {met.primitive, !met.from_inside};
+    }
+}
+
+/// Numbers of its own in [0, 1), for what it estimates otherwise than the backends.
+class Chance {
+  public:
+    Chance(const SampleId<float>& sample, std::uint32_t vertex) : sample_(sample), vertex_(vertex) {}
+    Real operator()() {
+        if (next_ % 4 == 0) block_ = sample_.block(static_cast<Dimension>(128 + next_ / 4), vertex_);
+        return Real{to_unit_interval<float>(block_.word[next_++ % 4])};
+    }
+
+  private:
+    SampleId<float> sample_;
+    std::uint32_t vertex_;
+    std::uint32_t next_ = 0;
+    PhiloxBlock<std::uint32_t> block_{};
+};
+
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+/// Uniform on the hemisphere around n.
+Vector on_hemisphere(const Vector& n, Chance& chance) {
+    const Real z = 2 * chance() - 1, angle = 2 * pi * chance();
+    const Real r = std::sqrt(std::max<Real>(0, 1 - z * z));
+    const Vector d = {r * std::cos(angle), r * std::sin(angle), z};
+    return inner(d, n) < 0 ? d * -1 : d;
+}
 
 bool is_shadowed(const SceneView& scene, const PunctualLight& light, const Vertex& vertex) {
     const bool directional = light.kind == PunctualKind::directional;
     const Vector to_light = directional ? to_vector(light.direction) * -1 : to_vector(light.position) - vertex.point;
     if (inner(to_light, to_light) == 0) return true;  // at the very light
-    const RaySource source = {vertex.primitive, inner(to_light, vertex.facet) < 0};
-    const NearestSurface between = nearest_surface(scene, {vertex.point, to_light}, source);
-    return between.primitive != no_primitive && (directional || between.surface.t < 1);
+    return is_stopped(scene, vertex, to_light, directional ? HUGE_VALL : 1);
 }
 
 /// What a light brings to a point, without regard to shadows, and the unit direction to it.
@@ -53,26 +136,114 @@ Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_ligh
     return intensity;
 }
 
-/// Phong's sum, written out once more from the paper's formula.
-Vector shade(const SceneView& scene, const Vertex& vertex) {
+/// Phong's reflectances where a path has met a surface.
+struct Reflectances {
+    Vector ambient, diffuse, specular;
+    Real shininess;
+};
+
+Reflectances reflectances(const SceneView& scene, const Vertex& vertex) {
     const PhongMaterial& material = scene.materials[vertex.material];
     const Real transmission = scene.optics[vertex.material].transmission;
-    const Vector ambient = to_vector(material.ambient) * (1 - transmission);
-    const Vector diffuse_part = to_vector(material.diffuse) * (1 - transmission);
+    const Vector colour = {vertex.picture.r, vertex.picture.g, vertex.picture.b};
     const Real highlight = transmission > 0 && vertex.from_inside ? 0 : 1;
+    return {times(to_vector(material.ambient), colour) * (1 - transmission),
+            times(to_vector(material.diffuse), colour) * (1 - transmission), to_vector(material.specular) * highlight,
+            Real{material.shininess}};
+}
+
+/// Light of unit intensity from the direction l, after the paper's formula.
+Vector phong(const Reflectances& material, const Vertex& vertex, const Vector& l) {
     const Vector n = vertex.normal;
-    const Vector v = vertex.direction * -1;
-    Vector sum = times(ambient, to_vector(scene.environment.ambient));
+    const Vector r = n * (2 * inner(l, n)) - l;
+    const Real mirror = -inner(r, vertex.direction);
+    const Real specular = mirror > 0 ? std::pow(std::min<Real>(1, mirror), material.shininess) : 0;
+    return material.diffuse * std::max<Real>(0, inner(l, n)) + material.specular * specular;
+}
+
+/// A point of a surface that glows, uniform in its area, with the normal there. Returns the area.
+Real point_of_light(const SceneView& scene, std::uint32_t id, Chance& chance, Vector& point, Vector& normal) {
+    Real area = 0;
+    const auto on_triangle = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        const Vector e1 = to_vector(b) - to_vector(a), e2 = to_vector(c) - to_vector(a);
+        const Vector twice = {e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z, e1.x * e2.y - e1.y * e2.x};
+        const Real root = std::sqrt(chance());
+        point = to_vector(a) + e1 * (root * chance());
+        point = point + e2 * (1 - root);
+        normal = unit(twice);
+        return std::sqrt(inner(twice, twice)) / 2;
+    };
+    visit_primitive(scene, id, [&](const auto& body) {
+        using Body = std::decay_t<decltype(body)>;
+        if constexpr (std::is_same_v<Body, Sphere>) {
+            normal = on_hemisphere({0, 0, 1}, chance);
+            if (chance() < Real(0.5)) normal = normal * -1;
+            point = to_vector(body.centre) + normal * Real{body.radius};
+            area = 4 * pi * Real{body.radius} * Real{body.radius};
+        } else if constexpr (std::is_same_v<Body, Triangle>) {
+            area = on_triangle(body.v0, body.v1, body.v2);
+        } else if constexpr (std::is_same_v<Body, Quad>) {
+            area = 2 * (chance() < Real(0.5) ? on_triangle(body.v0, body.v1, body.v2)
+                                             : on_triangle(body.v0, body.v2, body.v3));
+        }
+    });
+    return area;
+}
+
+bool is_double_sided(const SceneView& scene, std::uint32_t id) {
+    bool result = false;
+    visit_primitive(scene, id, [&](const auto& body) {
+        if constexpr (requires { body.attributes; }) result = body.attributes.double_sided != 0;
+    });
+    return result;
+}
+
+/// From all surfaces that glow: a point of each, by area.
+Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
+    Vector sum{0, 0, 0};
+    for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
+        const std::uint32_t id = scene.area_lights[i].primitive;
+        if (id == vertex.primitive) continue;
+        Vector point{}, normal{};
+        const Real area = point_of_light(scene, id, chance, point, normal);
+        const Vector way = point - vertex.point;
+        const Real distance2 = inner(way, way);
+        const Vector l = unit(way);
+        Real cosine = -inner(l, normal);
+        if (is_double_sided(scene, id)) cosine = std::abs(cosine);
+        if (!(cosine > 0)) continue;
+        const Vector reflected = phong(material, vertex, l) * (cosine * area / (pi * distance2));
+        if (!(largest(reflected) > 0)) continue;
+        if (scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, way, 1, id)) continue;
+        sum = sum + times(reflected, to_vector(scene.optics[scene.material_of[id]].emission));
+    }
+    return sum;
+}
+
+/// From the background, in one direction of the hemisphere.
+Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
+    const Vector direction = on_hemisphere(vertex.normal, chance);
+    const bool dark = scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, direction, HUGE_VALL);
+    if (dark) return {0, 0, 0};
+    return times(material.diffuse, background_towards(scene.environment, direction)) *
+           (2 * inner(direction, vertex.normal));
+}
+
+/// All that a surface reflects of what gives light.
+Vector shade(const SceneView& scene, const Vertex& vertex, Chance& chance) {
+    const Reflectances material = reflectances(scene, vertex);
+    Vector sum = times(material.ambient, to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const PunctualLight& light = scene.lights[i];
         Vector l{};
         const Vector intensity = light_at(light, vertex.point, l);
-        const Vector r = n * (2 * inner(l, n)) - l;
-        const Real diffuse = std::max<Real>(0, inner(l, n));
-        const Real mirror = inner(r, v);
-        const Real specular = mirror > 0 ? std::pow(std::min<Real>(1, mirror), Real{material.shininess}) : 0;
-        if (light.casts_shadows != 0 && (diffuse > 0 || specular > 0) && is_shadowed(scene, light, vertex)) continue;
-        sum = sum + times(diffuse_part * diffuse + to_vector(material.specular) * (specular * highlight), intensity);
+        const Vector reflected = phong(material, vertex, l);
+        if (light.casts_shadows != 0 && largest(reflected) > 0 && is_shadowed(scene, light, vertex)) continue;
+        sum = sum + times(reflected, intensity);
+    }
+    sum = sum + glow(scene, material, vertex, chance);
+    if (scene.environment.illuminates != 0 && scene.environment.indirect == 0) {
+        sum = sum + sky(scene, material, vertex, chance);
     }
     return sum;
 }
@@ -129,8 +300,6 @@ Real refract(const Vector& d, const Vector& n, Real from, Real to, Vector& onwar
 
 Vector mirrored(const Vector& d, const Vector& n) { return unit(d - n * (2 * inner(d, n))); }
 
-Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
-
 }  // namespace
 
 NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
@@ -154,20 +323,16 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
     RaySource source;
     Vector radiance{0, 0, 0}, throughput{1, 1, 1};
     Media media(scene);
-    std::uint32_t reflections = 0, refractions = 0;
+    std::uint32_t reflections = 0, refractions = 0, scatterings = 0;
+    bool was_scattered = false;  // by a matt surface, at the vertex before
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
         const NearestSurface nearest = nearest_surface(scene, ray, source);
         if (nearest.primitive == no_primitive) {
-            return radiance + times(throughput, background_towards(scene.environment, ray.direction));
+            const bool shows = !was_scattered || scene.environment.illuminates != 0;
+            const Vector seen = background_towards(scene.environment, ray.direction);
+            return shows ? radiance + times(throughput, seen) : radiance;
         }
-        Vertex vertex{};
-        vertex.point = ray.origin + ray.direction * nearest.surface.t;
-        vertex.direction = unit(ray.direction);
-        vertex.facet = nearest.surface.facet;
-        vertex.normal = nearest.surface.normal;
-        vertex.primitive = nearest.primitive;
-        vertex.material = scene.material_of[nearest.primitive];
-        vertex.from_inside = inner(vertex.direction, vertex.facet) > 0;
+        const Vertex vertex = vertex_at(scene, ray, nearest);
         const Optics& optics = scene.optics[vertex.material];
         const bool is_glass = optics.transmission > 0;
 
@@ -180,16 +345,33 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
             throughput =
                 times(throughput, {std::exp(-a.x * distance), std::exp(-a.y * distance), std::exp(-a.z * distance)});
         }
-        radiance = radiance + times(throughput, shade(scene, vertex));
+        if (is_hole(scene, vertex)) {
+            ray.origin = vertex.point;
+            source = {vertex.primitive, !vertex.from_inside};
+            continue;
+        }
+        // what is drawn from lights at one vertex is not found again at the next
+        const bool is_drawn =
+            was_scattered && std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
+                                         [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
+        if (vertex.shines && !is_drawn) radiance = radiance + times(throughput, to_vector(optics.emission));
+        Chance chance(sample, vertex_number);
+        radiance = radiance + times(throughput, shade(scene, vertex, chance));
 
+        const bool is_front = !(inner(vertex.direction, vertex.normal) > 0);
+        const Vector diffuse = reflectances(scene, vertex).diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;
-        if (!(mirror > 0) && !is_glass) return radiance;
+        const Real matt = scene.environment.indirect != 0 && is_front ? largest(diffuse) : 0;
+        if (!(mirror > 0) && !is_glass && !(matt > 0)) return radiance;
         const auto random = sample.block(Dimension::scatter, vertex_number);
-        const Real total = mirror + glass;
-        const bool takes_glass = is_glass && !(mirror > 0 && to_unit_interval<float>(random.word[0]) * total < mirror);
+        const Real total = mirror + glass + matt;
+        const Real place = Real{to_unit_interval<float>(random.word[0])} * total;
+        const bool takes_mirror = mirror > 0 && (place < mirror || (!is_glass && !(matt > 0)));
+        const bool takes_glass = !takes_mirror && is_glass && (place < mirror + glass || !(matt > 0));
         const Vector facing = vertex.facet * (vertex.from_inside ? -1 : 1);
-        const Vector normal = vertex.normal * (inner(vertex.direction, vertex.normal) > 0 ? -1 : 1);
+        const Vector normal = vertex.normal * (is_front ? 1 : -1);
         bool through = false;
+        was_scattered = !takes_mirror && !takes_glass;
         Vector onward{};
         if (takes_glass) {
             Media behind = media;
@@ -203,16 +385,22 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
             }
             through = reflectance < 1 && !(to_unit_interval<float>(random.word[1]) < reflectance);
             if (through) media = behind;
-            throughput = throughput * (mirror > 0 ? total : glass);
+            throughput = throughput * total;
+        } else if (takes_mirror) {
+            throughput = times(throughput, to_vector(optics.mirror) * (total / mirror));
         } else {
-            throughput = times(throughput, to_vector(optics.mirror) * (is_glass ? total / mirror : 1));
+            onward = on_hemisphere(normal, chance);
+            if (!(inner(onward, facing) > 0)) return radiance;
+            throughput = times(throughput, diffuse * (2 * inner(onward, normal) * total / matt));
         }
-        if (!through) {
+        if (!through && !was_scattered) {
             onward = mirrored(vertex.direction, normal);
             if (!(inner(onward, facing) > 0)) onward = mirrored(vertex.direction, facing);
         }
-        (through ? refractions : reflections) += 1;
-        if (reflections > limits.reflection || refractions > limits.refraction) return radiance;
+        (was_scattered ? scatterings : through ? refractions : reflections) += 1;
+        if (reflections > limits.reflection || refractions > limits.refraction || scatterings > limits.diffuse) {
+            return radiance;
+        }
         ray = {vertex.point, onward};
         source = {vertex.primitive, through ? !vertex.from_inside : vertex.from_inside};
     }

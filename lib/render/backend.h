@@ -76,10 +76,18 @@ class Backend {
     }
 };
 
+/// Which kernel draws a scene on the GPU: one that was compiled ahead of time, or one that is made for the scene, which
+/// takes seconds the first time (PhaseTimes::compile) and is kept on disk.
+enum class Specialise { never, always };
+
+/// "never", "always". Throws InputError for others.
+[[nodiscard]] Specialise parse_specialise(const std::string& text);
+
 struct BackendOptions {
     int threads = 0;              ///< CPU and oracle: 0 means one per core
     int tile_size = 16;           ///< CPU: edge of a square tile, pixels
     std::string instruction_set;  ///< CPU: "x86-64-v2", "-v3" or "-v4"; empty means the best of this machine
+    Specialise specialise = Specialise::always;  ///< CUDA
 };
 
 /// "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a

@@ -8,20 +8,26 @@
 
 namespace tandem {
 
-std::string to_string(const PathLimits& limits) { return fmt::format("{},{}", limits.reflection, limits.refraction); }
+std::string to_string(const PathLimits& limits) {
+    return fmt::format("{},{},{}", limits.reflection, limits.refraction, limits.diffuse);
+}
 
 PathLimits parse_limits(const std::string& text) {
     PathLimits limits;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, limits.reflection);
-    if (first.ec == std::errc() && first.ptr != end && *first.ptr == ',') {
-        const auto second = std::from_chars(first.ptr + 1, end, limits.refraction);
-        if (second.ec == std::errc() && second.ptr == end) return limits;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::uint32_t* limit : {&limits.reflection, &limits.refraction, &limits.diffuse}) {
+        const auto [stop, error] = std::from_chars(at, end, *limit);
+        const bool is_last = limit == &limits.diffuse;
+        if (error != std::errc() || (is_last ? stop != end : stop == end || *stop != ',')) {
+            throw InputError(
+                fmt::format("the limits of a path are three whole numbers, as in 8,16,4: how many "
+                            "reflections, refractions and scatterings; '{}' is not",
+                            text));
+        }
+        at = stop + 1;
     }
-    throw InputError(
-        fmt::format("the limits of a path are two whole numbers, as in 8,16: how many reflections, how "
-                    "many refractions; '{}' is not",
-                    text));
+    return limits;
 }
 
 void check(const RenderJob& job) {
@@ -33,8 +39,13 @@ void check(const RenderJob& job) {
     in_range("width", job.width, 65536);
     in_range("height", job.height, 65536);
     in_range("samples per pixel", job.samples, 1 << 24);
+    if (job.first_sample < 0 || job.first_sample > (1 << 24) - job.samples) {
+        throw InputError(fmt::format("the first sample is {}, but must be from 0 to {}, 2^24 less the samples",
+                                     job.first_sample, (1 << 24) - job.samples));
+    }
     for (const auto& [kind, limit] :
-         {std::pair{"reflections", job.limits.reflection}, std::pair{"refractions", job.limits.refraction}}) {
+         {std::pair{"reflections", job.limits.reflection}, std::pair{"refractions", job.limits.refraction},
+          std::pair{"scatterings", job.limits.diffuse}}) {
         if (limit > 255) throw InputError(fmt::format("the limit of {} is {}, but must be from 0 to 255", kind, limit));
     }
     const auto pixels = static_cast<std::uint64_t>(job.width) * static_cast<std::uint64_t>(job.height);

@@ -17,9 +17,10 @@ struct RenderJob {
     std::uint32_t frame = 0;   ///< random numbers differ from frame to frame
     Tier tier = Tier::strict;  ///< the one that the scene was loaded for
     PathLimits limits{};
+    int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples but for rounding
 };
 
-/// "8,16": reflections, refractions.
+/// "8,16,4": reflections, refractions, scatterings by matt surfaces.
 [[nodiscard]] std::string to_string(const PathLimits& limits);
 
 /// The inverse. Throws InputError.

@@ -13,6 +13,7 @@ namespace tandem {
 /// Seconds per phase. A phase that a backend does not have is zero; phases may overlap in time.
 struct PhaseTimes {
     double build = 0;     ///< acceleration structure
+    double compile = 0;   ///< the kernel for the scene; 0 if it was there
     double upload = 0;    ///< host to device
     double render = 0;    ///< kernel, or the parallel loop over tiles
     double download = 0;  ///< device to host
@@ -47,6 +48,7 @@ struct RenderStats {
     std::string variant;   ///< which compiled code ran, e.g. "x86-64-v3, loop, plain" or "sm_90, bvh, full"
     EffectMask effects;    ///< that were simulated: what the scene calls for, and what was forced on
     EffectMask carried;    ///< that the code can simulate beyond those, unused
+    std::string warning;   ///< what did not go as it should, though the film is right; empty if all did
 };
 
 }  // namespace tandem

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tandem/effects/names.h"
+
 namespace tandem {
 
 namespace {
@@ -53,6 +55,8 @@ Json json_of(const BenchmarkRow& row) {
     for (const ErrorFigure& error : row.errors) {
         errors.push_back({{"against", error.against}, {"tolerance", error.tolerance}, {"share", error.share}});
     }
+    Json figures = Json::object();
+    for (const auto& [name, value] : row.figures) figures[name] = value;
     Json factor;
     if (row.factor) {
         factor = {{"over", row.factor->over},
@@ -66,6 +70,8 @@ Json json_of(const BenchmarkRow& row) {
             {"variant", row.variant},
             {"tier", row.tier},
             {"threads", row.threads},
+            {"effects", to_string(row.effects)},
+            {"carried", to_string(row.carried)},
             {"summary", json_of(summarize(row.seconds))},
             {"seconds", row.seconds},
             {"rounds", row.rounds},
@@ -76,6 +82,7 @@ Json json_of(const BenchmarkRow& row) {
             {"rays_per_second", rays_per_second(row)},
             {"factor", factor},
             {"errors", errors},
+            {"figures", figures},
             {"counters", json_of(row.counters)},
             {"registers", row.registers},
             {"occupancy", row.occupancy},

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "tandem/effects/effects.h"
 #include "tandem/render/stats.h"
 #include "tandem/report/statistics.h"
 
@@ -37,6 +39,8 @@ struct BenchmarkRow {
     std::string variant;  ///< which compiled code ran
     std::string tier;     ///< empty for what is not Tandem
     int threads = 0;      ///< 0 where it does not apply
+    EffectMask effects;   ///< that were simulated
+    EffectMask carried;   ///< that the code can simulate beyond those, unused
 
     std::vector<double> seconds;       ///< the time that the row is about, one value per measurement
     std::vector<std::int32_t> rounds;  ///< the round (frame) of each measurement
@@ -45,9 +49,10 @@ struct BenchmarkRow {
     double rays = 0;                   ///< rays per measurement; 0 if not known
     std::optional<Factor> factor;
     std::vector<ErrorFigure> errors;
-    RenderCounters counters;  ///< summed over the measurements
-    int registers = 0;        ///< of the kernel; 0 if not known
-    double occupancy = 0;     ///< 0 if not known
+    std::vector<std::pair<std::string, double>> figures;  ///< what else was found, by name: "mean FLIP"
+    RenderCounters counters;                              ///< summed over the measurements
+    int registers = 0;                                    ///< of the kernel; 0 if not known
+    double occupancy = 0;                                 ///< 0 if not known
     std::string note;
 };
 

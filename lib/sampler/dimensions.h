@@ -8,8 +8,12 @@ namespace tandem {
 
 /// One block of four numbers each, for every vertex of a path.
 enum class Dimension : std::uint32_t {
-    film = 0,     ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
-    scatter = 1,  ///< number 0: how a path goes on; 1: reflected or refracted
+    film = 0,         ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
+    scatter = 1,      ///< number 0: how a path goes on; 1: reflected or refracted; 2: Russian roulette
+    lens = 2,         ///< numbers 0 and 1: point of the lens. Of the path, at vertex 0.
+    area_light = 3,   ///< number 0: which light; 1 and 2: where on it
+    hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a matt surface
+    environment = 5,  ///< numbers 0 and 1: direction to the background
 };
 
 /// One sample of one pixel, of `Real`'s lanes. Its random numbers hang on nothing else.
@@ -18,14 +22,14 @@ struct SampleId {
     std::uint64_t seed;
     std::uint32_t frame;
     UInt<Real> pixel;
-    std::uint32_t sample;
+    UInt<Real> sample;
 
     /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
     /// (pixel, sample, dimension and vertex, frame) and the key the seed: each combination once, no state.
-    TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, std::uint32_t vertex = 0) const {
+    TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, const UInt<Real>& vertex = UInt<Real>(0U)) const {
         using Word = UInt<Real>;
-        const std::uint32_t place = (vertex << 8) | static_cast<std::uint32_t>(dimension);
-        return philox4x32<Word>({{pixel, Word(sample), Word(place), Word(frame)}}, static_cast<std::uint32_t>(seed),
+        const Word place = (vertex << 8) | Word(static_cast<std::uint32_t>(dimension));
+        return philox4x32<Word>({{pixel, sample, place, Word(frame)}}, static_cast<std::uint32_t>(seed),
                                 static_cast<std::uint32_t>(seed >> 32));
     }
 };

@@ -45,27 +45,31 @@ Value slerp(const Value& a, Value b, double fraction) {
     return result;
 }
 
-Value sample(const AnimationChannel& channel, double time) {
+/// Which of the numbers of a key. Keys of other than cubic channels have values alone.
+enum class KeyPart : std::size_t { in_tangent, value, out_tangent };
+
+Value part_of_key(const AnimationChannel& channel, std::size_t key, KeyPart part) {
     const std::size_t width = channel.path == AnimatedPath::rotation ? 4 : 3;
     const bool cubic = channel.interpolation == Interpolation::cubic;
-    const auto group = [&](std::size_t key, std::size_t part) {
-        Value v{};
-        const std::size_t at = (cubic ? 3 * key + part : key) * width;
-        for (std::size_t i = 0; i < width; ++i) v[i] = double{channel.values[at + i]};
-        return v;
-    };
+    Value v{};
+    const std::size_t at = (cubic ? 3 * key + static_cast<std::size_t>(part) : key) * width;
+    for (std::size_t i = 0; i < width; ++i) v[i] = double{channel.values[at + i]};
+    return v;
+}
+
+Value sample(const AnimationChannel& channel, double time) {
     const KeySpan span = find_keys(channel.times, time);
-    const Value a = group(span.first, 1);
+    const Value a = part_of_key(channel, span.first, KeyPart::value);
     if (span.first == span.second || channel.interpolation == Interpolation::step) return a;
-    const Value b = group(span.second, 1);
+    const Value b = part_of_key(channel, span.second, KeyPart::value);
     const double t = span.fraction;
-    if (cubic) {
-        const Value out_tangent = group(span.first, 2);
-        const Value in_tangent = group(span.second, 0);
+    if (channel.interpolation == Interpolation::cubic) {
+        const Value out_tangent = part_of_key(channel, span.first, KeyPart::out_tangent);
+        const Value in_tangent = part_of_key(channel, span.second, KeyPart::in_tangent);
         const double t2 = t * t;
         const double t3 = t2 * t;
         Value v{};
-        for (std::size_t i = 0; i < width; ++i) {
+        for (std::size_t i = 0; i < v.size(); ++i) {
             v[i] = (2 * t3 - 3 * t2 + 1) * a[i] + span.seconds * (t3 - 2 * t2 + t) * out_tangent[i] +
                    (3 * t2 - 2 * t3) * b[i] + span.seconds * (t3 - t2) * in_tangent[i];
         }
@@ -73,11 +77,57 @@ Value sample(const AnimationChannel& channel, double time) {
     }
     if (channel.path == AnimatedPath::rotation) return slerp(a, b, t);
     Value v{};
-    for (std::size_t i = 0; i < width; ++i) v[i] = (1 - t) * a[i] + t * b[i];
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = (1 - t) * a[i] + t * b[i];
     return v;
 }
 
+/// Are the values of a key and the one behind it the same? A quaternion and its negative are one rotation.
+bool keep_value(const AnimationChannel& channel, std::size_t key) {
+    const Value a = part_of_key(channel, key, KeyPart::value);
+    const Value b = part_of_key(channel, key + 1, KeyPart::value);
+    return a == b || (channel.path == AnimatedPath::rotation && a == Value{-b[0], -b[1], -b[2], -b[3]});
+}
+
+/// Is the value the same all the way from a key to the one behind it? Between cubic keys it is a constant and three
+/// independent polynomials: the difference of the values and the two tangents weigh them.
+bool stays(const AnimationChannel& channel, std::size_t key) {
+    if (!keep_value(channel, key)) return false;
+    return channel.interpolation != Interpolation::cubic ||
+           (part_of_key(channel, key, KeyPart::value) == part_of_key(channel, key + 1, KeyPart::value) &&
+            part_of_key(channel, key, KeyPart::out_tangent) == Value{} &&
+            part_of_key(channel, key + 1, KeyPart::in_tangent) == Value{});
+}
+
 }  // namespace
+
+bool changes_between(const AnimationChannel& channel, double from, double to) {
+    for (std::size_t key = 0; key + 1 < channel.times.size(); ++key) {
+        const double start = double{channel.times[key]}, end = double{channel.times[key + 1]};
+        if (channel.interpolation == Interpolation::step) {
+            if (from < end && end < to && !keep_value(channel, key)) return true;
+        } else if (start < to && from < end && !stays(channel, key)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<std::size_t> parents_first(const Scene& scene) {
+    const std::vector<Node>& nodes = scene.nodes;
+    std::vector<std::size_t> order, chain;
+    std::vector<bool> known(nodes.size(), false);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        for (std::size_t at = i; !known[at];) {  // climb to a known ancestor, then come back down
+            chain.push_back(at);
+            known[at] = true;
+            if (nodes[at].parent == Node::no_parent) break;
+            at = static_cast<std::size_t>(nodes[at].parent);
+        }
+        order.insert(order.end(), chain.rbegin(), chain.rend());
+        chain.clear();
+    }
+    return order;
+}
 
 std::vector<Transform> parents_from_nodes(const Scene& scene, double time) {
     std::vector<Trs> poses;

@@ -13,4 +13,11 @@ namespace tandem {
 /// arc), cubic Hermite spline (rotations are normalised when they become matrices).
 [[nodiscard]] std::vector<Transform> parents_from_nodes(const Scene& scene, double time);
 
+/// Does the channel take different values at times between `from` and `to`, both excluded? Exact, but for rotations
+/// whose quaternions change in length alone: they count as changes.
+[[nodiscard]] bool changes_between(const AnimationChannel& channel, double from, double to);
+
+/// All nodes, each of them behind its parent. Linear in their number, however deep the tree is.
+[[nodiscard]] std::vector<std::size_t> parents_first(const Scene& scene);
+
 }  // namespace tandem

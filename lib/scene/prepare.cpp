@@ -9,7 +9,9 @@
 #include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/area_lights.h"
 #include "tandem/scene/media.h"
+#include "tandem/scene/motion.h"
 #include "tandem/scene/place_mesh.h"
 #include "tandem/scene/prepare_textures.h"
 #include "tandem/scene/render_origin.h"
@@ -83,6 +85,7 @@ class Preparer {
     Preparer(const Scene& scene, const PrepareOptions& options) : scene_(scene), options_(options) {}
 
     PreparedScene run() {
+        result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
         world_from_node_ = world_transforms();
         for (const Material& material : scene_.materials) {
             result_.materials.push_back(material.phong);
@@ -100,36 +103,36 @@ class Preparer {
             throw InputError(
                 fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
         }
-        choose_camera();
+        result_.camera_node = camera_node(scene_, options_.camera);
+        const Camera& camera = *scene_.nodes[result_.camera_node].camera;
+        set_camera(camera, result_.camera_node);
+        if (!options_.time) result_.shutter = shutter_of(camera);
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
         move_to_origin();
         join_kinds();
         find_media(result_);
+        if (scene_.area_lights) find_area_lights(result_);
+        result_.area_light_shadows = scene_.area_light_shadows;
+        for (const MaterialTextures& material : result_.textures.materials) {
+            result_.has_cutouts = result_.has_cutouts || material.alpha_cutoff > 0;
+        }
+        if (scene_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
         if (scene_.bodies_lie_apart) result_.media_overlap = false;
-        result_.effects = mask_of(derive_effects(scene_, result_)) | options_.effects.on;
+        result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;
         return std::move(result_);
     }
 
   private:
+    /// Shorter paths are not worth the noise.
+    static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
 
     std::vector<Transform> world_transforms() const {
-        const std::vector<Transform> local = parents_from_nodes(scene_, time_of_frame(scene_, options_.frame));
+        const std::vector<Transform> local = parents_from_nodes(scene_, result_.time);
         std::vector<Transform> world(local.size());
-        std::vector<bool> known(local.size(), false);
-        std::vector<std::size_t> chain;
-        for (std::size_t i = 0; i < local.size(); ++i) {
-            for (std::size_t at = i; !known[at];) {  // climb to a known ancestor, then come back down
-                chain.push_back(at);
-                if (scene_.nodes[at].parent == Node::no_parent) break;
-                at = static_cast<std::size_t>(scene_.nodes[at].parent);
-            }
-            for (; !chain.empty(); chain.pop_back()) {
-                const std::size_t at = chain.back();
-                const std::int32_t parent = scene_.nodes[at].parent;
-                world[at] = parent == Node::no_parent ? local[at] : world[static_cast<std::size_t>(parent)] * local[at];
-                known[at] = true;
-            }
+        for (const std::size_t at : parents_first(scene_)) {
+            const std::int32_t parent = scene_.nodes[at].parent;
+            world[at] = parent == Node::no_parent ? local[at] : world[static_cast<std::size_t>(parent)] * local[at];
         }
         return world;
     }
@@ -313,21 +316,6 @@ class Preparer {
 #undef TANDEM_PRIMITIVE
     }
 
-    void choose_camera() {
-        std::string cameras;
-        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
-            const Node& node = scene_.nodes[i];
-            if (!node.camera) continue;
-            cameras += (cameras.empty() ? "'" : ", '") + node.name + "'";
-            if (!options_.camera.empty() && node.name != options_.camera) continue;
-            set_camera(*node.camera, i);
-            return;
-        }
-        if (options_.camera.empty()) throw InputError("the scene has no camera; add a node with one");
-        throw InputError(fmt::format("the scene has no camera '{}'; it has {}", options_.camera,
-                                     cameras.empty() ? "none" : cameras));
-    }
-
     /// A camera looks along its node; scale does not change what it sees (glTF 2.0, 3.10).
     void set_camera(const Camera& camera, std::size_t node) {
         const Transform& world_from_node = world_from_node_[node];
@@ -343,6 +331,7 @@ class Preparer {
         result_.render_from_camera = {transpose({{right, up, backward}}), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
             result_.half_height = std::tan(perspective->yfov / 2);
+            result_.lens = perspective->lens;
         } else {
             result_.orthographic = true;
             result_.half_height = std::get<OrthographicCamera>(camera).ymag;
@@ -395,9 +384,13 @@ class Preparer {
 
 }  // namespace
 
-PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
+void check(const Scene& scene) {
     const std::vector<std::string> problems = validate(scene);
     if (!problems.empty()) throw InputError(fmt::format("the scene is not valid: {}", fmt::join(problems, "; ")));
+}
+
+PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
+    check(scene);
     if (options.effects.off.empty()) return Preparer(scene, options).run();
     return Preparer(without_effects(scene, options.effects.off), options).run();
 }

@@ -14,8 +14,12 @@ namespace {
 
 constexpr std::size_t most_texels = std::size_t{1} << 30;
 
-bool has_one_colour(const Image& image) {
-    return std::all_of(image.texels.begin(), image.texels.end(), [&](std::uint32_t t) { return t == image.texels[0]; });
+constexpr std::uint32_t rgb = 0x00FFFFFF;  // the bits of a texel's red, green and blue
+
+/// Of the channels in `bits`.
+bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
+    return std::all_of(image.texels.begin(), image.texels.end(),
+                       [&](std::uint32_t t) { return (t & bits) == (image.texels[0] & bits); });
 }
 
 std::uint32_t least_alpha(const Image& image) {
@@ -59,12 +63,13 @@ class Preparer {
         if (material.diffuse_texture) {
             const TextureReference& reference = *material.diffuse_texture;
             const Image& image = image_of(reference);
+            const bool one_colour = has_one_colour(image, rgb);
+            if (one_colour) multiply(phong_[index], image.texels[0]);
             if (has_one_colour(image)) {
-                multiply(phong_[index], image.texels[0]);
                 prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
-            } else {
+            } else if (!one_colour || prepared.alpha_cutoff > 0) {
                 if (prepared.alpha_cutoff > 0) alpha = least_alpha(image);
-                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb));
+                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour));
             }
         }
         // beyond the rounding of the kernels' product
@@ -74,7 +79,7 @@ class Preparer {
         }
         if (material.normal_texture) {
             const TextureReference& reference = *material.normal_texture;
-            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear));
+            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear, false));
             prepared.normal_scale = material.normal_scale;
         }
         result_.materials.push_back(prepared);
@@ -91,23 +96,23 @@ class Preparer {
         phong.ambient *= factor;
     }
 
-    /// Index of the descriptor.
-    std::uint32_t add(const TextureReference& reference, ColourSpace space) {
+    /// Index of the descriptor. `whitened`: with alpha alone.
+    std::uint32_t add(const TextureReference& reference, ColourSpace space, bool whitened) {
         const auto [known, is_new] =
             descriptor_of_.try_emplace({reference.texture, space}, static_cast<std::uint32_t>(result_.textures.size()));
         if (is_new) {
             const Texture& texture = scene_.textures[reference.texture];
             const Image& image = image_of(reference);
             const bool one = has_one_colour(image);
-            result_.textures.push_back({first_texel_of(texture.image), one ? 1 : image.width, one ? 1 : image.height,
-                                        texture.wrap_s, texture.wrap_t, texture.filter, space});
+            result_.textures.push_back({first_texel_of(texture.image, whitened), one ? 1 : image.width,
+                                        one ? 1 : image.height, texture.wrap_s, texture.wrap_t, texture.filter, space});
         }
         return known->second;
     }
 
-    std::uint32_t first_texel_of(std::uint32_t index) {
+    std::uint32_t first_texel_of(std::uint32_t index, bool whitened) {
         const auto [known, is_new] =
-            first_texel_of_.try_emplace(index, static_cast<std::uint32_t>(result_.texels.size()));
+            first_texel_of_.try_emplace({index, whitened}, static_cast<std::uint32_t>(result_.texels.size()));
         if (is_new) {
             const Image& image = scene_.images[index];
             const std::size_t count = has_one_colour(image) ? 1 : image.texels.size();
@@ -116,6 +121,10 @@ class Preparer {
             }
             result_.texels.insert(result_.texels.end(), image.texels.begin(),
                                   image.texels.begin() + static_cast<std::ptrdiff_t>(count));
+            if (whitened) {
+                std::for_each(result_.texels.end() - static_cast<std::ptrdiff_t>(count), result_.texels.end(),
+                              [](std::uint32_t& texel) { texel |= rgb; });
+            }
         }
         return known->second;
     }
@@ -123,7 +132,7 @@ class Preparer {
     const Scene& scene_;
     std::vector<PhongMaterial>& phong_;
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
-    std::map<std::uint32_t, std::uint32_t> first_texel_of_;                          ///< by image
+    std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;         ///< by image, and whether whitened
     PreparedTextures result_;
 };
 
@@ -138,6 +147,14 @@ bool has_texture(const PreparedTextures& textures, std::size_t material) {
     if (textures.materials.empty()) return false;
     const MaterialTextures& m = textures.materials[material];
     return m.diffuse.texture != no_texture || m.normal.texture != no_texture;
+}
+
+bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
+    if (use.texture == no_texture) return false;
+    const TextureDescriptor& of = textures.textures[use.texture];
+    const auto first = textures.texels.begin() + of.first_texel;
+    return !std::all_of(first, first + std::int64_t{of.width} * of.height,
+                        [](std::uint32_t t) { return (t & rgb) == rgb; });
 }
 
 PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong) {

@@ -11,8 +11,9 @@ namespace tandem {
 
 /// The textures of the materials of a valid scene, without what costs and changes nothing: a diffuse texture of one
 /// colour becomes a factor of `phong`, the reflectances by index of the material; a normal map of one colour becomes
-/// one texel; a mask that lets everything through is none; and pictures that nothing shows are left out. Throws
-/// InputError if there are more than 2^30 texels.
+/// one texel; the colours of a picture that differs in alpha alone become white, and a factor; a mask that lets
+/// everything through is none; and pictures that nothing shows are left out. Throws InputError if there are more than
+/// 2^30 texels.
 [[nodiscard]] PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong);
 
 /// What is wrong with images, textures and their uses, one sentence each; for validate().

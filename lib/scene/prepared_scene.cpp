@@ -19,10 +19,17 @@ SceneView view(const PreparedScene& scene) {
         .materials = scene.materials.data(),
         .optics = scene.optics.data(),
         .lights = scene.lights.data(),
+        .area_lights = scene.area_lights.data(),
+        .texcoords = scene.texcoords.data(),
+        .textures = view(scene.textures),
 #define TANDEM_PRIMITIVE(Type, name, names) .name##_count = count(scene.names),
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
         .light_count = count(scene.lights),
+        .area_light_count = count(scene.area_lights),
+        .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
+        .has_cutouts = scene.has_cutouts ? 1U : 0U,
+        .roulette_from = scene.roulette_from,
         .media_overlap = scene.media_overlap ? 1U : 0U,
         .camera_media = scene.camera_media,
         .environment = scene.environment};
@@ -38,8 +45,16 @@ CameraView camera_view(const PreparedScene& scene, int width, int height) {
     const Vec3d forward = -axes.row[2];
     const Vec3d eye = scene.render_from_camera.translation;
     const Vec3d zero{0, 0, 0};
-    const CameraView view = scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
-                                               : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
+    CameraView view = scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
+                                         : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
+    if (scene.lens.aperture_radius > 0 && !scene.orthographic) {
+        view.has_lens = true;
+        view.lens_x = axes.row[0] * scene.lens.aperture_radius;
+        view.lens_y = axes.row[1] * scene.lens.aperture_radius;
+        view.inverse_focus = 1 / scene.lens.focus_distance;
+        view.rotation = scene.lens.rotation / (2 * pi);
+        view.blades = scene.lens.blades;
+    }
     // rays are affine in the film position: if those of the corners can be traced, all can
     for (const double x : {0.0, double(width)}) {
         for (const double y : {0.0, double(height)}) {
@@ -69,12 +84,19 @@ std::string scene_hash(const PreparedScene& scene) {
     add(scene.materials);
     add(scene.optics);
     add(scene.lights);
+    add(scene.area_lights);
+    hash.update_value(std::uint8_t{scene.area_light_shadows});
+    hash.update_value(scene.roulette_from);
     hash.update_value(scene.camera_media);
     hash.update_value(std::uint8_t{scene.media_overlap});
     hash.update_value(scene.environment);
     hash.update_value(scene.render_from_camera);
     hash.update_value(std::uint8_t{scene.orthographic});
     hash.update_value(scene.half_height);
+    hash.update_value(scene.lens.aperture_radius);
+    hash.update_value(scene.lens.focus_distance);
+    hash.update_value(scene.lens.blades);
+    hash.update_value(scene.lens.rotation);
     if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
         add(scene.textures.texels);
         add(scene.textures.textures);

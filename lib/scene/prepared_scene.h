@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "tandem/camera/camera.h"
+#include "tandem/camera/lens.h"
+#include "tandem/camera/shutter.h"
 #include "tandem/geometry/affine.h"
 #include "tandem/light/environment.h"
 #include "tandem/light/punctual_light.h"
@@ -21,6 +23,8 @@ namespace tandem {
 /// Primitive ids run over the arrays spheres, boxes, ... in the order of primitives.def. Within a kind they follow the
 /// order of nodes, geometries, instances and faces in the Scene.
 struct PreparedScene {
+    static constexpr std::uint32_t never = 0xFFFFFFFFU;
+
 #define TANDEM_PRIMITIVE(Type, name, names) std::vector<Type> names;
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
@@ -32,6 +36,10 @@ struct PreparedScene {
     PreparedTextures textures;
     std::vector<Optics> optics;  ///< by material
     std::vector<PunctualLight> lights;
+    std::vector<AreaLight> area_lights;  ///< spheres, triangles and quads that glow, in the order of their ids
+    bool area_light_shadows = true;
+    bool has_cutouts = false;             ///< some material is cut out by its alpha
+    std::uint32_t roulette_from = never;  ///< vertex of a path
     CameraMedia camera_media{};
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
@@ -43,7 +51,13 @@ struct PreparedScene {
     /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
     Transform render_from_camera;
     bool orthographic = false;
+    Lens lens{};
     double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
+
+    // when this is, and what the camera would see of motion: for derive_effects()
+    double time = 0;              ///< seconds, of the animation
+    std::size_t camera_node = 0;  ///< index into Scene::nodes
+    Shutter shutter{};            ///< closed for an instant of a frame
 };
 
 [[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
@@ -64,7 +78,8 @@ struct PreparedScene {
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
 /// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
-/// node_of and dropped_primitives, which serve messages, nor over origin and effects.
+/// node_of and dropped_primitives, which serve messages, nor over origin, effects, time and shutter: a frame with
+/// motion blur has a hash of its own (render/motion_blur.h).
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

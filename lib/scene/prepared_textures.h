@@ -22,4 +22,7 @@ struct PreparedTextures {
 /// Does the picture of this material depend on where a point lies on its surface?
 [[nodiscard]] bool has_texture(const PreparedTextures& textures, std::size_t material);
 
+/// Does a picture show anything but white?
+[[nodiscard]] bool has_colours(const PreparedTextures& textures, const TextureUse& use);
+
 }  // namespace tandem

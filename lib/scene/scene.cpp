@@ -101,9 +101,11 @@ class Problems {
         require(reflectance(optics.mirror), where, "has a mirror reflectance outside [0, 1]");
         require(optics.transmission >= 0 && optics.transmission <= 1, where, "has a transmission outside [0, 1]");
         require(optics.ior >= 1e-3F && optics.ior <= 1e3F, where, "has a refractive index outside [0.001, 1000]");
-        const auto absorbs = [](float a) { return a >= 0 && std::isfinite(a); };
-        require(absorbs(optics.absorption.x) && absorbs(optics.absorption.y) && absorbs(optics.absorption.z), where,
+        const auto positive = [](float a) { return a >= 0 && std::isfinite(a); };
+        require(positive(optics.absorption.x) && positive(optics.absorption.y) && positive(optics.absorption.z), where,
                 "has an absorption that is not three numbers of 0 or more");
+        require(positive(optics.emission.x) && positive(optics.emission.y) && positive(optics.emission.z), where,
+                "has an emission that is not three numbers of 0 or more");
         require(optics.priority <= 127, where, "has a dielectric priority above 127");
     }
 
@@ -204,9 +206,23 @@ class Problems {
     }
 
     void check_camera(const Camera& camera, const std::string& where) {
+        const Shutter& shutter = shutter_of(camera);
+        require(is_number(shutter.open) && is_number(shutter.close), where,
+                "has a shutter that opens or closes at a time that is not finite or beyond 1e18");
+        require(!(shutter.close < shutter.open), where, "has a shutter that closes before it opens");
+        require(shutter.instants >= 1 && shutter.instants <= 1024, where,
+                "has a shutter whose number of instants is not from 1 to 1024");
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
             require(perspective->yfov > 0 && perspective->yfov < 3.14159, where,
                     "has a camera whose vertical field of view is not between 0 and pi");
+            const Lens& lens = perspective->lens;
+            require(is_number(lens.aperture_radius) && lens.aperture_radius >= 0, where,
+                    "has a lens whose aperture radius is not from 0 to 1e18");
+            require(is_number(lens.focus_distance) && lens.focus_distance > 0, where,
+                    "has a lens whose focus distance is not above 0 and up to 1e18");
+            require(lens.blades == 0 || (lens.blades >= 3 && lens.blades <= 32), where,
+                    "has a lens whose aperture has neither 0 nor 3 to 32 blades");
+            require(is_number(lens.rotation), where, "has a lens whose rotation is not a number");
         } else {
             const double ymag = std::get<OrthographicCamera>(camera).ymag;
             require(is_number(ymag) && ymag > 0, where,
@@ -219,6 +235,12 @@ class Problems {
 };
 
 }  // namespace
+
+void set_shutter_instants(Scene& scene, int instants) {
+    for (Node& node : scene.nodes) {
+        if (node.camera) shutter_of(*node.camera).instants = instants;
+    }
+}
 
 double time_of_frame(const Scene& scene, std::int32_t frame) {
     return double{static_cast<float>(frame / scene.frames_per_second)};

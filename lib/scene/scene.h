@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "tandem/camera/lens.h"
+#include "tandem/camera/shutter.h"
 #include "tandem/light/environment.h"
 #include "tandem/material/optics.h"
 #include "tandem/material/phong.h"
@@ -67,14 +69,24 @@ struct Geometry {
 /// Perspective: `yfov` is the whole vertical angle, in radians.
 struct PerspectiveCamera {
     double yfov = 0.8;
+    Lens lens{};
+    Shutter shutter{};
 };
 
 /// Orthographic: half of the height that the film shows, in metres. The width follows the film.
 struct OrthographicCamera {
     double ymag = 1.0;
+    Shutter shutter{};
 };
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
+
+/// Of a Camera, const or not.
+template <class AnyCamera>
+[[nodiscard]] auto& shutter_of(AnyCamera& camera) {
+    return std::visit(
+        [](auto& kind) -> auto& { return kind.shutter; }, camera);
+}
 
 enum class LightKind { point, spot, directional };
 
@@ -144,8 +156,14 @@ struct Scene {
     std::vector<AnimationChannel> animation;
     Environment environment;
     double frames_per_second = 24;
-    bool bodies_lie_apart = false;  ///< take bodies of glass for apart, even if they touch or hold one another
+    bool area_lights = true;         ///< draw points of surfaces that glow; without it only paths find them
+    bool area_light_shadows = true;  ///< also of the background
+    bool roulette = true;            ///< play Russian roulette with long paths, where there is indirect light
+    bool bodies_lie_apart = false;   ///< take bodies of glass for apart, even if they touch or hold one another
 };
+
+/// For all cameras of the scene: at how many instants of its interval a shutter sees, at most.
+void set_shutter_instants(Scene& scene, int instants);
 
 /// Does the light bring any?
 [[nodiscard]] inline bool is_lit(const LightSource& light) {

@@ -4,10 +4,12 @@
 #include "tandem/camera/camera.h"
 #include "tandem/geometry/affine.h"
 #include "tandem/geometry/quad.h"
+#include "tandem/light/area_light.h"
 #include "tandem/light/environment.h"
 #include "tandem/light/punctual_light.h"
 #include "tandem/material/optics.h"
 #include "tandem/material/phong.h"
+#include "tandem/texture/texture_set.h"
 
 namespace tandem {
 
@@ -27,10 +29,17 @@ struct SceneView {
     const PhongMaterial* materials;
     const Optics* optics;  ///< by material
     const PunctualLight* lights;
+    const AreaLight* area_lights;  ///< by primitive id
+    const Vec2f* texcoords;        ///< of the corners of faces (FaceAttributes)
+    TextureSet textures;
 #define TANDEM_PRIMITIVE(Type, name, names) std::uint32_t name##_count;
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     std::uint32_t light_count;
+    std::uint32_t area_light_count;
+    std::uint32_t area_lights_cast_shadows;
+    std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha
+    std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
     Environment environment;
@@ -65,15 +74,33 @@ struct PrimitiveKinds {
 
 TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
 
+/// Does a kernel learn what its scene has when it is linked (cuda/linked_facts.h)?
+#ifdef TANDEM_LINKED_KINDS
+inline constexpr bool is_linked = true;
+#else
+inline constexpr bool is_linked = false;
+#endif
+
+/// Can a scene have primitives of one of these kinds?
+TANDEM_HD bool may_have(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
     // the last kind that there may be needs no comparison
-#define TANDEM_PRIMITIVE(Type, name, names)                                         \
-    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                            \
-        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);    \
-        if (later == 0 || id < scene.name##_count) return visitor(scene.names[id]); \
-        id -= scene.name##_count;                                                   \
+#define TANDEM_PRIMITIVE(Type, name, names)                                                   \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
+        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);              \
+        if (may_have(PrimitiveKinds::name)) {                                                 \
+            if (!may_have(later) || id < scene.name##_count) return visitor(scene.names[id]); \
+            id -= scene.name##_count;                                                         \
+        }                                                                                     \
     }
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE

@@ -61,8 +61,7 @@ TANDEM_HD TextureView texture_view(const TextureSet& set, std::uint32_t texture)
 
 /// A texture of a material at the coordinates (u, v) of its surface; white if there is none.
 template <class Real>
-TANDEM_HD Rgba<Real> sample(const TextureSet& set, const TextureUse& use, const Double<Real>& u,
-                            const Double<Real>& v) {
+TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
     if (use.texture == no_texture) return {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
     const auto along = [&](const float* row)

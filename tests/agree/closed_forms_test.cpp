@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "support/backend_list.h"
 #include "tandem/scene/prepare.h"
@@ -33,18 +36,39 @@ Scene uniform_light(const Vec3f& colour) {
 
 class ClosedForms : public test::ExactBackend {
   protected:
-    /// The mean of all pixels' means, after a check that no path met anything out of order.
-    [[nodiscard]] Vec3d mean_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
+    /// After a check that no path met anything out of order.
+    [[nodiscard]] Film film_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
         RenderJob job;
         job.width = job.height = size;
         job.samples = samples;
         job.tier = GetParam().tier;
         job.limits = limits;
-        const RenderResult result = backend_->render(load(prepare(scene)), job);
+        RenderResult result = backend_->render(load(prepare(scene)), job);
         EXPECT_EQ(result.stats.counters, RenderCounters{});
+        return std::move(result.film);
+    }
+
+    /// The mean of all pixels' means.
+    [[nodiscard]] Vec3d mean_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
+        const Film film = film_of(scene, samples, limits, size);
         Vec3d sum{0, 0, 0};
-        for (const Vec3d& pixel : result.film.sums()) sum = sum + pixel;
-        return sum * (1.0 / (static_cast<double>(result.film.pixel_count()) * samples));
+        for (const Vec3d& pixel : film.sums()) sum = sum + pixel;
+        return sum * (1.0 / (static_cast<double>(film.pixel_count()) * samples));
+    }
+
+    /// Is the mean of red within 5 standard errors of `expected`? The pixels are samples of the same.
+    void expect_mean(const Scene& scene, int samples, const PathLimits& limits, double expected) {
+        const Film film = film_of(scene, samples, limits, 24);
+        double sum = 0, squares = 0;
+        for (const Vec3d& pixel : film.sums()) {
+            sum += pixel.x / samples;
+            squares += pixel.x / samples * (pixel.x / samples);
+        }
+        const auto count = static_cast<double>(film.pixel_count());
+        const double mean = sum / count;
+        const double error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+        EXPECT_NEAR(mean, expected, 5 * error + 1e-6);
+        EXPECT_LT(error, 0.02 * expected);  // or the test would say nothing
     }
 };
 
@@ -155,6 +179,91 @@ TEST_P(ClosedForms, LightFallsOffWithTheSquareOfTheDistance) {
             EXPECT_NEAR(mean[channel] / expected, 1, 1e-6) << height;
         }
     }
+}
+
+// Under a sphere of radius r and radiance L at distance d: kd L (r / d)^2 from a Lambertian surface.
+TEST_P(ClosedForms, ASphereLightsAsItsSolidAngleSays) {
+    for (const double distance : {1.5, 4.0, 30.0}) {
+        Scene scene = uniform_light({0, 0, 0});
+        Material matt = black("matt"), lamp = black("lamp");
+        matt.phong.diffuse = {0.6F, 0.6F, 0.6F};
+        lamp.optics.emission = {5, 5, 5};
+        scene.materials = {matt, lamp};
+        scene.nodes = {camera({0, 0, 0.4}, 1e-4), body(BoxShape{{9, 9, 1}}, {0, 0, -0.5}, 0),
+                       body(SphereShape{1}, {0, 0, distance}, 1)};
+        expect_mean(scene, 64, {}, 0.6F * 5 / (distance * distance));
+    }
+}
+
+// A ball of albedo kd in uniform light is kd all over.
+TEST_P(ClosedForms, AConvexBodyInUniformLightShowsItsAlbedo) {
+    Scene scene = uniform_light({1, 1, 1});
+    Material matt = black("matt");
+    matt.phong.diffuse = {0.7F, 0.7F, 0.7F};
+    scene.materials = {matt};
+    scene.nodes = {camera({0, 0, 4}, 0.3), body(SphereShape{1}, {0, 0, 0}, 0)};
+    scene.environment.illuminates = 1;
+    for (const std::uint32_t indirect : {0U, 1U}) {
+        scene.environment.indirect = indirect;
+        EXPECT_NEAR(mean_of(scene, 16, {}).x, 0.7, 1e-6) << indirect;
+    }
+}
+
+// Within walls of albedo a that glow with e: e times the sum of a^k, up to one more than the limit of scatterings,
+// since the last vertex draws a light as well. What paths find and what is drawn share it; Russian roulette changes no
+// mean.
+TEST_P(ClosedForms, AGlowingRoomIsAGeometricSeries) {
+    Scene scene = uniform_light({0, 0, 0});
+    Material wall = black("wall");
+    wall.phong.diffuse = {0.6F, 0.6F, 0.6F};
+    wall.optics.emission = {2, 2, 2};
+    scene.materials = {wall};
+    scene.environment.indirect = 1;
+    Mesh room{.name = "room",  // the fronts of its faces are within
+              .positions =
+                  {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+              .quads = {0, 1, 2, 3, 5, 4, 7, 6, 4, 0, 3, 7, 1, 5, 6, 2, 4, 5, 1, 0, 3, 2, 6, 7}};
+    scene.meshes = {room};
+    scene.nodes = {camera({0.1, 0.2, 0.5}, 0.4), body(MeshShape{0}, {0, 0, 0}, 0)};
+    const double a = double{0.6F};
+    for (const std::uint32_t limit : {0U, 1U, 3U, 12U}) {
+        expect_mean(scene, 64, {.diffuse = limit}, 2 * (1 - std::pow(a, limit + 2.0)) / (1 - a));
+    }
+}
+
+// A ball that is lit from the camera: kd cos, in the mean 2 / 3 kd of the disk that it covers.
+TEST_P(ClosedForms, ALambertianBallIsTwoThirdsAsBright) {
+    Scene scene = uniform_light({0, 0, 0});
+    Material matt = black("matt");
+    matt.phong.diffuse = {0.9F, 0.9F, 0.9F};
+    scene.materials = {matt};
+    scene.nodes = {camera({0, 0, 4}, 1),
+                   body(SphereShape{1}, {0, 0, 0}, 0),
+                   {.name = "sun", .light = LightSource{.kind = LightKind::directional}}};
+    EXPECT_NEAR(mean_of(scene, 64, {}, 64).x, 0.9 * 2 / 3 * std::numbers::pi / 4, 1e-3);
+}
+
+// A small light out of focus: a disk of radius R |1 / d - 1 / f| on the film at distance 1, of which the mean square of
+// the distance from the middle is half the square of its radius.
+TEST_P(ClosedForms, ALensBlursAsItsCircleOfConfusionSays) {
+    const double radius = 0.1, focus = 2, distance = 8, size = 64;
+    Scene scene = uniform_light({0, 0, 0});
+    Material lamp = black("lamp");
+    lamp.optics.emission = {1000, 1000, 1000};
+    scene.materials = {lamp};
+    const double half_height = 0.06;
+    Node eye{.name = "eye", .camera = PerspectiveCamera{2 * std::atan(half_height), {radius, focus}}};
+    scene.nodes = {eye, body(SphereShape{0.004}, {0, 0, -distance}, 0)};
+    const Film film = film_of(scene, 256, {}, 64);
+    double weight = 0, square = 0;
+    for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+        const double x = (static_cast<double>(i % 64) + 0.5) / size * 2 - 1;
+        const double y = (static_cast<double>(i / 64) + 0.5) / size * 2 - 1;
+        weight += film.sums()[i].x;
+        square += film.sums()[i].x * (x * x + y * y) * half_height * half_height;
+    }
+    const double circle = radius * (1 / focus - 1 / distance);
+    EXPECT_NEAR(std::sqrt(2 * square / weight) / circle, 1, 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, ClosedForms, ::testing::ValuesIn(test::exact_renderers()), test::test_name);

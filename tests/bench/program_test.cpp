@@ -33,14 +33,15 @@ TEST(BenchProgram, BadUsageIsStatusTwo) {
     for (const char* arguments :
          {"", "nonsense", "versus --size 12", "versus named:nothing", "parity --frames 5-4", "versus --rays parallel",
           "versus --backends tape", "targets --only nothing", "paper --spp 0", "hard --cases Z1",
-          "hard --check /nowhere/answers", "hard --rays 1"}) {
+          "hard --check /nowhere/answers", "hard --rays 1", "effects", "effects /nowhere/scene.gltf",
+          "effects named:paper --tier sloppy", "effects named:paper --repetitions 0"}) {
         EXPECT_EQ(run_bench(arguments).status, 2) << arguments;
     }
 }
 
 TEST(BenchProgram, HelpAndListsAreStatusZero) {
-    for (const char* arguments :
-         {"--help", "parity --help", "versus --help", "paper --help", "targets --help", "hard --help"}) {
+    for (const char* arguments : {"--help", "parity --help", "versus --help", "paper --help", "targets --help",
+                                  "hard --help", "effects --help"}) {
         EXPECT_EQ(run_bench(arguments).status, 0) << arguments;
     }
     const Outcome list = run_bench("targets --list");
@@ -57,6 +58,15 @@ TEST(BenchProgram, JsonOnStandardOutputIsAllThereIs) {
     EXPECT_EQ(json["rows"][0]["seconds"].size(), 3U);
     EXPECT_EQ(json["command"],
               "tandem-bench versus named:paper --backends cpu --size 20x18 --spp 1 --repetitions 3 --json -");
+}
+
+TEST(BenchProgram, EffectsOfAScenePassAndSayTheirPrice) {
+    const Outcome outcome =
+        run_bench("effects " TANDEM_SCENES "/mirrors.gltf --backends cpu --size 16x12 --spp 1 --repetitions 1");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    for (const char* part : {"without reflection", "shadows alone", "Mean FLIP", "The price of not specialising"}) {
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
+    }
 }
 
 TEST(BenchProgram, WithoutAGpuCudaAloneIsStatusThree) {

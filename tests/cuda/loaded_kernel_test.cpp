@@ -16,7 +16,7 @@ namespace tandem::cuda {
 namespace {
 
 using namespace tandem::test;
-using ToyKernel = LoadedKernel<const float*, float*, std::uint32_t>;
+using ToyKernel = LoadedCode;  // its parameters: const float*, float*, std::uint32_t
 
 class LoadedKernelOn : public ::testing::Test {
   protected:

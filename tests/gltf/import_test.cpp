@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gltf/files.h"
+#include "support/thrown_message.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
@@ -119,6 +120,50 @@ TEST_F(Import, ReadsLightsAsPhongSeesThem) {
     EXPECT_FALSE(source.casts_shadows);
 }
 
+TEST_F(Import, ReadsLenses) {
+    TestFile file = small_file();
+    Json& lens = file.json["cameras"][0]["extensions"]["TANDEM_camera_lens"];
+    lens = {{"apertureRadius", 0.25}, {"focusDistance", 3}, {"blades", 6}, {"rotation", 0.5}};
+    const Lens read = std::get<PerspectiveCamera>(*import(file).scene.nodes[0].camera).lens;
+    EXPECT_EQ(read.aperture_radius, 0.25);
+    EXPECT_EQ(read.focus_distance, 3);
+    EXPECT_EQ(read.blades, 6);
+    EXPECT_EQ(read.rotation, 0.5);
+    lens["blades"] = 2;
+    EXPECT_THROW((void)import(file), InputError);
+}
+
+TEST_F(Import, ReadsShutters) {
+    TestFile file = small_file();
+    Json& camera = file.json["cameras"][0];
+    Json& shutter = camera["extensions"]["TANDEM_camera_shutter"];
+    shutter = {{"open", -0.01}, {"close", 0.02}};
+    const auto read = [&] { return shutter_of(*import(file).scene.nodes[0].camera); };
+    EXPECT_EQ(read().open, -0.01);
+    EXPECT_EQ(read().close, 0.02);
+    EXPECT_EQ(read().instants, 16);
+    shutter["instants"] = 5;
+    EXPECT_EQ(read().instants, 5);
+    shutter["close"] = -0.02;
+    const auto message = test::thrown_message<InputError>([&] { (void)import(file); });
+    EXPECT_NE(message.find("cameras[0].extensions.TANDEM_camera_shutter.close"), std::string::npos) << message;
+    camera = {{"type", "orthographic"},
+              {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}},
+              {"extensions", {{"TANDEM_camera_shutter", {{"open", 0}, {"close", 1}}}}}};
+    EXPECT_EQ(read().close, 1);
+}
+
+TEST_F(Import, TakesComputedLightInPlaceOfTheAmbientTerm) {
+    TestFile file = small_file();
+    Json& environment = file.json["scenes"][0]["extensions"]["TANDEM_environment"];
+    environment = {{"illuminates", true}};
+    EXPECT_EQ(import(file).scene.environment.ambient, Vec3f(0, 0, 0));
+    EXPECT_EQ(import(file).scene.environment.illuminates, 1U);
+    environment = {{"indirect", true}, {"ambient", {0.5, 0.5, 0.5}}};
+    EXPECT_EQ(import(file).scene.environment.ambient, Vec3f(0.5F, 0.5F, 0.5F));
+    EXPECT_EQ(import(file).scene.environment.indirect, 1U);
+}
+
 TEST_F(Import, ReadsMirrorsAndGlass) {
     TestFile file = small_file();
     Json& extensions = file.json["materials"][0]["extensions"];
@@ -136,6 +181,9 @@ TEST_F(Import, ReadsMirrorsAndGlass) {
     EXPECT_FLOAT_EQ(optics.absorption.y, static_cast<float>(std::numbers::ln2 / 2));
     EXPECT_FLOAT_EQ(optics.absorption.z, static_cast<float>(std::numbers::ln2));
     EXPECT_EQ(optics.priority, 7U);
+    file.json["materials"][0]["emissiveFactor"] = {1, 0.5, 0.25};
+    extensions["KHR_materials_emissive_strength"] = {{"emissiveStrength", 4}};
+    EXPECT_EQ(import(file).scene.materials[0].optics.emission, Vec3f(4, 2, 1));
     extensions["TANDEM_materials_dielectric"] = {{"priority", 128}};
     EXPECT_THROW((void)import(file), InputError);
 }

@@ -48,7 +48,7 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_TRUE(contains(test::sentences(box.report), "rendered: triangle mesh at meshes[0].primitives[0] (6 uses)"));
     const auto helmet = import_gltf(*folder / "FlightHelmet/FlightHelmet.gltf");
     EXPECT_EQ(helmet.scene.nodes.size(), 6U);
-    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[2] (10 uses): Tandem reads it"));
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "rendered: image at images[2] (10 uses)"));
     EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[1] (5 uses)"));
     ASSERT_EQ(helmet.scene.images.size(), 10U);
     EXPECT_EQ(helmet.scene.images[0].texels.size(),
@@ -59,14 +59,17 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_TRUE(contains(test::sentences(fox.report), "ignored: further animation at animations[1] (2 uses)"));
 }
 
-/// `scene` seen from `eye` towards -z, with a light there.
+/// `scene` seen from `eye` towards -z, with a light there. The lamps of the file do not shine: the oracle would draw
+/// other points of them.
 PreparedScene seen_from(Scene scene, const Vec3d& eye) {
     Node node;
     node.trs.translation = eye;
     node.camera = PerspectiveCamera{0.8};
     node.light = LightSource{};
     scene.nodes.push_back(node);
-    return prepare(scene);
+    PrepareOptions options;
+    options.effects.off = Effect::area_lights;
+    return prepare(scene, options);
 }
 
 RenderResult draw(const std::string& backend, const PreparedScene& scene) {
@@ -101,7 +104,7 @@ TEST(RealFiles, AreDrawn) {
         const RenderResult expected = draw("oracle", scene);
         for (std::size_t i = 0; i < result.film.pixel_count(); ++i) {
             const Vec3d difference = result.film.sums()[i] - expected.film.sums()[i];
-            ASSERT_LE(norm1(difference), 1e-5) << c.file << ", pixel " << i;
+            ASSERT_LE(norm1(difference), 1e-5 * (1 + norm1(expected.film.sums()[i]))) << c.file << ", pixel " << i;
         }
     }
 }

@@ -91,7 +91,7 @@ TEST_F(Report, NamesTexturesSkinsAndMorphTargets) {
           "ignored: metallic-roughness texture at materials[0].pbrMetallicRoughness.metallicRoughnessTexture: ",
           "ignored: occlusion texture at materials[0].occlusionTexture: ",
           "ignored: metallicFactor at materials[0].pbrMetallicRoughness.metallicFactor: ",
-          "ignored: emission at materials[0].emissiveFactor: "}) {
+          "rendered: emission at materials[0].emissiveFactor: "}) {
         expect(file, sentence);
     }
 }

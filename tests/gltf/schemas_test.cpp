@@ -92,7 +92,8 @@ TEST_F(Schemas, Environment) {
             {"{}", "true", R"({"ambient": [0, 0, 9]})", R"({"ambient": [0, 0, -9]})", R"({"ambient": []})",
              R"({"gradient": {}})", R"({"gradient": {"bottom": [0, 0, 0]}})",
              R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2, 3]}})", R"({"gradient": [1, 1, 1]})",
-             R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2]}, "ambient": [1, 1, 1]})"},
+             R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2]}, "ambient": [1, 1, 1]})",
+             R"({"illuminates": true, "indirect": false})", R"({"indirect": 1})"},
             [](Json& d, const Json& v) { d["scenes"][0]["extensions"]["TANDEM_environment"] = v; });
 }
 
@@ -104,6 +105,24 @@ TEST_F(Schemas, LightsOfPhong) {
                 d["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
                 d["extensions"]["KHR_lights_punctual"]["lights"][0]["extensions"]["TANDEM_lights_phong"] = v;
             });
+}
+
+TEST_F(Schemas, Lens) {
+    compare(schema("camera.TANDEM_camera_lens.schema.json"),
+            {"{}", R"({"apertureRadius": 0.1})", R"({"apertureRadius": 0, "focusDistance": 1})",
+             R"({"apertureRadius": -1, "focusDistance": 1})", R"({"apertureRadius": 1, "focusDistance": 0})",
+             R"({"apertureRadius": 1, "focusDistance": 2, "blades": 33})",
+             R"({"apertureRadius": 1, "focusDistance": 2, "blades": 5, "rotation": -3})"},
+            [](Json& d, const Json& v) { d["cameras"][0]["extensions"]["TANDEM_camera_lens"] = v; });
+}
+
+TEST_F(Schemas, Shutter) {
+    compare(schema("camera.TANDEM_camera_shutter.schema.json"),
+            {"{}", R"({"open": 0.1})", R"({"open": 0, "close": 0.02})", R"({"open": -0.01, "close": -0.01})",
+             R"({"open": "now", "close": 1})", R"({"open": 0, "close": 1, "instants": 0})",
+             R"({"open": 0, "close": 1, "instants": 1024})", R"({"open": 0, "close": 1, "instants": 1025})",
+             R"({"open": 0, "close": 1, "instants": 2.5})"},
+            [](Json& d, const Json& v) { d["cameras"][0]["extensions"]["TANDEM_camera_shutter"] = v; });
 }
 
 TEST_F(Schemas, Dielectric) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "gltf/files.h"
+#include "tandem/effects/derive.h"
 #include "tandem/effects/names.h"
 #include "tandem/scene/load_scene.h"
 #include "tandem/scene/prepare.h"
@@ -35,15 +36,22 @@ struct StoredScene {
 };
 void PrintTo(const StoredScene& scene, std::ostream* out) { *out << scene.name; }
 
+const EffectMask glow = Effect::emission | Effect::area_lights | Effect::shadows;
 const StoredScene stored_scenes[] = {
     {"paper", {}},
     {"plain", {}},
     {"mirrors", Effect::shadows | Effect::reflection},
     {"glass", Effect::shadows | Effect::refraction | Effect::absorption | Effect::nested_media},
+    {"lens", glow | Effect::lens},
+    {"soft-shadows", glow},
+    {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
+    {"motion", Effect::shadows | Effect::motion_blur},
+    {"whitted", all_effects - Effect::motion_blur},
 };
 
 class SceneScript : public test::GltfFiles, public ::testing::WithParamInterface<StoredScene> {};
 
+// The compressed pictures in a file may differ between versions of zlib, the scene may not.
 TEST_P(SceneScript, WritesTheStoredScene) {
     const std::string python = TANDEM_PYTHON;
     if (python.empty()) GTEST_SKIP() << "no python3 was found when configuring";
@@ -52,9 +60,10 @@ TEST_P(SceneScript, WritesTheStoredScene) {
     const std::string command = "'" + python + "' -B '" + scenes + name + ".py' '" + target.string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
     const Scene written = load_scene(target.string()), stored = load_scene(scenes + name + ".gltf");
-    EXPECT_EQ(scene_hash(prepare(written)), scene_hash(prepare(stored)))
+    const PreparedScene prepared = prepare(stored);
+    EXPECT_EQ(scene_hash(prepare(written)), scene_hash(prepared))
         << "run assets/scenes/" << name << ".py and commit what it writes";
-    EXPECT_EQ(to_string(prepare(stored).effects), to_string(GetParam().effects));
+    EXPECT_EQ(to_string(mask_of(derive_effects(stored, prepared))), to_string(GetParam().effects));
 }
 
 INSTANTIATE_TEST_SUITE_P(Assets, SceneScript, ::testing::ValuesIn(stored_scenes), [](const auto& info) {

@@ -35,6 +35,15 @@ TEST(Compare, EqualFilmsDifferInNothing) {
     for (const Tolerance tolerance : tolerances) EXPECT_EQ(difference.residual_rate(tolerance), 0.0);
     EXPECT_EQ(difference.largest, 0.0);
     EXPECT_EQ(difference.mean, 0.0);
+    EXPECT_EQ(difference.rms, 0.0);
+}
+
+TEST(Compare, MeanAndRootMeanSquare) {
+    const FilmDifference difference = compare(row({0, 1, 2, 3}), row({0, 1, 2, 7}));
+    EXPECT_EQ(difference.mean, 1.0);
+    EXPECT_EQ(difference.rms, 2.0);
+    EXPECT_EQ(difference.largest, 4.0);
+    EXPECT_EQ(compare(row({1, 2}), row({1, infinity})).rms, infinity);
 }
 
 TEST(Compare, TheCurveAtItsBorders) {

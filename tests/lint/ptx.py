@@ -32,8 +32,9 @@ def main():
             ptx = pathlib.Path(folder, "out.ptx")
             fast = FAST_TIER.match(source.relative_to(root).as_posix())
             exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
+            linked = ["-rdc=true", "-DTANDEM_LINKED_TIER=strict"] if source.name.startswith("linked_") else []
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-DTANDEM_NO_LOOSE_FMA", *where,
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-DTANDEM_NO_LOOSE_FMA", *linked, *where,
                  *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
             name = source.relative_to(root).as_posix()

@@ -26,6 +26,8 @@ BenchmarkRow example_row() {
     row.samples = 9e7;
     row.factor = Factor{"slow", {100, Interval{90, 110}, 3}};
     row.errors.push_back({"oracle", "any bit", 0});
+    row.effects = Effect::shadows | Effect::lens;
+    row.figures = {{"mean FLIP", 0.25}};
     phase(row, "render").seconds = {0.1, 0.05, 0.2};
     return row;
 }
@@ -60,6 +62,9 @@ TEST(JsonWriter, HoldsEveryMeasurementAndTheMachine) {
     EXPECT_EQ(row["factor"]["interval_95"][1], 110);
     EXPECT_EQ(row["phases"]["render"]["summary"]["median"], 0.1);
     EXPECT_EQ(row["errors"][0]["share"], 0);
+    EXPECT_EQ(row["effects"], "shadows, lens");
+    EXPECT_EQ(row["carried"], "none");
+    EXPECT_EQ(row["figures"]["mean FLIP"], 0.25);
     EXPECT_EQ(json["machine"]["compiler"], example_report().machine.compiler);
     EXPECT_EQ(json["callouts"][0]["kind"], "bad");
     EXPECT_EQ(json["tables"][0]["rows"][1][1], "22");

@@ -57,6 +57,15 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"cycle", [](Scene& s) { s.nodes[1].parent = 2, s.nodes[2].parent = 1; }, "is its own ancestor"},
         Flaw{"below_cycle", [](Scene& s) { s.nodes[0].parent = 1, s.nodes[1].parent = 2, s.nodes[2].parent = 1; },
              "is its own ancestor"},
+        Flaw{"shutter_order",
+             [](Scene& s) {
+                 shutter_of(*s.nodes[0].camera) = {0.1, 0.05};
+             },
+             "node 'eye' has a shutter that closes before it opens"},
+        Flaw{"shutter_time", [](Scene& s) { shutter_of(*s.nodes[0].camera).close = inf; },
+             "node 'eye' has a shutter that opens or closes at a time that is not finite"},
+        Flaw{"shutter_instants", [](Scene& s) { shutter_of(*s.nodes[0].camera).instants = 0; },
+             "node 'eye' has a shutter whose number of instants"},
         Flaw{"material", [](Scene& s) { s.nodes[1].geometry[0].material = 1; }, "uses a material that does not exist"},
         Flaw{"radius", [](Scene& s) { s.nodes[1].geometry[0].shape = SphereShape{0}; }, "radius is not above 0"},
         Flaw{"size",

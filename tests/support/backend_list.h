@@ -30,7 +30,10 @@ inline void PrintTo(const Renderer& renderer, std::ostream* out) {
             options.instruction_set = set;
             list.push_back({"cpu", options, tier});
         }
-        list.push_back({"cuda", {}, tier});
+        // tests that draw many small scenes do not wait for a kernel for each; tests/agree/specialised_test.cpp does
+        BackendOptions ahead_of_time;
+        ahead_of_time.specialise = Specialise::never;
+        list.push_back({"cuda", ahead_of_time, tier});
     }
     return list;
 }

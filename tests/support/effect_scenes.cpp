@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tandem/effects/derive.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::test {
@@ -18,7 +19,7 @@ Material mirror(const Vec3f& reflectance) {
 }
 Material glass(std::string name, float ior, const Vec3f& absorption = {0, 0, 0}, std::uint32_t priority = 0) {
     Material material{std::move(name), {{0, 0, 0}, {0, 0, 0}, {0.5F, 0.5F, 0.5F}, 200}};
-    material.optics = {{0, 0, 0}, 1, ior, absorption, priority};
+    material.optics = {.transmission = 1, .ior = ior, .absorption = absorption, .priority = priority};
     return material;
 }
 
@@ -96,6 +97,87 @@ Scene camera_in_water() {
     return scene;
 }
 
+/// A picture of 8 x 8 texels; every third is a hole.
+Image checks(const char* name, bool holes) {
+    Image image{name, 8, 8, {}};
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const std::uint32_t level = (i * 37 + i / 8 * 91) % 200 + 40;
+        const std::uint32_t alpha = holes && i % 3 == 0 ? 0U : 255U;
+        image.texels.push_back(level | (255 - level) << 8 | (i * 4) << 16 | alpha << 24);
+    }
+    return image;
+}
+/// Normals that lean to all sides.
+Image bumps() {
+    Image image{"bumps", 8, 8, {}};
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        image.texels.push_back((100 + i * 11 % 60) | (90 + i * 23 % 70) << 8 | 235U << 16 | 255U << 24);
+    }
+    return image;
+}
+
+/// Every kind of primitive with a picture: ball, block, an ellipsoid, a turned block, a mesh.
+Scene textured(bool colours, bool normals, bool holes) {
+    Scene scene = matt_scene();
+    scene.images = {checks("checks", holes), bumps()};
+    scene.textures = {{0, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear},
+                      {0, Wrap::clamp_to_edge, Wrap::repeat, Filter::nearest},
+                      {1, Wrap::repeat, Wrap::repeat, Filter::linear}};
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& material = scene.materials[i];
+        if (colours)
+            material.diffuse_texture = TextureReference{i % 2 == 0 ? 0U : 1U, {0.1F, 0.2F}, 0.3F, {1.5F, 2.5F}};
+        if (normals) material.normal_texture = TextureReference{2, {0, 0}, 0, {2, 2}};
+        if (holes && i > 0) material.alpha_mode = AlphaMode::mask;
+    }
+    Node egg{.name = "egg", .trs = {{0.1, 0.35, -0.6}, {0.2, 0.1, 0.3, 0.9}, {1, 1.4, 0.8}}};
+    egg.geometry.push_back({SphereShape{0.3}, 1, {}});
+    Node brick{.name = "brick", .trs = {{-0.3, -0.3, 0.6}, {0.1, 0.5, 0.2, 0.8}, {1, 1, 1}}};
+    brick.geometry.push_back({BoxShape{{0.4, 0.3, 0.3}}, 2, {}});
+    Mesh sheet{.name = "sheet",
+               .positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}, {0.5F, 0.7F, 0.1F}, {-0.5F, 0.7F, 0}, {0, 1.1F, 0}},
+               .texcoords = {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}},
+               .triangles = {3, 2, 4},
+               .quads = {0, 1, 2, 3}};
+    scene.meshes.push_back(sheet);
+    scene.materials.push_back(scene.materials[3]);
+    scene.materials.back().double_sided = true;
+    Node sail{.name = "sail", .trs = {.translation = {0.6, -0.2, 0.9}}};
+    sail.geometry.push_back({MeshShape{0}, 4, {}});
+    scene.nodes.insert(scene.nodes.end(), {egg, brick, sail});
+    return scene;
+}
+
+Material lamp(const Vec3f& radiance) {
+    Material material{"lamp", {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1}};
+    material.optics.emission = radiance;
+    return material;
+}
+/// A ball and a sheet of a triangle and a quad that glow, above the scene.
+Scene with_lamps(Scene scene) {
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.insert(scene.materials.end(), {lamp({6, 5, 4}), lamp({2, 3, 4})});
+    Node ball{.name = "glowing ball", .trs = {.translation = {1.2, 1.6, 1}}};
+    ball.geometry.push_back({SphereShape{0.3}, first, {}});
+    Mesh sheet{.name = "sheet",  // its front is below
+               .positions = {{-0.6F, 0, -0.4F}, {0.6F, 0, -0.4F}, {0.6F, 0, 0.4F}, {-0.6F, 0, 0.4F}, {0, 0, 1.2F}},
+               .triangles = {3, 2, 4},
+               .quads = {0, 1, 2, 3}};
+    Node panel{.name = "panel", .trs = {{-0.8, 1.8, -0.2}, {0, 0, 0, 1}, {1, 1, 1}}};
+    panel.geometry.push_back({MeshShape{static_cast<std::uint32_t>(scene.meshes.size())}, first + 1, {}});
+    scene.meshes.push_back(sheet);
+    scene.nodes.insert(scene.nodes.end(), {ball, panel});
+    return scene;
+}
+Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
+    scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U, indirect ? 1U : 0U};
+    return scene;
+}
+Scene through(Scene scene, const Lens& lens) {
+    std::get<PerspectiveCamera>(*scene.nodes[0].camera).lens = lens;
+    return scene;
+}
+
 std::vector<EffectScene> make_scenes() {
     const Effect shadows = Effect::shadows;
     const EffectMask glass_only = Effect::refraction;
@@ -131,12 +213,30 @@ std::vector<EffectScene> make_scenes() {
         {"glass meshes",
          lit(with_meshes(still_life(clear, mirror({0.6F, 0.6F, 0.6F}), glass("tinted", 1.4F, {1, 1, 0}))), {}),
          shadows | glass_only | Effect::absorption | Effect::nested_media | Effect::reflection});
-    Scene everything = lit(nested(), {.intensity = 9, .inverse_square = true});
+    const EffectMask lamps = Effect::shadows | Effect::area_lights | Effect::emission;
+    scenes.push_back({"textures", lit(textured(true, false, false), plain), Effect::textures});
+    scenes.push_back({"normal maps", lit(textured(false, true, false), plain), Effect::normal_maps});
+    scenes.push_back({"cut-outs", lit(textured(true, true, true), {}),
+                      shadows | Effect::textures | Effect::normal_maps | Effect::cutouts});
+    scenes.push_back({"round lens", lit(through(matt_scene(), {0.1, 3}), plain), Effect::lens});
+    scenes.push_back({"five blades", lit(through(matt_scene(), {0.15, 2.4, 5, 0.3}), plain), Effect::lens});
+    scenes.push_back({"lamps", with_lamps(matt_scene()), lamps});
+    scenes.push_back({"daylight", in_daylight(matt_scene(), true, false), shadows | Effect::environment_light});
+    scenes.push_back({"indirect", in_daylight(lit(with_meshes(matt_scene()), {}), false, true),
+                      shadows | Effect::indirect | Effect::roulette});
+    scenes.push_back({"lamps, indirect", in_daylight(with_lamps(matt_scene()), true, true),
+                      lamps | Effect::environment_light | Effect::indirect | Effect::roulette});
+    Scene everything = in_daylight(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);
+    const Scene pictures = textured(true, true, true);
+    everything.images = pictures.images;
+    everything.textures = pictures.textures;
+    everything.materials[0] = pictures.materials[1];
+    everything = through(everything, {0.03, 3});
     everything.materials[3].optics.mirror = {0.2F, 0.1F, 0.1F};
     everything.materials[2].optics.transmission = 0.7F;
     everything = lit(lit(everything, {.kind = LightKind::spot, .outer_cone = 0.6}, {-1, 3, 1}),
                      {.kind = LightKind::directional, .intensity = 0.2F});
-    scenes.push_back({"everything", everything, all_effects});
+    scenes.push_back({"everything", everything, all_effects - host_effects});
     return scenes;
 }
 

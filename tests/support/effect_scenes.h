@@ -15,7 +15,7 @@ struct EffectScene {
     EffectMask effects;  ///< that it calls for
 };
 
-/// Each effect alone, and mixtures.
+/// Each effect alone, and mixtures; none of those that kernels know nothing of (host_effects).
 [[nodiscard]] const std::vector<EffectScene>& effect_scenes();
 
 }  // namespace tandem::test

@@ -17,7 +17,10 @@ class Estimate {
         squares_ += change * (value - mean_);
     }
     [[nodiscard]] double mean() const { return mean_; }
-    [[nodiscard]] double standard_error() const { return std::sqrt(squares_ / (count_ * (count_ - 1))); }
+    [[nodiscard]] double variance_of_mean() const { return squares_ / (count_ * (count_ - 1)); }
+    [[nodiscard]] double standard_error() const { return std::sqrt(variance_of_mean()); }
+    /// Degrees of freedom of the variance.
+    [[nodiscard]] double freedom() const { return count_ - 1; }
 
   private:
     double count_ = 0;

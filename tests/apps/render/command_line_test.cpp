@@ -34,7 +34,7 @@ Finished tandem_render(const std::string& arguments) {
 TEST(CommandLine, HelpAndVersion) {
     const Finished help = tandem_render("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* word : {"SCENE", "--frames", "--ppm-text", "--force", "named:paper"}) {
+    for (const char* word : {"SCENE", "--frames", "--ppm-text", "--force", "--shutter-instants", "named:paper"}) {
         EXPECT_NE(help.printed.find(word), std::string::npos) << word;
     }
     const Finished shown = tandem_render("--version");

@@ -125,6 +125,45 @@ TEST_F(RenderSequence, WhatChangesThePictureRendersAgain) {
     EXPECT_EQ(rendered(), 0);
 }
 
+TEST_F(RenderSequence, WithMotionBlurKeepsWhatHasTheSameShutter) {
+    for (Node& node : scene.nodes) {
+        if (node.camera) shutter_of(*node.camera) = {0, 0.02, 3};
+    }
+    EXPECT_EQ(rendered(), 3 * 6) << "instants";
+    EXPECT_EQ(backend.most_in_flight, 2);
+    EXPECT_EQ(records[0].metadata.samples, 4);
+    EXPECT_EQ(records[0].effects, EffectMask(Effect::motion_blur));
+    EXPECT_EQ(records[0].seconds.backend.render, 3 * 0.5);
+    EXPECT_EQ(records[0].seconds.backend.build, 3 * 0.25);
+    EXPECT_EQ(records[0].counters.invalid_samples, 3U * 3);
+    const std::vector<FrameRecord> first = records;
+    EXPECT_EQ(rendered(), 0);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(records[i].metadata, first[i].metadata);
+    set_shutter_instants(scene, 2);
+    EXPECT_EQ(rendered(), 2 * 6) << "fewer instants";
+    EXPECT_EQ(rendered(), 0);
+    for (Node& node : scene.nodes) {
+        if (node.camera) shutter_of(*node.camera).close = 0.01;
+    }
+    EXPECT_EQ(rendered(), 2 * 6) << "another shutter";
+    options.effects.off = Effect::motion_blur;
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(records[0].metadata.scene_hash, scene_hash(prepare(named_scene("paper"), {3, ""}))) << "none";
+}
+
+TEST_F(RenderSequence, AnErrorBetweenInstantsComesOut) {
+    for (Node& node : scene.nodes) {
+        if (node.camera) shutter_of(*node.camera) = {0, 0.02, 4};
+    }
+    int instants = 0;
+    backend.on_get = [&](const RenderJob&) {
+        if (++instants == 6) throw EnvironmentError("the device fell off the bus");
+    };
+    EXPECT_EQ(thrown_message<EnvironmentError>([this] { render(); }), "the device fell off the bus");
+    EXPECT_EQ(backend.in_flight, 0) << "no instant is left with the backend";
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"f03.png"});
+}
+
 TEST_F(RenderSequence, AnotherBackendKeepsTheFrames) {
     EXPECT_EQ(rendered(), 6);
     GradientBackend other("other");

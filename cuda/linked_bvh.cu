@@ -1,0 +1,3 @@
+#include "cuda/linked_kernel.h"
+
+TANDEM_LINKED_KERNEL(tandem::BvhTracer)

@@ -1,0 +1,21 @@
+/// What a render kernel is specialised for at load (cuda/scene_kernels.h): one struct, made on the host from the scene
+/// and the job, a constant to the kernel once it is linked.
+#pragma once
+
+#include <cstdint>
+
+namespace tandem::cuda {
+
+/// A plain struct of 32-bit integers.
+struct LinkedFacts {
+    static constexpr std::uint32_t any = ~0U;  ///< of lights: not a constant
+
+    std::uint32_t effects = 0;  ///< EffectMask::bits()
+    std::uint32_t kinds = 0;    ///< PrimitiveKinds that the scene has
+    std::uint32_t lights = 0;
+    std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
+
+    friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
+};
+
+}  // namespace tandem::cuda

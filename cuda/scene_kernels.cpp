@@ -1,0 +1,114 @@
+#include "cuda/scene_kernels.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cuda/block_shape.h"
+#include "cuda/specialise.h"
+#include "tandem/render/seconds.h"
+
+namespace tandem::cuda {
+
+// Embedded by tandem_add_lto_kernels().
+#define TANDEM_TIER(name, promise)                   \
+    std::span<const std::byte> linked_few_##name();  \
+    std::span<const std::byte> linked_loop_##name(); \
+    std::span<const std::byte> linked_bvh_##name();
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+
+namespace {
+
+std::span<const std::byte> linked_code(Tier tier, Structure structure) {
+    switch (tier) {
+#define TANDEM_TIER(name, promise)                                   \
+    case Tier::name:                                                 \
+        return structure == Structure::few    ? linked_few_##name()  \
+               : structure == Structure::loop ? linked_loop_##name() \
+                                              : linked_bvh_##name();
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+    }
+    return {};
+}
+
+/// More lights than these are a loop whose length is no constant: it would not be unrolled.
+constexpr std::uint32_t most_linked_lights = 4;
+
+}  // namespace
+
+LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits) {
+    LinkedFacts facts;
+    facts.effects = effects.bits();
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+    facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
+    const bool glass = effects.has(Effect::refraction);
+    if (glass || effects.has(Effect::reflection)) facts.reflection = limits.reflection;
+    if (glass) facts.refraction = limits.refraction;
+    if (effects.has(Effect::indirect)) facts.diffuse = limits.diffuse;
+    return facts;
+}
+
+JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture) {
+    JitInput input;
+    input.code = linked_code(tier, structure);
+    const bool one_vertex = !EffectMask::from_bits(facts.effects).has_any(bouncing_effects);
+    input.kernel = one_vertex ? "tandem_render_short" : "tandem_render_long";
+    input.facts_name = "tandem_facts";
+    input.facts = words_of(facts);
+    input.tier = tier;
+    input.architecture = architecture;
+    return input;
+}
+
+SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
+
+SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts) {
+    const Structure structure = structure_of(scene);
+    const auto [place, is_new] = kernels_.try_emplace({tier, structure, facts});
+    Found found;
+    const auto warn = [&](const std::string& text) {
+        if (!text.empty() && !std::exchange(warned_, true)) found.warning = text;
+    };
+    if (is_new) {
+        const Stopwatch watch;
+        try {
+            const JitInput input = render_input(tier, structure, facts, architecture_);
+            const Specialised made = specialise(input, cache_);
+            place->second = std::make_unique<LoadedCode>(made.cubin, input.kernel);
+            if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
+        } catch (const std::exception& error) {
+            warn(fmt::format("the kernel with all effects draws, because none can be made for the scene: {}",
+                             error.what()));
+        }
+        found.seconds = watch.seconds();
+    }
+    found.kernel = place->second.get();
+    return found;
+}
+
+void launch_linked(const LoadedCode& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
+    const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
+    const auto launch = [&](const auto& tracer) {
+        kernel.launch("rendering with a kernel made for the scene", grid, block_threads, stream, tracer, job, height,
+                      sums, counters);
+    };
+    switch (structure_of(scene)) {
+        case Structure::few:
+            return launch(scene.few);
+        case Structure::loop:
+            return launch(LoopTracer{scene.scene});
+        case Structure::bvh:
+            break;
+    }
+    BvhView bvh = scene.bvh;
+    bvh.stack_overflows = &counters->stack_overflows;
+    launch(BvhTracer{scene.scene, bvh});
+}
+
+}  // namespace tandem::cuda

@@ -1,0 +1,48 @@
+/// The render kernels that are specialised for scenes: each is linked once per backend, and kept on disk.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "cuda/jit_link.h"
+#include "cuda/kernel_cache.h"
+#include "cuda/kernels.h"
+#include "cuda/linked_facts.h"
+#include "cuda/loaded_kernel.h"
+
+namespace tandem::cuda {
+
+/// What a scene and a job ask of the kernel that draws them. What they do not use is left out, so that scenes that
+/// differ in it share a kernel.
+[[nodiscard]] LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits);
+
+/// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
+[[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
+
+class SceneKernels {
+  public:
+    /// Takes the user's cache (kernel_cache_folder()).
+    explicit SceneKernels(int architecture);
+
+    struct Found {
+        const LoadedCode* kernel = nullptr;  ///< lives as long as this; null if there can be none
+        double seconds = 0;                  ///< that it took to make or to fetch; 0 if it was there
+        std::string warning;                 ///< why there is no kernel, or why the cache did not work; told once
+    };
+    /// Not for several threads at once.
+    [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
+
+  private:
+    int architecture_;
+    KernelCache cache_;
+    bool warned_ = false;
+    std::map<std::tuple<Tier, Structure, LinkedFacts>, std::unique_ptr<LoadedCode>> kernels_;
+};
+
+/// Starts a kernel that SceneKernels gave for this scene: as TierKernels::render.
+void launch_linked(const LoadedCode& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
+
+}  // namespace tandem::cuda

@@ -1,0 +1,16 @@
+/// The shutter of a camera, as its author says it.
+#pragma once
+
+namespace tandem {
+
+/// Open between two times, in seconds after that of the frame; either may be negative. A shutter that closes as it
+/// opens sees the scene as it is at the time of the frame.
+struct Shutter {
+    double open = 0;
+    double close = 0;   ///< `open` or later
+    int instants = 16;  ///< of the interval, that make up a frame at most, 1 to 1024 (render/motion_blur.h)
+};
+
+[[nodiscard]] inline bool is_open(const Shutter& shutter) { return shutter.close > shutter.open; }
+
+}  // namespace tandem

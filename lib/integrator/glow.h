@@ -1,0 +1,153 @@
+/// Light from surfaces that glow, and from the background, to matt surfaces.
+#pragma once
+
+#include "tandem/integrator/incident_light.h"
+#include "tandem/integrator/surface.h"
+#include "tandem/light/quad_light.h"
+#include "tandem/light/sphere_light.h"
+#include "tandem/sampler/dimensions.h"
+#include "tandem/sampler/mis.h"
+
+namespace tandem {
+
+namespace glow_detail {
+
+inline constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::faces;
+
+template <class Real>
+TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_sphere_light<Real>(point, broadcast<D>(sphere.centre), D(sphere.radius));
+}
+template <class Real>
+TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
+}
+template <class Real>
+TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
+                                 broadcast<D>(face.v3));
+}
+
+/// Where light leaves in `direction`, unit, towards what it lights: a sphere shines from its outside, a face from its
+/// front, or from both sides if it is double-sided. Of a quad the half that the point lies on does not matter to a
+/// plane one; of a bent one the first counts.
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
+    using D = Double<Real>;
+    const Vec3<D> offset = point - broadcast<D>(sphere.centre);
+    return dot(offset, offset) > D(sphere.radius) * D(sphere.radius);
+}
+template <class Real, class Face>
+requires(!std::is_same_v<Face, Sphere>) TANDEM_HD Mask<Real> shines(const Face& face, const Vec3<Double<Real>>&,
+                                                                    const Vec3<Double<Real>>& direction) {
+    if (face.attributes.double_sided != 0) return Mask<Real>(true);
+    return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
+}
+
+}  // namespace glow_detail
+
+/// The density, per solid angle, with which area_light() would have chosen `direction` from `point` for the light
+/// `primitive` that is met there: 0 for what is no light.
+template <class Real>
+TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
+                                           const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
+                                           const Mask<Real>& active) {
+    using D = Double<Real>;
+    D result(0.0);
+    for_each_value(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const float chance = chance_of(scene.area_lights, scene.area_light_count, id);
+        if (!(chance > 0.0F)) return;
+        visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (std::is_same_v<Body, Sphere> || std::is_same_v<Body, Triangle> ||
+                          std::is_same_v<Body, Quad>) {
+                const D pdf = pdf_of(glow_detail::view_light<Real>(body, point), direction);
+                result = select(here, pdf * D(chance), result);
+            }
+        });
+    });
+    return result;
+}
+
+/// What a surface reflects of one of the lights with an area, chosen by chance, in the lanes of `found`: unbiased
+/// together with what a path finds by itself, in the lanes of `goes_on`, in a scene with indirect light. Source: E.
+/// Veach, L. Guibas, 1995 (sampler/mis.h); P. Shirley et al., 1996 (light/sphere_light.h).
+template <class Effects, class Real>
+TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
+                                              const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
+                                              const SampleId<Real>& sample, const UInt<Real>& vertex,
+                                              const Mask<Real>& goes_on, const Mask<Real>& found) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const D zero(0.0);
+    const Real nothing(0.0F);
+    const auto random = sample.block(Dimension::area_light, vertex);
+    const Real which = to_unit_interval<Real>(random.word[0]);
+    const D u = widen(to_unit_interval<Real>(random.word[1]));
+    const D v = widen(to_unit_interval<Real>(random.word[2]));
+    Word light(0U);
+    for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+        set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, to_plain(lane(which, i))));
+    }
+    const Vec3<D> position = widen(point.position);
+    LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
+    Vec3<Real> radiance = {nothing, nothing, nothing};
+    Word primitive(no_primitive);
+    for_each_value(light, found, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const AreaLight& chosen = scene.area_lights[index];
+        LightSample<Real> of_light = drawn;
+        Mask<Real> lights = here && point.primitive != Word(chosen.primitive);
+        visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (std::is_same_v<Body, Sphere> || std::is_same_v<Body, Triangle> ||
+                          std::is_same_v<Body, Quad>) {
+                of_light = sample_light(glow_detail::view_light<Real>(body, position), u, v);
+                lights = lights && glow_detail::shines<Real>(body, position, of_light.direction);
+            }
+        });
+        const D pdf = select(lights, of_light.pdf * D(chosen.chance), zero);
+        const Vec3f& emission = scene.optics[scene.material_of[chosen.primitive]].emission;
+        drawn.direction = select(here, of_light.direction, drawn.direction);
+        drawn.point = select(here, of_light.point, drawn.point);
+        drawn.pdf = select(here, pdf, drawn.pdf);
+        radiance = select(here, broadcast<Real>(emission), radiance);
+        primitive = select(here, Word(chosen.primitive), primitive);
+    });
+    IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
+    result.casts_shadows = scene.area_lights_cast_shadows != 0;
+    const Mask<Real> seen = found && drawn.pdf > zero;
+    if (!any(seen)) return result;
+    const D pdf = select(seen, drawn.pdf, D(1.0));
+    Real share(1.0F);  // of the matt part: the rest is what paths find that go on
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        const D other = cosine_hemisphere_pdf(dot(drawn.direction, surface.normal));
+        share = select(goes_on, to_real<Real>(power_heuristic(pdf, other)), share);
+    }
+    const Real scale = to_real<Real>(constant<D>(inverse_pi) / pdf);
+    const auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
+                                   surface.normal, drawn.direction, to_viewer);
+    result.reflected = select(seen, value, result.reflected);
+    return result;
+}
+
+/// What a matt surface reflects of the background, by one direction. For scenes without indirect light; with it, the
+/// path that goes on brings it.
+template <class Real>
+TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
+                                                     const SampleId<Real>& sample, const UInt<Real>& vertex) {
+    const auto random = sample.block(Dimension::environment, vertex);
+    const auto drawn = sample_cosine_hemisphere<Real>(surface.normal, widen(to_unit_interval<Real>(random.word[0])),
+                                                      widen(to_unit_interval<Real>(random.word[1])));
+    IncidentLight<Real> result;
+    result.to = to_real<Real>(drawn.direction);
+    // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
+    result.reflected = surface.diffuse * background(scene.environment, result.to);
+    result.is_far = true;
+    result.casts_shadows = scene.area_lights_cast_shadows != 0;
+    return result;
+}
+
+}  // namespace tandem

@@ -1,0 +1,24 @@
+/// The oracle's own textures, in extended precision.
+#pragma once
+
+#include "tandem/oracle/oracle_geometry.h"
+
+namespace tandem::oracle {
+
+/// Where a line has met a textured surface.
+struct TexturePoint {
+    Real u, v;
+    Vector along_u, along_v;  ///< in which they grow, of any length
+};
+
+/// `exits`: the line comes from within the body.
+[[nodiscard]] TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vector& point,
+                                         const SurfaceHit& hit);
+
+/// Red, green, blue and alpha; white without a texture.
+struct Texel {
+    Real r, g, b, a;
+};
+[[nodiscard]] Texel sample_texture(const SceneView& scene, const TextureUse& use, const TexturePoint& at);
+
+}  // namespace tandem::oracle

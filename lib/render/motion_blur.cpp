@@ -1,0 +1,163 @@
+#include "tandem/render/motion_blur.h"
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "tandem/effects/derive.h"
+#include "tandem/film/sha256.h"
+#include "tandem/render/seconds.h"
+#include "tandem/scene/motion.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr std::size_t most_in_flight = 2;
+
+void add(PhaseTimes& total, const PhaseTimes& part) {
+    total.build += part.build;
+    total.compile += part.compile;
+    total.upload += part.upload;
+    total.render += part.render;
+    total.download += part.download;
+}
+
+/// Appends what is not there yet.
+void add_once(std::string& list, const std::string& text) {
+    if (text.empty() || list.find(text) != std::string::npos) return;
+    list += (list.empty() ? "" : "; ") + text;
+}
+
+void add(RenderStats& total, const RenderStats& part) {
+    add(total.seconds, part.seconds);
+    // a fact of the scene, not something that happened to a sample
+    const std::uint64_t dropped = std::max(total.counters.dropped_primitives, part.counters.dropped_primitives);
+    total.counters += part.counters;
+    total.counters.dropped_primitives = dropped;
+    total.rays += part.rays;
+    total.device_bytes = std::max(total.device_bytes, part.device_bytes);
+    total.registers = std::max(total.registers, part.registers);
+    total.occupancy = total.occupancy > 0 ? std::min(total.occupancy, part.occupancy) : part.occupancy;
+    add_once(total.variant, part.variant);
+    add_once(total.warning, part.warning);
+    total.effects |= part.effects;
+    total.carried |= part.carried;
+}
+
+/// The instants of one frame on their way through a backend.
+class Exposure {
+  public:
+    Exposure(Backend& backend, const FramePlan& plan) : backend_(backend), plan_(plan) {}
+    ~Exposure() {
+        // only after an exception: a backend is not left with frames that nobody waits for
+        for (const auto& frame : flying_) {
+            try {
+                (void)frame->get();
+            } catch (...) {
+            }
+        }
+    }
+    Exposure(const Exposure&) = delete;
+    Exposure& operator=(const Exposure&) = delete;
+
+    RenderedFrame render(const Scene& scene, FrameHash* hash) {
+        for (const FrameInstant& instant : plan_.instants) {
+            const Stopwatch watch;
+            const PreparedScene prepared = prepare(scene, instant.prepare);
+            if (hash != nullptr) hash->add(prepared);
+            frame_.prepare += watch.seconds();
+            if (flying_.size() == most_in_flight) take_oldest();
+            auto resident = backend_.load(prepared, instant.job.tier);
+            add(frame_.load, resident->load_times());
+            flying_.push_back(backend_.submit(std::move(resident), instant.job));
+        }
+        while (!flying_.empty()) take_oldest();
+        RenderStats& stats = frame_.result.stats;
+        stats.effects |= plan_.effects;
+        stats.carried = stats.carried - stats.effects;
+        return std::move(frame_);
+    }
+
+  private:
+    void take_oldest() {
+        const std::unique_ptr<PendingFrame> pending = std::move(flying_.front());
+        flying_.pop_front();
+        RenderResult part = pending->get();
+        add(frame_.result.stats, part.stats);
+        Film& film = frame_.result.film;
+        if (plan_.instants.size() == 1) {
+            film = std::move(part.film);
+            return;
+        }
+        if (film.pixel_count() == 0) film = Film(part.film.width(), part.film.height(), samples());
+        const std::span<const Vec3d> sums = std::as_const(part.film).sums();
+        std::transform(sums.begin(), sums.end(), film.sums().begin(), film.sums().begin(),
+                       [](const Vec3d& of_instant, const Vec3d& before) { return before + of_instant; });
+    }
+
+    [[nodiscard]] int samples() const {
+        const RenderJob &first = plan_.instants.front().job, &last = plan_.instants.back().job;
+        return last.first_sample + last.samples - first.first_sample;
+    }
+
+    Backend& backend_;
+    const FramePlan& plan_;
+    std::deque<std::unique_ptr<PendingFrame>> flying_;
+    RenderedFrame frame_;
+};
+
+}  // namespace
+
+FramePlan plan_frame(const Scene& scene, const PrepareOptions& options, const RenderJob& job) {
+    const EffectMask forced = options.effects.on & host_effects;
+    const FramePlan at_once{{{options, job}}, forced};
+    if (options.time || options.effects.off.has(Effect::motion_blur)) return at_once;
+    const std::size_t camera = camera_node(scene, options.camera);
+    const Shutter& shutter = shutter_of(*scene.nodes[camera].camera);
+    if (!is_open(shutter)) return at_once;
+    check(scene);
+    check(job);
+    const double time = time_of_frame(scene, options.frame);
+    if (nodes_in_motion(scene, camera, time).empty()) return at_once;
+
+    FramePlan plan{{}, forced | Effect::motion_blur};
+    const int count = std::min(shutter.instants, job.samples);
+    const auto first_of = [&](int instant) { return static_cast<int>(std::int64_t{job.samples} * instant / count); };
+    for (int i = 0; i < count; ++i) {
+        FrameInstant& instant = plan.instants.emplace_back(FrameInstant{options, job});
+        const int first = first_of(i), end = first_of(i + 1);
+        const double part = (0.5 * first + 0.5 * end) / job.samples;
+        instant.prepare.time = time + (shutter.open + (shutter.close - shutter.open) * part);
+        instant.job.first_sample = job.first_sample + first;
+        instant.job.samples = end - first;
+    }
+    return plan;
+}
+
+std::string FrameHash::get() const {
+    if (!is_blurred(plan_)) return hashes_.front();
+    Sha256 hash;
+    for (std::size_t i = 0; i < hashes_.size(); ++i) {
+        hash.update(hashes_[i].data(), hashes_[i].size());
+        hash.update_value(std::int32_t{plan_.instants[i].job.samples});
+    }
+    return hash.hex();
+}
+
+std::string frame_hash(const Scene& scene, const FramePlan& plan) {
+    FrameHash hash(plan);
+    for (const FrameInstant& instant : plan.instants) hash.add(prepare(scene, instant.prepare));
+    return hash.get();
+}
+
+RenderedFrame render_frame(Backend& backend, const Scene& scene, const FramePlan& plan, FrameHash* hash) {
+    return Exposure(backend, plan).render(scene, hash);
+}
+
+RenderedFrame render_frame(Backend& backend, const Scene& scene, const PrepareOptions& options, const RenderJob& job) {
+    return render_frame(backend, scene, plan_frame(scene, options, job));
+}
+
+}  // namespace tandem

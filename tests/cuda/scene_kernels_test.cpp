@@ -1,0 +1,117 @@
+// The render kernel as it is linked for sets of effects: what is absent takes no code and no registers. Needs no GPU;
+// writes kernel_masks.json beside the test.
+#include "cuda/scene_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cuda/cubin_facts.h"
+#include "tandem/effects/derive.h"
+#include "tandem/effects/names.h"
+
+namespace tandem::cuda {
+namespace {
+
+constexpr int architecture = TANDEM_LTO_ARCHITECTURE > 90 ? TANDEM_LTO_ARCHITECTURE : 90;
+const std::uint32_t spheres = PrimitiveKinds::sphere;
+
+struct Linked {
+    int registers = 0, stack_bytes = 0;
+    std::size_t code_bytes = 0;
+};
+
+class SceneKernel : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (!why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
+    }
+
+    [[nodiscard]] static LinkedFacts facts(EffectMask effects, std::uint32_t lights = 1) {
+        SceneView scene{};
+        scene.sphere_count = 3;
+        scene.light_count = lights;
+        return linked_facts(scene, effects, PathLimits{});
+    }
+    /// Linked once for all tests of the program.
+    static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
+        static std::map<std::pair<Structure, LinkedFacts>, Linked> known;
+        const auto [place, is_new] = known.try_emplace({structure, facts});
+        if (is_new) {
+            const JitInput input = render_input(Tier::strict, structure, facts, architecture);
+            const auto cubin = link(input);
+            const auto of = cubin_facts(cubin, input.kernel);
+            place->second = {of->registers, of->stack_bytes, of->code.size()};
+        }
+        return place->second;
+    }
+};
+
+TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
+    // what an effect stands on: without that it has no code of its own
+    const std::map<Effect, EffectMask> base = {{Effect::absorption, Effect::refraction},
+                                               {Effect::nested_media, Effect::refraction},
+                                               {Effect::area_lights, Effect::emission},
+                                               {Effect::roulette, Effect::indirect}};
+    nlohmann::ordered_json table = nlohmann::ordered_json::array();
+    const auto write = [&](EffectMask effects) {
+        const Linked& kernel = linked(facts(effects));
+        table.push_back({{"effects", to_string(effects)},
+                         {"registers", kernel.registers},
+                         {"stack_bytes", kernel.stack_bytes},
+                         {"code_bytes", kernel.code_bytes}});
+        return kernel;
+    };
+    const Linked nothing = write({});
+    for (std::uint32_t i = 0; i < effect_count; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        if (host_effects.has(effect)) continue;  // no kernel knows of it
+        const auto found = base.find(effect);
+        const EffectMask without = found == base.end() ? EffectMask() : found->second;
+        EXPECT_GT(write(without | effect).code_bytes, linked(facts(without)).code_bytes) << to_string(effect);
+    }
+    const Linked everything = write(all_effects);
+    EXPECT_GT(everything.code_bytes, 3 * nothing.code_bytes);
+    EXPECT_GT(everything.stack_bytes, 3 * nothing.stack_bytes) << "what a path carries from vertex to vertex";
+    std::ofstream("kernel_masks.json") << table.dump(2) << "\n";
+}
+
+TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
+    SceneView scene{};
+    scene.sphere_count = 3;
+    const auto bytes = [&](auto change) {
+        SceneView changed = scene;
+        change(changed);
+        return linked(linked_facts(changed, {}, PathLimits{}), Structure::loop).code_bytes;
+    };
+    const std::size_t plain = bytes([](SceneView&) {});
+    EXPECT_GT(bytes([](SceneView& s) { s.box_count = 1; }), plain);
+    EXPECT_GT(bytes([](SceneView& s) { s.ellipsoid_count = 1; }), plain);
+    EXPECT_GT(bytes([](SceneView& s) { s.triangle_count = 1; }), plain);
+    EXPECT_GT(bytes([](SceneView& s) { s.quad_count = 1; }), plain);
+    EXPECT_GT(bytes([](SceneView& s) { s.light_count = 1; }), plain);
+}
+
+TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
+    SceneView scene{};
+    scene.sphere_count = 1;
+    scene.quad_count = 2;
+    scene.light_count = 3;
+    const PathLimits limits = {5, 6, 7};
+    const LinkedFacts plain = linked_facts(scene, Effect::shadows, limits);
+    EXPECT_EQ(plain, (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 3, 0, 0, 0}));
+    const LinkedFacts mirrors = linked_facts(scene, Effect::reflection, limits);
+    EXPECT_EQ(mirrors.reflection, 5U);
+    EXPECT_EQ(mirrors.refraction, 0U);
+    const LinkedFacts glass = linked_facts(scene, Effect::refraction, limits);
+    EXPECT_EQ(glass.reflection, 5U) << "total internal reflection";
+    EXPECT_EQ(glass.refraction, 6U);
+    EXPECT_EQ(linked_facts(scene, Effect::indirect, limits).diffuse, 7U);
+    scene.light_count = 1000;
+    EXPECT_EQ(linked_facts(scene, {}, limits).lights, LinkedFacts::any);
+}
+
+}  // namespace
+}  // namespace tandem::cuda
