@@ -19,8 +19,8 @@ function(tandem_lowest_architecture result)
 endfunction()
 
 # tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
-# [DEFINES NAME=VALUE...]): compiles
-# FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET the function
+# [DEFINES NAME=VALUE...]): compiles FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET
+# the function
 #
 #   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
 #

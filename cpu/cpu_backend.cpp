@@ -224,22 +224,25 @@ class CpuBackend final : public Backend {
         const int columns = tiles(job.width);
         const EffectMask effects = resident.prepared().effects;
         const std::size_t variant = variant_for(variants, effects);
-        std::atomic<std::uint64_t> invalid = 0, lost_media = 0;
+        std::atomic<std::uint64_t> invalid = 0, lost_media = 0, rays = 0;
         const Stopwatch watch;
         arena_.execute([&] {
             tbb::parallel_for(0, columns * tiles(job.height), [&](int index) {
                 const DefaultFpEnvironment guard;
                 const Tile tile = tile_at(index % columns, index / columns, job);
-                const RenderCounters counters = kernels.render_tile[variant](resident.view(), pixel_job, tile, sums);
-                invalid += counters.invalid_samples;
-                lost_media += counters.lost_media;
+                const TileStats stats = kernels.render_tile[variant](resident.view(), pixel_job, tile, sums);
+                invalid += stats.counters.invalid_samples;
+                lost_media += stats.counters.lost_media;
+                rays += stats.rays;
             });
         });
         result.stats.seconds.render = watch.seconds();
         result.stats.counters.invalid_samples = invalid;
         result.stats.counters.lost_media = lost_media;
         result.stats.counters.dropped_primitives = resident.prepared().dropped_primitives;
-        result.stats.rays = static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
+        result.stats.rays = effects.has_any(counted_ray_effects)
+                                ? rays.load()
+                                : static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;
         result.stats.effects = effects;
         result.stats.carried = variants[variant].effects - effects - host_effects;
         result.stats.variant = fmt::format(

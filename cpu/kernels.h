@@ -34,6 +34,12 @@ struct Tile {
     std::uint32_t x0, x1, y0, y1;
 };
 
+/// What happened in one.
+struct TileStats {
+    RenderCounters counters;
+    std::uint64_t rays = 0;  ///< if the path loop counts them (counted_ray_effects)
+};
+
 /// The sets of effects that the path loop is compiled for.
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
@@ -44,8 +50,8 @@ inline constexpr std::size_t variant_count = std::size(variants);
 /// The kernels of one tier for one instruction set.
 struct TierKernels {
     /// Writes the sums of the tile's pixels into the film (rows of job.width). By variant.
-    RenderCounters (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
-                                                 Vec3d* sums);
+    TileStats (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
+                                            Vec3d* sums);
     /// Returns how many rays were not traceable.
     std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
     /// Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.

@@ -1,7 +1,10 @@
-/// How threads of a render kernel lie over the film.
+/// How the threads of kernels are laid out: one a pixel, or as many as the GPU holds, which take pixels from a queue.
 #pragma once
 
+#include <cuda_runtime_api.h>
+
 #include <cstddef>
+#include <cstdint>
 
 namespace tandem::cuda {
 
@@ -12,8 +15,21 @@ inline constexpr unsigned int block_width = 16;
 inline constexpr unsigned int block_height = 8;
 inline constexpr unsigned int block_threads = block_width * block_height;
 
+// One block of the kernels with a queue fills a multiprocessor, at 128 registers a thread.
+inline constexpr unsigned int queue_threads = 512;
+
 inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
 }
+
+struct RenderGrid {
+    dim3 blocks;
+    unsigned int threads;
+};
+inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
+    return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
+}
+/// A block for each multiprocessor of the current GPU.
+[[nodiscard]] RenderGrid pixel_queue();
 
 }  // namespace tandem::cuda

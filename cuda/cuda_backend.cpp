@@ -34,9 +34,13 @@ std::shared_ptr<Vec3d> film_memory(FilmPool& pool, std::size_t bytes) {
     return {std::move(buffer), sums};
 }
 
-RenderCounters read_counters(const Buffer<PinnedMemory>& buffer) {
+DeviceCounters read(const Buffer<PinnedMemory>& buffer) {
     DeviceCounters counters;
     std::memcpy(&counters, buffer.data(), sizeof(counters));
+    return counters;
+}
+
+RenderCounters to_render_counters(const DeviceCounters& counters) {
     RenderCounters result;
     result.invalid_samples = counters.invalid_samples;
     result.lost_media = counters.lost_media;
@@ -57,7 +61,11 @@ class CudaFrame final : public PendingFrame {
         memory_->download_end.wait();
         result_.stats.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
         result_.stats.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
-        result_.stats.counters += read_counters(memory_->counters_on_host);
+        const DeviceCounters counters = read(memory_->counters_on_host);
+        result_.stats.counters += to_render_counters(counters);
+        if (result_.stats.effects.has_any(counted_ray_effects)) {
+            for (const auto rays : counters.rays) result_.stats.rays += rays;
+        }
         return std::move(result_);
     }
 
@@ -121,7 +129,7 @@ class CudaBackend final : public Backend {
                               cudaMemcpyDeviceToHost, compute_.get()),
               "downloading counters");
         check(cudaStreamSynchronize(compute_.get()), "tracing rays");
-        if (job.counters != nullptr) *job.counters += read_counters(counters_on_host_);
+        if (job.counters != nullptr) *job.counters += to_render_counters(read(counters_on_host_));
         return seconds_between(trace_start_, trace_end_);
     }
 
@@ -170,11 +178,11 @@ class CudaBackend final : public Backend {
               "downloading counters");
         memory->download_end.record(download_.get());
 
-        const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->function())
+        const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->code.function())
                                                            : kernels(job.tier).render_facts(variant, resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
-        result.stats.rays = pixels * pixel_job.samples;
+        if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
         result.stats.counters.dropped_primitives = resident.camera().dropped_primitives;
         result.stats.device_bytes = resident.bytes() + bytes;
         result.stats.registers = facts.registers;

@@ -98,6 +98,7 @@ std::vector<std::string> link_options(const JitInput& input) {
     options.push_back(fmt::format("-ftz={}", fast));
     options.push_back(fmt::format("-prec-div={}", 1 - fast));
     options.push_back(fmt::format("-prec-sqrt={}", 1 - fast));
+    options.emplace_back("-split-compile=0");  // functions side by side, on all processors
     return options;
 }
 

@@ -4,18 +4,31 @@
 
 namespace tandem::cuda {
 
+namespace {
+
+int fact(cudaDeviceAttr attribute) {
+    int device = 0;
+    int value = 1;
+    check(cudaGetDevice(&device), "finding the current GPU");
+    check(cudaDeviceGetAttribute(&value, attribute, device), "reading GPU facts");
+    return value;
+}
+
+}  // namespace
+
+RenderGrid pixel_queue() {
+    return {dim3(static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount))), queue_threads};
+}
+
 KernelFacts kernel_facts(const void* kernel) {
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, kernel), "reading the facts of a kernel");
+    const int threads = attributes.maxThreadsPerBlock;  // those of its launch bounds, with which it is started
     int blocks = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, block_threads, 0),
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
           "reading the occupancy of a kernel");
-    int device = 0;
-    int threads = 1;
-    check(cudaGetDevice(&device), "finding the current GPU");
-    check(cudaDeviceGetAttribute(&threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), "reading GPU facts");
     return {attributes.numRegs, static_cast<int>(attributes.localSizeBytes),
-            static_cast<double>(blocks) * block_threads / threads};
+            static_cast<double>(blocks) * threads / fact(cudaDevAttrMaxThreadsPerMultiProcessor)};
 }
 
 }  // namespace tandem::cuda

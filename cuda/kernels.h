@@ -45,12 +45,15 @@ inline constexpr KernelVariant variants[] = {
     {"full", all_effects},
 };
 
-/// What kernels count, in device memory.
+/// What kernels count, in device memory. Every pixel adds its rays, the threads of a warp to counters of their own.
+inline constexpr std::size_t ray_counters = 32;
 struct DeviceCounters {
     unsigned long long invalid_samples;
     unsigned long long lost_media;
     unsigned long long rejected_rays;
     unsigned long long stack_overflows;
+    unsigned long long rays[ray_counters];
+    unsigned int next_pixel;  ///< of the queue of pixels
 };
 
 /// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.

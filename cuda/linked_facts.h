@@ -10,9 +10,10 @@ namespace tandem::cuda {
 struct LinkedFacts {
     static constexpr std::uint32_t any = ~0U;  ///< of lights: not a constant
 
-    std::uint32_t effects = 0;  ///< EffectMask::bits()
-    std::uint32_t kinds = 0;    ///< PrimitiveKinds that the scene has
-    std::uint32_t lights = 0;
+    std::uint32_t effects = 0;                                  ///< EffectMask::bits()
+    std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
+    std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the lights with an area
+    std::uint32_t lights = 0;                                   ///< without one
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;

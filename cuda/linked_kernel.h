@@ -7,6 +7,7 @@
 
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
 #define TANDEM_LINKED_KINDS tandem_facts.kinds
+#define TANDEM_LINKED_LIGHT_KINDS tandem_facts.light_kinds
 
 #include "cuda/render_thread.h"
 #include "tandem/math/fast_math.h"
@@ -41,20 +42,19 @@ using fast = FastFloat;
 }  // namespace linked_real
 using LinkedReal = linked_real::TANDEM_LINKED_TIER;
 
-// Blocks that must fit on a multiprocessor, for paths of one vertex and for those that may go on: measured on an H200
-// against 1, 3, 4, 6 and 8 (docs/performance.md).
+// Blocks that must fit on a multiprocessor, for paths of one vertex: measured on an H200 against 1, 3, 4, 6 and 8
+// (docs/performance.md).
 inline constexpr int short_path_blocks = std::is_same_v<LinkedReal, double> ? 4 : 6;
-inline constexpr int long_path_blocks = 4;
 
 }  // namespace tandem::cuda
 
-#define TANDEM_LINKED_KERNEL(Tracer)                                    \
-    TANDEM_LINKED_ENTRY(Tracer, tandem_render_short, short_path_blocks) \
-    TANDEM_LINKED_ENTRY(Tracer, tandem_render_long, long_path_blocks)
-#define TANDEM_LINKED_ENTRY(Tracer, name, blocks)                                                                  \
-    extern "C" __global__ void __launch_bounds__(tandem::cuda::block_threads, tandem::cuda::blocks) name(          \
+#define TANDEM_LINKED_KERNEL(Tracer)                                                                             \
+    TANDEM_LINKED_ENTRY(Tracer, tandem_render_short, render_one, block_threads, tandem::cuda::short_path_blocks) \
+    TANDEM_LINKED_ENTRY(Tracer, tandem_render_long, render_queue, queue_threads, 1)
+#define TANDEM_LINKED_ENTRY(Tracer, name, render, threads, blocks)                                                 \
+    extern "C" __global__ void __launch_bounds__(tandem::cuda::threads, blocks) name(                              \
         const __grid_constant__ Tracer tracer, const __grid_constant__ tandem::PixelJob job, std::uint32_t height, \
         tandem::Vec3d* __restrict__ sums, tandem::cuda::DeviceCounters* __restrict__ counters) {                   \
         using namespace tandem::cuda;                                                                              \
-        render_thread<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);                             \
+        render<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);                                    \
     }

@@ -1,4 +1,4 @@
-/// What a thread of a render kernel does: one pixel.
+/// What a thread of a render kernel does: one pixel, or one after the other.
 #pragma once
 
 #include "cuda/block_shape.h"
@@ -6,9 +6,19 @@
 
 namespace tandem::cuda {
 
+template <class Effects, class Real>
+__device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at, Vec3d* __restrict__ sums,
+                                     DeviceCounters* __restrict__ counters) {
+    sums[at] = pixel.sum;
+    if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
+    if (pixel.lost_media != 0) atomicAdd(&counters->lost_media, pixel.lost_media);
+    if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.rays);
+}
+
+/// One pixel, for paths of one vertex.
 template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_thread(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+__device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                           Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     const unsigned int warp = threadIdx.x / 32;
     const unsigned int lane = threadIdx.x % 32;
     const std::uint32_t x =
@@ -17,9 +27,34 @@ __device__ __forceinline__ void render_thread(const Tracer& tracer, const PixelJ
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
     if (x >= job.width || y >= height) return;
     const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true);
-    sums[static_cast<std::size_t>(y) * job.width + x] = pixel.sum;
-    if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
-    if (pixel.lost_media != 0) atomicAdd(&counters->lost_media, pixel.lost_media);
+    keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
+}
+
+/// Pixels from a queue, for paths that go on: whoever is done takes the next. All threads of a block start each vertex
+/// together, because the code of a vertex is longer than the caches for instructions close to the cores: so one warp's
+/// instructions are fetched for all (docs/performance.md). Which thread has which pixel changes no bit.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                             Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    const std::uint32_t tiles_across = (job.width + warp_width - 1) / warp_width;
+    const std::uint32_t tiles_down = (height + warp_height - 1) / warp_height;
+    const std::uint32_t end = tiles_across * tiles_down * 32;
+    PixelWalk<Effects, Real> walk;
+    bool is_open = true;
+    while (true) {
+        while (is_open && !walk.working()) {
+            const std::uint32_t place = atomicAdd(&counters->next_pixel, 1U);
+            const std::uint32_t tile = place / 32, within = place % 32;
+            const std::uint32_t x = tile % tiles_across * warp_width + within % warp_width;
+            const std::uint32_t y = tile / tiles_across * warp_height + within / warp_width;
+            is_open = place < end;
+            if (is_open && x < job.width && y < height) walk.take(job, x, y, true);
+        }
+        if (__syncthreads_or(walk.working()) == 0) return;
+        const bool worked = walk.working();
+        walk.step(tracer, tracer.scene, job);
+        if (worked && !walk.working()) keep<Effects>(walk.sum(), walk.pixel(), sums, counters);
+    }
 }
 
 }  // namespace tandem::cuda

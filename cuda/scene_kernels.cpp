@@ -33,6 +33,9 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure) {
     return {};
 }
 
+/// Do paths go on behind their first vertex?
+bool goes_on(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(bouncing_effects); }
+
 /// More lights than these are a loop whose length is no constant: it would not be unrolled.
 constexpr std::uint32_t most_linked_lights = 4;
 
@@ -45,6 +48,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
     if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
+    if (effects.has(Effect::area_lights)) facts.light_kinds = scene.area_light_kinds;
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
     const bool glass = effects.has(Effect::refraction);
     if (glass || effects.has(Effect::reflection)) facts.reflection = limits.reflection;
@@ -56,8 +60,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture) {
     JitInput input;
     input.code = linked_code(tier, structure);
-    const bool one_vertex = !EffectMask::from_bits(facts.effects).has_any(bouncing_effects);
-    input.kernel = one_vertex ? "tandem_render_short" : "tandem_render_long";
+    input.kernel = goes_on(facts) ? "tandem_render_long" : "tandem_render_short";
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = tier;
@@ -79,11 +82,12 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
         try {
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
-            place->second = std::make_unique<LoadedCode>(made.cubin, input.kernel);
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, input.kernel), goes_on(facts)});
             if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
         } catch (const std::exception& error) {
-            warn(fmt::format("the kernel with all effects draws, because none can be made for the scene: {}",
-                             error.what()));
+            warn(fmt::format(
+                "a kernel that was compiled ahead of time draws, because none can be made for the scene: {}",
+                error.what()));
         }
         found.seconds = watch.seconds();
     }
@@ -91,12 +95,12 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
     return found;
 }
 
-void launch_linked(const LoadedCode& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
+    const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.launch("rendering with a kernel made for the scene", grid, block_threads, stream, tracer, job, height,
-                      sums, counters);
+        kernel.code.launch("rendering with a kernel made for the scene", grid.blocks, grid.threads, stream, tracer, job,
+                           height, sums, counters);
     };
     switch (structure_of(scene)) {
         case Structure::few:

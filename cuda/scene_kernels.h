@@ -21,15 +21,21 @@ namespace tandem::cuda {
 /// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
+/// A kernel that is made for a scene.
+struct SceneKernel {
+    LoadedCode code;
+    bool has_queue;  ///< its threads take pixels from a queue (cuda/render_thread.h)
+};
+
 class SceneKernels {
   public:
     /// Takes the user's cache (kernel_cache_folder()).
     explicit SceneKernels(int architecture);
 
     struct Found {
-        const LoadedCode* kernel = nullptr;  ///< lives as long as this; null if there can be none
-        double seconds = 0;                  ///< that it took to make or to fetch; 0 if it was there
-        std::string warning;                 ///< why there is no kernel, or why the cache did not work; told once
+        const SceneKernel* kernel = nullptr;  ///< lives as long as this; null if there can be none
+        double seconds = 0;                   ///< that it took to make or to fetch; 0 if it was there
+        std::string warning;                  ///< why there is no kernel, or why the cache did not work; told once
     };
     /// Not for several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
@@ -38,11 +44,11 @@ class SceneKernels {
     int architecture_;
     KernelCache cache_;
     bool warned_ = false;
-    std::map<std::tuple<Tier, Structure, LinkedFacts>, std::unique_ptr<LoadedCode>> kernels_;
+    std::map<std::tuple<Tier, Structure, LinkedFacts>, std::unique_ptr<SceneKernel>> kernels_;
 };
 
 /// Starts a kernel that SceneKernels gave for this scene: as TierKernels::render.
-void launch_linked(const LoadedCode& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
 
 }  // namespace tandem::cuda

@@ -17,10 +17,15 @@ template <class Real>
 inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
 
 template <class Effects, class Real, class Tracer>
-__global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
+__global__ void __launch_bounds__(can_bounce<Effects>() ? queue_threads : block_threads,
+                                  can_bounce<Effects>() ? 1 : resident_blocks<Real>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    render_thread<Effects, Real>(tracer, job, height, sums, counters);
+    if constexpr (can_bounce<Effects>()) {
+        render_queue<Effects, Real>(tracer, job, height, sums, counters);
+    } else {
+        render_one<Effects, Real>(tracer, job, height, sums, counters);
+    }
 }
 
 /// What a trace asks: the nearest hits of rays that leave nothing, of rays that leave surfaces, or only whether shadow
@@ -89,9 +94,10 @@ auto with_render_kernel(std::size_t variant, const DeviceSceneView& scene, Devic
 template <class Real>
 void launch_render(std::size_t variant, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const dim3 grid(blocks_for(job.width, block_width), blocks_for(height, block_height));
+    const bool goes_on = variants[variant].effects.has_any(bouncing_effects);
+    const RenderGrid grid = goes_on ? pixel_queue() : thread_per_pixel(job.width, height);
     with_render_kernel<Real>(variant, scene, counters, [&](auto* kernel, const auto& tracer) {
-        launch("rendering", kernel, grid, block_threads, stream, tracer, job, height, sums, counters);
+        launch("rendering", kernel, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     });
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Times whitted.gltf on the CPU beside the same scene in Mitsuba 3, in turns, and prints the ratio of their rates.
 
-  scripts/versus_mitsuba.py [--render build/release/bin/tandem-render] [--variant scalar_rgb] [--size 500x450] [--spp 16]
-                         [--repetitions 3] [--pictures FOLDER]
+  scripts/versus_mitsuba.py [--render build/release/bin/tandem-render] [--tier strict] [--variant scalar_rgb]
+                         [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER]
 
 Needs a Python with the package mitsuba (`pip install mitsuba`). Both follow paths with a sample of the lights at each
 vertex. What differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends paths after 8
@@ -103,6 +103,7 @@ def mitsuba_scene(width, height, spp):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--render", default=os.path.join(ROOT, "build", "release", "bin", "tandem-render"))
+    parser.add_argument("--tier", default="strict", help="of Tandem (docs/tiers.md)")
     parser.add_argument("--variant", default="scalar_rgb")
     parser.add_argument("--size", default="500x450")
     parser.add_argument("--spp", type=int, default=16)
@@ -119,7 +120,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         picture = os.path.join(options.pictures or folder, "tandem.png")
         command = [options.render, os.path.join(ROOT, "assets", "scenes", "whitted.gltf"), "-o", picture, "--size", options.size]
-        command += ["--spp", str(options.spp), "--backend", "cpu", "--force", "--quiet", "--json", "-"]
+        command += ["--spp", str(options.spp), "--backend", "cpu", "--tier", options.tier, "--force", "--quiet", "--json", "-"]
         for _ in range(options.repetitions):
             frame = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["frames"][0]
             ours.append(frame["seconds"]["render"])
@@ -130,7 +131,7 @@ def main():
     if options.pictures:
         mi.util.write_bitmap(os.path.join(options.pictures, "mitsuba.png"), image)
     mine, other = samples / statistics.median(ours), samples / statistics.median(theirs)
-    print(f"Tandem, {frame['variant']}: {mine / 1e6:.3f} M samples/s")
+    print(f"Tandem, {options.tier}, {frame['variant']}: {mine / 1e6:.3f} M samples/s")
     print(f"Mitsuba {mi.__version__}, {options.variant}: {other / 1e6:.3f} M samples/s")
     print(f"ratio {mine / other:.2f}, medians of {options.repetitions}, {width} x {height} x {options.spp} samples")
 

@@ -15,7 +15,7 @@ struct BvhView {
     const Sphere* entry_spheres;
     const std::uint32_t* entry_ids;
     StructureFrame frame;
-    unsigned long long* stack_overflows;  ///< counts rays whose traversal stack was full; may be null
+    unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
 };
 
 namespace bvh_detail {
@@ -47,7 +47,8 @@ TANDEM_HD void count(unsigned long long* counter) {
 
 /// A hierarchy from build_bvh() is never too deep for the stack. With one from elsewhere, a ray that found the stack
 /// full tries every primitive, which is slow and right. A function of its own, so that it costs other rays no
-/// registers.
+/// registers. Kernels that are linked for a scene are without it: their hierarchies are from build_bvh() alone, and a
+/// ray that finds the stack full all the same is counted.
 template <std::uint32_t kinds, class Real, class From>
 TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source, Closest<Real> best) {
     const FilterRay<Real> filter = make_filter_ray(ray);

@@ -61,10 +61,7 @@ struct EffectSet {
     [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return most.has(effect); }
     [[nodiscard]] TANDEM_HD static constexpr bool has_any(EffectMask of) { return most.has_any(of); }
     /// What a scene or a job says: a kernel that is linked for it has it as a constant.
-    template <class T>
-    [[nodiscard]] TANDEM_HD static constexpr const T& light_count(const T& count) {
-        return count;
-    }
+    [[nodiscard]] TANDEM_HD static constexpr std::uint32_t light_count(std::uint32_t count) { return count; }
     template <class T>
     [[nodiscard]] TANDEM_HD static constexpr const T& limits(const T& limits) {
         return limits;
@@ -74,6 +71,9 @@ struct EffectSet {
 /// What makes a path go on behind its first vertex.
 inline constexpr EffectMask bouncing_effects =
     Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect;
+
+/// What sends rays from surfaces: with none of them there is one ray for each sample.
+inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;
 
 /// Can a path go on behind its first vertex? For types.
 template <class Effects>

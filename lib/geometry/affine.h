@@ -41,10 +41,11 @@ TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>&
 }
 
 template <class Real>
-TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray) {
+TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray,
+                                            const SphereLines<Real>& lines = {}) {
     const ObjectRay<Real> local = to_object(placement, ray);
     const Double<Real> zero(0.0);
-    return sphere_roots<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0));
+    return sphere_roots<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0), lines);
 }
 
 template <class Real>
@@ -59,14 +60,16 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     return cross_box<Real>(-one, one, local.origin, local.direction);
 }
 
-/// The nearest point of the body in front of the origin.
+/// The nearest point of the body in front of the origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front(ellipsoid_roots(body, ray), t);
+TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_in_front(ellipsoid_roots<Real>(body, ray, {active}), t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
+TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.

@@ -149,8 +149,9 @@ TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
 
 /// The nearest point of the box in front of the origin.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double<Real>& t) {
-    return first_in_front<Real>(cross_box(box, ray), t);
+TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_in_front<Real>(cross_box(box, ray), t);
 }
 
 /// Unit outward normal of the face that the ray hits first in front of its origin, or of the one that it leaves by

@@ -1,6 +1,6 @@
 /// Conservative rejection in float: cheap tests that may only say "certainly a miss".
 ///
-/// All tests look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
+/// All but one look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
 /// centre of the primitive. Its length over |direction| is the distance of the line from the centre, so that no
 /// division and no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since
 /// only true misses are dropped, it could differ and the picture would not.
@@ -62,6 +62,21 @@ TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sph
     return !(loose_dot(moment, moment) > limit);
 }
 
+/// Is the sphere certainly behind the ray, which starts outside of it and leads away from its centre? By the bound
+/// above offset . direction errs by less than 5 u |offset|_1 |direction|_1, and |offset|^2 by less than 8 u of itself,
+/// half of what the reach adds to radius^2 where the two are near each other.
+template <class Real>
+TANDEM_HD Mask<Real> is_behind_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
+    using F = Float<Real>;
+    const Vec3<F> direction = narrow(f.ray.direction);
+    const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
+    const F size = norm1(offset) + f.origin_norm1;
+    const F reach = loose_multiply_add(F(filter_margin), size, F(radius));
+    const F slack = loose_multiply_add(F(filter_margin) * size, norm1(direction), F(1e-36F));
+    return loose_dot(offset, direction) > slack &&
+           loose_dot(offset, offset) > loose_multiply_add(reach, reach, F(1e-36F));
+}
+
 /// A box as its filter wants it.
 struct BoxFilter {
     Vec3f centre;
@@ -97,13 +112,15 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower,
     return may_touch_box(f, make_box_filter(lower, upper));
 }
 
-/// May the line of the ray touch the triangle? False only if it passes one edge certainly on one side and another
-/// certainly on the other. With a = v0 - origin and the edges e1 = v1 - v0, e2 = v2 - v0, the volumes that say so are
-/// (d x a) . e1, -(d x a) . e2 and, as their sum with the one that is left, d . (e1 x e2).
+/// May the ray touch the triangle? False only if its line passes one edge certainly on one side and another certainly
+/// on the other, or if it certainly leads away from the triangle's plane. With a = v0 - origin and the edges e1 = v1 -
+/// v0, e2 = v2 - v0, the volumes that say so are (d x a) . e1, -(d x a) . e2 and, as their sum with the one that is
+/// left, d . (e1 x e2); the ray leads to the plane where that and a . (e1 x e2) have one sign.
 ///
 /// Bound: all differences are rounded once, so no volume errs by more than 9 u |d| (|a| + |e|) |e|, |e| = |e1| + |e2|,
-/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. The terms with 1e-30
-/// keep the limit above what underflow takes from products; where a volume overflows, the limit does too.
+/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. a . (e1 x e2) errs
+/// by as much with |a| for |d|, and by u (|a| + |origin|) |e|^2 for the rounding of a. The terms with 1e-30 keep the
+/// limits above what underflow takes from products; where a volume overflows, its limit does too.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     using F = Float<Real>;
@@ -115,14 +132,21 @@ TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v
     const Vec3<F> moment = loose_cross(d, a);
     const F w2 = loose_dot(moment, broadcast<F>(e1));
     const F w1 = -loose_dot(moment, broadcast<F>(e2));
-    const F w0 = (loose_dot(d, broadcast<F>(loose_cross(e1, e2))) - w1) - w2;
+    const Vec3<F> normal = broadcast<F>(loose_cross(e1, e2));
+    const F speed = loose_dot(d, normal);
+    const F above = loose_dot(a, normal);
+    const F w0 = (speed - w1) - w2;
     const F length = norm1(d);
-    const F reach = loose_multiply_add(length, (norm1(a) + f.origin_norm1) + size, F(1e-30F));
+    const F distance = norm1(a) + f.origin_norm1;
+    const F reach = loose_multiply_add(length, distance + size, F(1e-30F));
     const F floor = loose_multiply_add(length, F(1e-30F), F(1e-30F));
     const F limit = F(filter_margin) * loose_multiply_add(reach, size, floor);
     const F least = lesser(lesser(w0, w1), w2);
     const F most = greater(greater(w0, w1), w2);
-    return !(least < -limit && most > limit);
+    const F height_floor = loose_multiply_add(distance, F(1e-30F), F(1e-30F));
+    const F height_limit = F(filter_margin) * loose_multiply_add(distance * size, size, height_floor);
+    const Mask<Real> away = (above > height_limit && speed < -limit) || (above < -height_limit && speed > limit);
+    return !(least < -limit && most > limit) && !away;
 }
 
 }  // namespace tandem

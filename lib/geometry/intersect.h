@@ -22,7 +22,7 @@ template <class Real, class From, class Primitive>
 TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
                       const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
-    const Mask<Real> hit = first_from(source, primitive, id, ray, candidate, t);
+    const Mask<Real> hit = first_from(source, primitive, id, ray, candidate, best.t, t);
     offer<Real>(hit, t, UInt<Real>(id), best);
 }
 
@@ -49,12 +49,29 @@ TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
     return may_touch_quad(f, quad);
 }
 
-/// One primitive: the float filter first, then the decision. In the tier fast the decision costs hardly more than the
-/// filter, but for bodies with a transform.
+/// Is a primitive certainly behind a ray? Its filter may know already.
+template <class Real>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Sphere& sphere) {
+    return is_behind_sphere(f, sphere.centre, sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Placement& body) {
+    return is_behind(f, body.bounding_sphere);
+}
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
+    return Mask<Real>(false);
+}
+
+/// In the tier fast the decision costs hardly more than the filter, but for bodies with a transform.
+template <class Real, class Primitive>
+inline constexpr bool has_filter = !is_fast<Real> || std::is_base_of_v<Placement, Primitive>;
+
+/// One primitive: the float filter first, then the decision.
 template <class Real, class From, class Primitive>
 TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
                          const Mask<Real>& active, Closest<Real>& best) {
-    if constexpr (is_fast<Real> && !std::is_base_of_v<Placement, Primitive>) {
+    if constexpr (!has_filter<Real, Primitive>) {
         decide(primitive, id, f.ray, source, active, best);
     } else {
         const Mask<Real> candidate = active && may_touch(f, primitive);
@@ -108,18 +125,46 @@ struct LoopTracerFor {
 
   private:
     template <Search search, class Real, class From>
-    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Mask<Real> active, Closest<Real>& best) const {
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, const Mask<Real>& active, Closest<Real>& best) const {
+        if (!any(active)) return;
         const FilterRay<Real> f = make_filter_ray(ray);
         const Double<Real> t_max = best.t;
         std::uint32_t id = 0;
         const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
-            for (std::uint32_t i = 0; i < count; ++i, ++id) {
-                if constexpr (search == Search::any) {
-                    active = active && !(best.t < t_max);
-                    if (!any(active)) return;
+            using Primitive = std::decay_t<decltype(*primitives)>;
+            if (search == Search::any && !any(active && !(best.t < t_max))) return;
+            const auto is_candidate = [&](std::uint32_t i) TANDEM_INLINE_LAMBDA {
+                return can_meet<Real, Primitive>(source, id + i, is_behind(f, primitives[i])) &&
+                       may_touch(f, primitives[i]);
+            };
+            if constexpr (has_filter<Real, Primitive> && RealTraits<Real>::lanes == 1) {
+                // first all filters, then the few decisions: threads of a warp that differ in what they may hit decide
+                // at the same time
+                for (std::uint32_t first = 0; first < count; first += 32) {
+                    std::uint32_t candidates = 0;
+                    for (std::uint32_t i = first; i < count && i < first + 32; ++i) {
+                        if (is_candidate(i)) candidates |= 1U << (i - first);
+                    }
+                    for (; candidates != 0; candidates &= candidates - 1) {
+                        const std::uint32_t i = first + static_cast<std::uint32_t>(lowest_bit(candidates));
+                        decide(primitives[i], id + i, ray, source, true, best);
+                        if constexpr (search == Search::any) {
+                            if (best.t < t_max) return;
+                        }
+                    }
                 }
-                intersect(primitives[i], id, f, source, active, best);
+            } else {
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    Mask<Real> candidate = active;
+                    if constexpr (search == Search::any) {
+                        candidate = candidate && !(best.t < t_max);
+                        if (!any(candidate)) return;
+                    }
+                    if constexpr (has_filter<Real, Primitive>) candidate = candidate && is_candidate(i);
+                    if (any(candidate)) decide(primitives[i], id + i, ray, source, candidate, best);
+                }
             }
+            id += count;
         };
 #define TANDEM_PRIMITIVE(Type, name, names)                                           \
     if constexpr ((kinds & PrimitiveKinds::name) != 0) {                              \

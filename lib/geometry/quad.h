@@ -25,10 +25,11 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
 /// of a mesh. Everything else as first_in_front() of a triangle. Held by tests/unit/geometry/quad_test.cpp.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
+                                    const Mask<Real>& active = Mask<Real>(true),
+                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     Double<Real> t_second(0.0);
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active);
-    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active);
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
+    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
     t = select(second && !(first && t <= t_second), t_second, t);
     return first || second;
 }

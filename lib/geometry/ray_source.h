@@ -58,8 +58,8 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 }  // namespace source_detail
 
 // The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it
-// again. t is within 1 ulp of float of where the line through the ray enters or leaves the body. The root at the origin
-// is not formed, so that nothing has to tell the two apart.
+// again; in the lanes of `active`. t is within 1 ulp of float of where the line through the ray enters or leaves the
+// body. The root at the origin is not formed, so that nothing has to tell the two apart.
 
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
@@ -75,25 +75,41 @@ TANDEM_HD Mask<Real> first_or_far(const BoxCrossing<Real>& crossing, const Mask<
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
-    return first_or_far(sphere_roots(sphere, ray), own, t);
+TANDEM_HD Mask<Real> first_or_far(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(sphere_roots<Real>(sphere, ray, {active, own}), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
-    return first_or_far(cross_box(box, ray), own, t);
+TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Mask<Real>& own, const Mask<Real>& active,
+                                  Double<Real>& t) {
+    return active && first_or_far(cross_box(box, ray), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own, Double<Real>& t) {
-    return first_or_far(ellipsoid_roots(body, ray), own, t);
+TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(ellipsoid_roots<Real>(body, ray, {active, own}), own, t);
 }
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                  Double<Real>& t) {
-    return first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
 }
 
 template <class Primitive>
 inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_same_v<Primitive, Quad>;
+
+/// Which rays can meet primitive `id`, that is not certainly `behind` them? Not those that have left it outward, or a
+/// face at all.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+    const Mask<Real> own = source.primitive == UInt<Real>(id);
+    if constexpr (is_face<Primitive>) return !own && !behind;
+    return select(own, source.inside, !behind);
+}
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
+    return !behind;
+}
 
 /// Where is a hit on primitive `id` the far side of what the ray left inward?
 template <class Real>
@@ -105,35 +121,40 @@ TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
     return Mask<Real>(false);
 }
 
-/// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`.
+/// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`. A point of a
+/// face beyond `farthest` may be left out.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
-                                const Mask<Real>& active, Double<Real>& t) {
+                                const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
     if constexpr (is_face<Primitive>) {
-        return first_in_front(primitive, ray, t, active);
+        return first_in_front(primitive, ray, t, active, farthest);
     } else {
-        return first_in_front(primitive, ray, t) && active;
+        return first_in_front(primitive, ray, t, active);
     }
 }
 
-// Flat ones are not met again by a ray that leaves them, to either side; nor is a quad, even if it is folded. That
-// comes first: at its origin a ray is where only exact arithmetic can decide.
+// What a ray leaves outward it does not meet again; nor does it a face, to either side, or a quad, even if it is
+// folded. That comes first: at its origin a ray is where only exact arithmetic can decide.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, const Mask<Real>& active, Double<Real>& t) {
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
     if constexpr (is_face<Primitive>) {
-        return first_in_front(primitive, ray, t, active && !own);
+        return first_in_front(primitive, ray, t, active && !own, farthest);
     } else {
-        return first_or_far(primitive, ray, own, t) && active && (!own || source.inside);
+        const Mask<Real> meets = active && (!own || source.inside);
+        if (!any(meets)) return meets;
+        return first_or_far(primitive, ray, own, meets, t);
     }
 }
 
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, const Mask<Real>& active, Double<Real>& t) {
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
     const Source<Real>& surface = source;
-    return first_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), t);
+    return first_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
 }
 
 }  // namespace tandem

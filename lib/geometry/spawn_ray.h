@@ -224,7 +224,7 @@ TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<
     return {{departure(from, inside), direction}, {from.primitive, inside}};
 }
 
-/// A shadow ray, for Tracer::occluded(). Its light is at t = 1.
+/// A shadow ray, for Tracer::occluded(). Its light is at t = 1, or infinitely far.
 template <class Real>
 struct ShadowRay {
     Ray<Real> ray;
@@ -234,18 +234,21 @@ struct ShadowRay {
         active;  ///< false where the light is at the very point: such a ray has no direction, and brings no light
 };
 
-/// The shadow ray to a point of a light. `light`: the light's own primitive, or no_primitive.
+/// The shadow ray to a light at the point `to` or, where it `is_far`, in the direction `to`. `light`: the light's own
+/// primitive, or no_primitive.
 template <class Real>
 TANDEM_HD ShadowRay<Real> spawn_shadow_ray(const SurfacePoint<Real>& from, const Vec3<Real>& to,
-                                           const UInt<Real>& light) {
+                                           const UInt<Real>& light, const Mask<Real>& is_far = Mask<Real>(false)) {
+    using D = Double<Real>;
     ShadowRay<Real> shadow;
     shadow.source.primitive = from.primitive;
-    const Vec3<Double<Real>> to_light = widen(to) - widen(from.position);
-    shadow.source.inside = dot(to_light, from.normal) < Double<Real>(0.0);
+    const Vec3<D> to_light = select(is_far, widen(to), widen(to) - widen(from.position));
+    shadow.source.inside = dot(to_light, from.normal) < D(0.0);
     shadow.source.light = light;
     shadow.ray.origin = departure(from, shadow.source.inside);
-    shadow.ray.direction = to_real<Real>(widen(to) - widen(shadow.ray.origin));
-    shadow.active = is_traceable(shadow.ray) && norm1(to_light) > Double<Real>(0.0);
+    shadow.ray.direction = select(is_far, to, to_real<Real>(widen(to) - widen(shadow.ray.origin)));
+    shadow.t_max = select(is_far, D(__builtin_huge_val()), D(1.0));
+    shadow.active = is_far || (is_traceable(shadow.ray) && norm1(to_light) > D(0.0));
     return shadow;
 }
 

@@ -65,10 +65,19 @@ struct SphereRoots {
     Double<Real> a, b, c, q;
 };
 
+/// The lines that count when many are crossed with a sphere at once; no other is looked at twice.
+template <class Real>
+struct SphereLines {
+    Mask<Real> active = Mask<Real>(true);
+    /// The ray starts on the sphere, and its far crossing is asked for: c is 0 but for rounding, and decides nothing.
+    Mask<Real> inward = Mask<Real>(false);
+};
+
 /// The roots in double alone, from offset = origin - centre, and where that may not do.
 template <class Real>
 TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
-                                                   const Vec3<Double<Real>>& direction, const Double<Real>& radius) {
+                                                   const Vec3<Double<Real>>& direction, const Double<Real>& radius,
+                                                   const SphereLines<Real>& lines) {
     using D = Double<Real>;
     const D zero(0.0);
     const Vec3<D> moment = accurate_cross(offset, direction);
@@ -89,7 +98,10 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
     const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
     const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
                                 absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
-    roots.doubtful = touching || absolute(roots.c) <= D(0x1p-25) * size2;
+    const Mask<Real> on_surface = absolute(roots.c) <= D(0x1p-25) * size2;
+    // a ray that goes inward leaves by q / a, unless it looks past the centre from the start
+    const Mask<Real> by_quotient = lines.inward && roots.b >= zero;
+    roots.doubtful = lines.active && (touching || (on_surface && !by_quotient));
     return roots;
 }
 
@@ -109,10 +121,11 @@ template <class Real>
 requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
                                                                   const Vec3<Double<Real>>& centre,
                                                                   const Vec3<Double<Real>>& direction,
-                                                                  const Double<Real>& radius) {
+                                                                  const Double<Real>& radius,
+                                                                  const SphereLines<Real>& lines = {}) {
     using D = Double<Real>;
     const D zero(0.0);
-    SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius);
+    SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius, lines);
     if (any(roots.doubtful)) [[unlikely]] {
         const auto exact = sphere_detail::quadratic_in_pairs<Real>(origin, centre, direction, radius);
         const D root = square_root(absolute(exact.discriminant));
@@ -129,7 +142,8 @@ template <class Real>
 requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
                                                                  const Vec3<Double<Real>>& centre,
                                                                  const Vec3<Double<Real>>& direction,
-                                                                 const Double<Real>& radius) {
+                                                                 const Double<Real>& radius,
+                                                                 const SphereLines<Real>& = {}) {
     const Vec3<Real> offset = origin - centre;
     SphereRoots<Real> roots;
     roots.doubtful = Mask<Real>(false);
@@ -171,9 +185,11 @@ TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>
 }
 
 template <class Real>
-TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray) {
+TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray,
+                                         const SphereLines<Real>& lines = {}) {
     using D = Double<Real>;
-    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(sphere.centre), widen(ray.direction), D(sphere.radius));
+    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(sphere.centre), widen(ray.direction), D(sphere.radius),
+                              lines);
 }
 
 template <class Real>
@@ -193,15 +209,16 @@ TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
 
 }  // namespace sphere_detail
 
-/// The nearest point of the sphere in front of the origin: first_in_front(sphere_roots(sphere, ray), t), with what is
-/// rare out of the way.
+/// The nearest point of the sphere in front of the origin, in the lanes of `active`:
+/// first_in_front(sphere_roots(sphere, ray), t), with what is rare out of the way.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
-                                                             Double<Real>& t) {
+                                                             Double<Real>& t,
+                                                             const Mask<Real>& active = Mask<Real>(true)) {
     using D = Double<Real>;
     const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
-                                                                 widen(ray.direction), D(sphere.radius));
-    Mask<Real> hit = first_in_front(roots, t);
+                                                                 widen(ray.direction), D(sphere.radius), {active});
+    Mask<Real> hit = active && first_in_front(roots, t);
     if (any(roots.doubtful)) [[unlikely]] {
         const D exact = sphere_detail::exact_first_in_front(sphere, ray);
         hit = select(roots.doubtful, exact < D(__builtin_huge_val()), hit);
@@ -211,9 +228,9 @@ requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& spher
 }
 
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
-                                                            Double<Real>& t) {
-    return first_in_front(sphere_roots(sphere, ray), t);
+requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                            const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_in_front(sphere_roots(sphere, ray), t);
 }
 
 /// From the centre to the point at parameter t of the ray.

@@ -58,6 +58,8 @@ struct Volumes {
     using D = Double<Real>;
     D w0, w1, w2;
     D error;
+    D speed, above;  ///< d . (e1 x e2), their sum, and a . (e1 x e2): above / speed is t
+    D above_error;
 
     TANDEM_HD Volumes(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
         using S = Scalar<D>;
@@ -69,8 +71,21 @@ struct Volumes {
         const Vec3<D> moment = accurate_cross(d, a);
         w2 = dot(moment, broadcast<D>(e1));
         w1 = -dot(moment, broadcast<D>(e2));
-        w0 = (dot(d, broadcast<D>(accurate_cross(e1, e2))) - w1) - w2;
-        error = D(volume_error) * ((norm1(d) * (norm1(a) + D(size))) * D(size));
+        const Vec3<D> normal = broadcast<D>(accurate_cross(e1, e2));
+        speed = dot(d, normal);
+        above = dot(a, normal);
+        w0 = (speed - w1) - w2;
+        const D reach = norm1(a) + D(size);
+        error = D(volume_error) * ((norm1(d) * reach) * D(size));
+        above_error = D(volume_error) * ((reach * D(size)) * D(size));
+    }
+
+    /// Where the line crosses the triangle, is that certainly behind the origin, or beyond `farthest`?
+    [[nodiscard]] TANDEM_HD Mask<Real> is_out_of_reach(const D& farthest) const {
+        const Mask<Real> turned = speed < D(0.0);
+        const D height = select(turned, -above, above);
+        const D most = (absolute(speed) + error) * D(1.0 + 0x1p-40);
+        return height < -above_error || height - above_error > farthest * most;
     }
 };
 
@@ -146,6 +161,7 @@ class ExactCrossing {
         const ExactSum<T> speed = volume();
         const int front = speed.sign();
         if (front == 0) return miss;
+        TANDEM_KEEP_LOOP
         for (int corner = 0; corner < 3; ++corner) {
             if (weight(corner).sign() == -front) return miss;
         }
@@ -180,6 +196,7 @@ class ExactCrossing {
     /// Their sum, in which the origin cancels: det(d, v1 - v0, v2 - v0).
     TANDEM_HD ExactSum<T> volume() const {
         ExactSum<T> sum;
+        TANDEM_KEEP_LOOP
         for (int i = 0; i < 3; ++i) add_determinant(sum, ray_.direction, v_[i], v_[(i + 1) % 3]);
         return sum;
     }
@@ -203,16 +220,18 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
 
-/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not looked at twice.
+/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not looked at twice. What is
+/// beyond `farthest` may count as a miss.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray,
-                                                               Mask<Real> active) {
+                                                               Mask<Real> active, Double<Real> farthest) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D least = lesser(lesser(w.w0, w.w1), w.w2);
     const D most = greater(greater(w.w0, w.w1), w.w2);
-    const Mask<Real> inside = least > w.error || most < -w.error;
+    Mask<Real> inside = least > w.error || most < -w.error;
     Mask<Real> doubtful = !inside && (least >= -w.error || most <= w.error);
+    inside = inside && active && !w.is_out_of_reach(farthest);
     D t(__builtin_huge_val());
     if (any(inside)) {
         const PlaneCrossing<Real> plane(v0, v1, v2, ray);
@@ -231,7 +250,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
 /// The same in the tier fast: in float, and no second look. A line through an edge may miss both of its triangles.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD Real
-    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&) {
+    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&, const Real&) {
     const RoughCrossing<Real> crossing(v0, v1, v2, ray);
     const Real zero(0.0F);
     const Mask<Real> inside =
@@ -262,7 +281,7 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 }  // namespace triangle_detail
 
 /// Where a line, in the lanes of `active`, meets the closed triangle (v0, v1, v2) in front of its origin; `t` is valid
-/// where the result is true.
+/// where the result is true. A hit beyond `farthest` may be left out, and costs less if it is.
 ///
 /// Needs: finite vertices, a traceable ray (is_traceable()).
 /// Gives: the right decision between hit and miss, always, in the tiers strict and precise: triangles that share an
@@ -282,16 +301,18 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 ///        tests/unit/geometry/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
-                                    Double<Real>& t, const Mask<Real>& active = Mask<Real>(true)) {
+                                    Double<Real>& t, const Mask<Real>& active = Mask<Real>(true),
+                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     if (!any(active)) return active;
-    t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active);
+    t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active, farthest);
     return active && t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
 }
 
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active);
+                                    const Mask<Real>& active = Mask<Real>(true),
+                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
 }
 
 /// Where the line of a ray, in the lanes of `active` that hit the triangle, meets it. Within 2^-22 of the exact
@@ -325,9 +346,13 @@ TANDEM_HD ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& 
 
 /// The direction of (v1 - v0) x (v2 - v0), from exact components; below 2^33 in size. Zero where the area is.
 TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
-    const ScaledPair x = shadow(v0, v1, v2, {1, 0, 0}).leading();
-    const ScaledPair y = shadow(v0, v1, v2, {0, 1, 0}).leading();
-    const ScaledPair z = shadow(v0, v1, v2, {0, 0, 1}).leading();
+    ScaledPair parts[3];
+    TANDEM_KEEP_LOOP
+    for (int i = 0; i < 3; ++i) {
+        const Vec3f axis = {i == 0 ? 1.0F : 0.0F, i == 1 ? 1.0F : 0.0F, i == 2 ? 1.0F : 0.0F};
+        parts[i] = shadow(v0, v1, v2, axis).leading();
+    }
+    const auto& [x, y, z] = parts;
     const auto larger = [](const ScaledPair& a, const ScaledPair& b) {
         if (b.mantissa.high == 0.0) return a;
         return a.mantissa.high == 0.0 || a.exponent < b.exponent ? b : a;

@@ -1,6 +1,7 @@
 /// The light that a vertex of a path receives from the lights, and what Phong's model makes of it.
 #pragma once
 
+#include "tandem/integrator/block.h"
 #include "tandem/integrator/glow.h"
 #include "tandem/integrator/shadow.h"
 #include "tandem/light/punctual_light.h"
@@ -16,41 +17,101 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
     result.reflected = phong_light(surface.diffuse, surface.specular, surface.shininess, ray.intensity, surface.normal,
                                    ray.to_light, to_viewer);
     if (Effects::has(Effect::shadows)) {
-        result.is_far = Effects::has(Effect::directional_lights) && light.kind == PunctualKind::directional;
-        result.to = result.is_far ? broadcast<Real>(-light.direction) : broadcast<Real>(light.position);
-        result.casts_shadows = light.casts_shadows != 0;
+        const bool is_far = Effects::has(Effect::directional_lights) && light.kind == PunctualKind::directional;
+        result.to = broadcast<Real>(is_far ? -light.direction : light.position);
+        result.is_far = Mask<Real>(is_far);
+        result.casts_shadows = Mask<Real>(light.casts_shadows != 0);
     }
     return result;
 }
 
+/// One of several lights, chosen with a chance in proportion to what each would bring if nothing stood in its way: so a
+/// vertex of a path that is followed by chance anyway needs one shadow ray, and its noise is that of the shadows alone.
+/// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
+/// 1996; for weights that come one after the other, M. T. Chao, "A general purpose unequal probability sampling plan",
+/// Biometrika 69(3), 1982.
+template <class Real>
+class LightChoice {
+  public:
+    /// `u`: uniform in [0, 1).
+    TANDEM_HD explicit LightChoice(const Real& u) : u_(u) {}
+
+    TANDEM_HD void offer(const IncidentLight<Real>& light) {
+        const Real weight = norm1(light.reflected);
+        const Real before = total_;
+        total_ = total_ + weight;
+        const Real place = u_ * total_;
+        const Mask<Real> taken = weight > Real(0.0F) && !(place < before);
+        u_ = select(taken, (place - before) / weight, select(before > Real(0.0F), place / before, u_));
+        chosen_ = select(taken, light, chosen_);
+        weight_ = select(taken, weight, weight_);
+    }
+
+    /// The light, brighter by what the chance leaves out: on average it brings what all do.
+    [[nodiscard]] TANDEM_HD IncidentLight<Real> chosen() const {
+        IncidentLight<Real> light = chosen_;
+        light.reflected = chosen_.reflected * (total_ / weight_);
+        return light;
+    }
+
+  private:
+    Real u_;
+    Real total_ = Real(0.0F);
+    Real weight_ = Real(1.0F);
+    IncidentLight<Real> chosen_ = {{Real(0.0F), Real(0.0F), Real(0.0F)}, {Real(0.0F), Real(0.0F), Real(1.0F)}};
+};
+
+/// The number for LightChoice.
+template <class Real>
+TANDEM_HD Real light_choice(const SampleId<Real>& sample, const UInt<Real>& vertex) {
+    return to_unit_interval<Real>(sample.block_at_vertex(Dimension::light, vertex).word[0]);
+}
+
 /// Phong's sum over all that gives light, with the ambient term, at `position` in the lanes of `found`. `point`: the
 /// same on the surface, for shadow rays. `goes_on`: the lanes whose path may be scattered here, and so meet lights by
-/// itself. One loop over lights of every kind, so that a kernel has one place from which shadow rays start.
+/// itself. Where light is followed by chance, with indirect light, one of the lights stands for all (LightChoice). One
+/// loop over lights of every kind, so that a kernel has one place from which shadow rays start. `rays`: they are
+/// counted there.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const Surface<Real>& surface,
                                      const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer,
                                      const SurfacePoint<Real>& point, const SampleId<Real>& sample,
-                                     const UInt<Real>& vertex, const Mask<Real>& goes_on, const Mask<Real>& found) {
+                                     const UInt<Real>& vertex, const Mask<Real>& goes_on, const Mask<Real>& found,
+                                     UInt<Real>& rays) {
     const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
+    Vec3<Real> reflected = surface.ambient * broadcast<Real>(scene.environment.ambient);
+    const Mask<Real> reflects = found && norm1(surface.diffuse) + norm1(surface.specular) > Real(0.0F);
+    const bool any_reflects = any(reflects);
+    if (!any_reflects && !TANDEM_ON_DEVICE) return reflected;
     const bool area = Effects::has(Effect::area_lights) && scene.area_light_count > 0;
-    const bool sky = Effects::has(Effect::environment_light) && scene.environment.illuminates != 0 &&
-                     scene.environment.indirect == 0;
+    const bool indirect = Effects::has(Effect::indirect) && scene.environment.indirect != 0;
+    const bool sky = Effects::has(Effect::environment_light) && scene.environment.illuminates != 0 && !indirect;
     const std::uint32_t punctual = Effects::light_count(scene.light_count);
     const std::uint32_t count = punctual + (area ? 1U : 0U) + (sky ? 1U : 0U);
-    Vec3<Real> reflected = surface.ambient * broadcast<Real>(scene.environment.ambient);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        IncidentLight<Real> light;
-        if (i < punctual) {
+    const bool by_chance = indirect && count > 1;
+    LightChoice<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : Real(0.0F));
+    // one more round, for the chosen one: so shadow rays start from one place
+    for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
+        IncidentLight<Real> light = {black, black};
+        if (!any_reflects) {
+        } else if (i < punctual) {
             light = punctual_light<Effects, Real>(scene.lights[i], surface, position, to_viewer);
+        } else if (i == count) {
+            light = choice.chosen();
         } else if (area && i == punctual) {
-            light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, goes_on, found);
+            light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, goes_on, reflects);
         } else if (sky) {
             light = environment_light<Real>(scene, surface, sample, vertex);
         }
-        if (Effects::has(Effect::shadows) && light.casts_shadows) {
-            const Mask<Real> lit = found && norm1(light.reflected) > Real(0.0F);
+        if (by_chance && i < count) {
+            choice.offer(light);
+            continue;
+        }
+        if (Effects::has(Effect::shadows)) {
+            gather_block<Effects>();
+            const Mask<Real> lit = reflects && light.casts_shadows && norm1(light.reflected) > Real(0.0F);
             if (any(lit)) {
-                const Mask<Real> dark = is_stopped<Effects>(tracer, scene, light, point, lit);
+                const Mask<Real> dark = is_stopped<Effects>(tracer, scene, light, point, lit, rays);
                 light.reflected = select(dark, black, light.reflected);
             }
         }

@@ -12,7 +12,9 @@ namespace tandem {
 
 namespace glow_detail {
 
-inline constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::faces;
+/// Can light be drawn from such a body, or is it found by paths alone?
+template <class Body>
+inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
 template <class Real>
 TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point) {
@@ -62,8 +64,8 @@ TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Re
         if (!(chance > 0.0F)) return;
         visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
-            if constexpr (std::is_same_v<Body, Sphere> || std::is_same_v<Body, Triangle> ||
-                          std::is_same_v<Body, Quad>) {
+            if constexpr (glow_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
                 const D pdf = pdf_of(glow_detail::view_light<Real>(body, point), direction);
                 result = select(here, pdf * D(chance), result);
             }
@@ -84,7 +86,7 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     using Word = UInt<Real>;
     const D zero(0.0);
     const Real nothing(0.0F);
-    const auto random = sample.block(Dimension::area_light, vertex);
+    const auto random = sample.block_at_vertex(Dimension::area_light, vertex);
     const Real which = to_unit_interval<Real>(random.word[0]);
     const D u = widen(to_unit_interval<Real>(random.word[1]));
     const D v = widen(to_unit_interval<Real>(random.word[2]));
@@ -102,8 +104,8 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
         Mask<Real> lights = here && point.primitive != Word(chosen.primitive);
         visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
-            if constexpr (std::is_same_v<Body, Sphere> || std::is_same_v<Body, Triangle> ||
-                          std::is_same_v<Body, Quad>) {
+            if constexpr (glow_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
                 of_light = sample_light(glow_detail::view_light<Real>(body, position), u, v);
                 lights = lights && glow_detail::shines<Real>(body, position, of_light.direction);
             }
@@ -117,7 +119,7 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
         primitive = select(here, Word(chosen.primitive), primitive);
     });
     IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
-    result.casts_shadows = scene.area_lights_cast_shadows != 0;
+    result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     const Mask<Real> seen = found && drawn.pdf > zero;
     if (!any(seen)) return result;
     const D pdf = select(seen, drawn.pdf, D(1.0));
@@ -138,15 +140,15 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
 template <class Real>
 TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
                                                      const SampleId<Real>& sample, const UInt<Real>& vertex) {
-    const auto random = sample.block(Dimension::environment, vertex);
+    const auto random = sample.block_at_vertex(Dimension::environment, vertex);
     const auto drawn = sample_cosine_hemisphere<Real>(surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));
     IncidentLight<Real> result;
     result.to = to_real<Real>(drawn.direction);
     // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
     result.reflected = surface.diffuse * background(scene.environment, result.to);
-    result.is_far = true;
-    result.casts_shadows = scene.area_lights_cast_shadows != 0;
+    result.is_far = Mask<Real>(true);
+    result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     return result;
 }
 

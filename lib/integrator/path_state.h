@@ -14,8 +14,10 @@ struct PathState {
     Ray<Real> ray;
     Mask<Real> alive;
 
-    TANDEM_HD PathState(const SceneView&, const Ray<Real>& camera_ray, const Mask<Real>& active)
-        : ray(camera_ray), alive(active) {}
+    TANDEM_HD void begin(const SceneView&, const Ray<Real>& camera_ray, const Mask<Real>& active) {
+        ray = camera_ray;
+        alive = active;
+    }
 };
 
 /// Of a path that goes on.
@@ -23,7 +25,7 @@ template <class Effects, class Real>
 struct PathState<Effects, Real, true> {
     using Media = std::conditional_t<Effects::most.has(Effect::nested_media), MediumStack<Real>, NoMediumStack<Real>>;
 
-    Ray<Real> ray;
+    Ray<Real> ray{};
     Mask<Real> alive;
     Source<Real> source{};
     Vec3<Real> throughput = {Real(1.0F), Real(1.0F), Real(1.0F)};
@@ -34,26 +36,27 @@ struct PathState<Effects, Real, true> {
     Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a matt surface chose it; else 0
     Media media;
 
-    /// `a` in the lanes of `mask`, else `b`.
-    TANDEM_HD friend PathState select(const Mask<Real>& mask, const PathState& a, const PathState& b) {
-        PathState result = b;
-        result.ray.origin = select(mask, a.ray.origin, b.ray.origin);
-        result.ray.direction = select(mask, a.ray.direction, b.ray.direction);
-        result.alive = select(mask, a.alive, b.alive);
-        result.source.primitive = select(mask, a.source.primitive, b.source.primitive);
-        result.source.inside = select(mask, a.source.inside, b.source.inside);
-        result.throughput = select(mask, a.throughput, b.throughput);
-        result.reflections = select(mask, a.reflections, b.reflections);
-        result.refractions = select(mask, a.refractions, b.refractions);
-        result.scatterings = select(mask, a.scatterings, b.scatterings);
-        result.holes = select(mask, a.holes, b.holes);
-        result.pdf = select(mask, a.pdf, b.pdf);
-        result.media = select(mask, a.media, b.media);
-        return result;
-    }
+    /// Of no path yet.
+    TANDEM_HD PathState() : alive(false) {}
 
-    TANDEM_HD PathState(const SceneView& scene, const Ray<Real>& camera_ray, const Mask<Real>& active)
-        : ray(camera_ray), alive(active), media(media_at_camera<Effects>(scene, Media())) {}
+    /// Begins anew with a camera ray, in the lanes of `active`.
+    TANDEM_HD void begin(const SceneView& scene, const Ray<Real>& camera_ray, const Mask<Real>& active) {
+        using Word = UInt<Real>;
+        const Word none(0U);
+        const Real one(1.0F);
+        ray.origin = select(active, camera_ray.origin, ray.origin);
+        ray.direction = select(active, camera_ray.direction, ray.direction);
+        alive = alive || active;
+        source.primitive = select(active, Word(no_primitive), source.primitive);
+        source.inside = source.inside && !active;
+        throughput = select(active, Vec3<Real>{one, one, one}, throughput);
+        reflections = select(active, none, reflections);
+        refractions = select(active, none, refractions);
+        scatterings = select(active, none, scatterings);
+        holes = select(active, none, holes);
+        pdf = select(active, Double<Real>(0.0), pdf);
+        media = select(active, media_at_camera<Effects>(scene, Media()), media);
+    }
 
     /// Over the segment of `ray` that ends at t, in the lanes of `active`. `own`: the medium that the path is in if
     /// bodies lie apart.

@@ -27,6 +27,18 @@ struct PixelSum {
     Vec3<Wide<Real>> sum = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};  ///< over all samples, in their order
     UInt<Real> invalid = UInt<Real>(0U);     ///< samples that were NaN or infinite: counted, not added
     UInt<Real> lost_media = UInt<Real>(0U);  ///< see PathResult
+    UInt<Real> rays = UInt<Real>(0U);        ///< see PathResult
+
+    /// Begins anew, in the lanes of `active`.
+    TANDEM_HD void clear(const Mask<Real>& active) {
+        using W = Wide<Real>;
+        const UInt<Real> none(0U);
+        const W zero(0.0);
+        sum = select(active, Vec3<W>{zero, zero, zero}, sum);
+        invalid = select(active, none, invalid);
+        lost_media = select(active, none, lost_media);
+        rays = select(active, none, rays);
+    }
 };
 
 /// The camera ray of a sample. `Effects`: what is simulated (effects/effects.h).
@@ -53,53 +65,88 @@ TANDEM_HD void add(const PathResult<Real>& path, const Mask<Real>& ended, PixelS
     pixel.sum = pixel.sum + select(ended && valid, addend, Vec3<W>{zero, zero, zero});
     pixel.invalid = pixel.invalid + select(ended && !valid, Word(1U), Word(0U));
     pixel.lost_media = pixel.lost_media + select(ended, path.lost_media, Word(0U));
+    pixel.rays = pixel.rays + select(ended, path.rays, Word(0U));
 }
 
-/// The sum over the samples of pixel (x, y): in double, in the order of the samples, by one owner; this order is
-/// what makes films equal. A Real of many lanes renders one pixel per lane, in the lanes of `active`. Where paths
-/// bounce, a lane of a packet and a thread of a warp go on with their next sample as soon as a path ends, and wait for
-/// the others at each vertex, not at each sample (docs/performance.md).
+/// The samples of a pixel whose paths go on from vertex to vertex, one vertex at a time, summed as render_pixel() does;
+/// of many pixels, a Real of many lanes. Has no pixel at first. A lane, or a thread, goes on with its next sample as
+/// soon as a path ends, and waits for the others at each vertex, not at each sample (docs/performance.md).
+template <class Effects, class Real>
+class PixelWalk {
+  public:
+    /// Takes pixel (x, y), in the lanes of `active`.
+    TANDEM_HD void take(const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
+        using Word = UInt<Real>;
+        x_ = select(active, x, x_);
+        y_ = select(active, y, y_);
+        id_.seed = job.seed;
+        id_.frame = job.frame;
+        id_.pixel = y_ * Word(job.width) + x_;
+        id_.sample = select(active, Word(job.first_sample), id_.sample);
+        sum_.clear(active);
+        working_ = working_ || active;
+        begins_ = begins_ || active;
+    }
+
+    /// Which pixels have samples left?
+    [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
+    [[nodiscard]] TANDEM_HD const PixelSum<Real>& sum() const { return sum_; }
+    [[nodiscard]] TANDEM_HD const UInt<Real>& pixel() const { return id_.pixel; }
+
+    /// To the next vertex of each path.
+    template <class Tracer>
+    TANDEM_HD void step(const Tracer& tracer, const SceneView& scene, const PixelJob& job) {
+        using Word = UInt<Real>;
+        if (any(begins_)) begin_path(scene, job);
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id_, vertex_, path_, brought_);
+        vertex_ = vertex_ + Word(1U);
+        begins_ = working_ && !path_.alive;
+        if (!any(begins_)) return;
+        add(brought_, begins_, sum_);
+        id_.sample = id_.sample + select(begins_, Word(1U), Word(0U));
+        working_ = working_ && id_.sample < Word(job.first_sample + job.samples);
+        begins_ = begins_ && working_;
+    }
+
+  private:
+    TANDEM_HD void begin_path(const SceneView& scene, const PixelJob& job) {
+        using Word = UInt<Real>;
+        const Real zero(0.0F);
+        path_.begin(scene, sample_ray<Effects, Real>(job, id_, x_, y_), begins_);
+        brought_.radiance = select(begins_, Vec3<Real>{zero, zero, zero}, brought_.radiance);
+        brought_.lost_media = select(begins_, Word(0U), brought_.lost_media);
+        brought_.rays = select(begins_, Word(0U), brought_.rays);
+        vertex_ = select(begins_, Word(0U), vertex_);
+    }
+
+    UInt<Real> x_ = UInt<Real>(0U), y_ = UInt<Real>(0U);
+    SampleId<Real> id_ = {0, 0, UInt<Real>(0U), UInt<Real>(0U)};
+    UInt<Real> vertex_ = UInt<Real>(0U);
+    PathState<Effects, Real> path_;
+    PathResult<Real> brought_ = {{Real(0.0F), Real(0.0F), Real(0.0F)}};
+    PixelSum<Real> sum_;
+    Mask<Real> working_ = Mask<Real>(false);
+    Mask<Real> begins_ = Mask<Real>(false);
+};
+
+/// The sum over the samples of pixel (x, y), for paths that end at their first vertex: in double, in the order of the
+/// samples, by one owner; this order is what makes films equal. A Real of many lanes renders one pixel per lane, in the
+/// lanes of `active`.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
-    using Word = UInt<Real>;
     const Real zero(0.0F);
-    const PathResult<Real> nothing = {{zero, zero, zero}};
-    const PathLimits limits = Effects::limits(job.limits);
-    SampleId<Real> id = {job.seed, job.frame, y * Word(job.width) + x, Word(job.first_sample)};
+    SampleId<Real> id = {job.seed, job.frame, y * UInt<Real>(job.width) + x, UInt<Real>(job.first_sample)};
     PixelSum<Real> result;
-    if constexpr (!can_bounce<Effects>()) {
-        for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            id.sample = Word(job.first_sample + sample);
-            PathState<Effects, Real> path(scene, sample_ray<Effects, Real>(job, id, x, y), active);
-            PathResult<Real> brought = nothing;
-            advance<Effects>(tracer, scene, limits, id, Word(0U), path, brought);
-            add(brought, Mask<Real>(true), result);
-        }
-        return result;
-    } else {
-        const Word end(job.first_sample + job.samples);
-        PathState<Effects, Real> path(scene, sample_ray<Effects, Real>(job, id, x, y), active);
-        PathResult<Real> brought = nothing;
-        Mask<Real> working = active;
-        Word vertex(0U);
-        while (true) {
-            advance<Effects>(tracer, scene, limits, id, vertex, path, brought);
-            vertex = vertex + Word(1U);
-            const Mask<Real> ended = working && !path.alive;
-            if (!any(ended)) continue;
-            add(brought, ended, result);
-            id.sample = id.sample + select(ended, Word(1U), Word(0U));
-            working = working && id.sample < end;
-            if (!any(working)) return result;
-            const Mask<Real> begins = ended && working;
-            const PathState<Effects, Real> fresh(scene, sample_ray<Effects, Real>(job, id, x, y), begins);
-            path = select(begins, fresh, path);
-            brought.radiance = select(begins, nothing.radiance, brought.radiance);
-            brought.lost_media = select(begins, nothing.lost_media, brought.lost_media);
-            vertex = select(begins, Word(0U), vertex);
-        }
+    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+        id.sample = UInt<Real>(job.first_sample + sample);
+        PathState<Effects, Real, can_bounce<Effects>()> path;
+        path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+        PathResult<Real> brought = {{zero, zero, zero}};
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), path, brought);
+        add(brought, Mask<Real>(true), result);
     }
+    return result;
 }
 
 }  // namespace tandem

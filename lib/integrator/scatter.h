@@ -41,20 +41,18 @@ TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Re
     return meeting;
 }
 
-/// What is left of Phong's terms where a dielectric takes its share of the light: of the light that goes in, and of
-/// highlights, which are on the outside of bodies.
+/// Leaves of Phong's terms what a dielectric, which takes its share of the light, leaves: of the light that goes in,
+/// and of highlights, which are on the outside of bodies.
 template <class Effects, class Real>
-TANDEM_HD Surface<Real> without_transmitted(const Surface<Real>& surface, const Meeting<Real>& meeting) {
-    if (!Effects::has(Effect::refraction)) return surface;
+TANDEM_HD void take_transmitted(Surface<Real>& surface, const Meeting<Real>& meeting) {
+    if (!Effects::has(Effect::refraction)) return;
     const Real zero(0.0F);
-    if (!any(surface.transmission > zero)) return surface;
-    Surface<Real> result = surface;
+    if (!any(surface.transmission > zero)) return;
     const Real scattered = Real(1.0F) - surface.transmission;
-    result.ambient = surface.ambient * scattered;
-    result.diffuse = surface.diffuse * scattered;
+    surface.ambient = surface.ambient * scattered;
+    surface.diffuse = surface.diffuse * scattered;
     const Mask<Real> within = meeting.from_inside && surface.transmission > zero;
-    result.specular = select(within, Vec3<Real>{zero, zero, zero}, surface.specular);
-    return result;
+    surface.specular = select(within, Vec3<Real>{zero, zero, zero}, surface.specular);
 }
 
 namespace scatter_detail {
@@ -99,13 +97,13 @@ TANDEM_HD void pass_through(const SurfacePoint<Real>& point, const Meeting<Real>
     path.source.primitive = select(holes, point.primitive, path.source.primitive);
     path.source.inside = select(holes, inside, path.source.inside);
     path.holes = path.holes + select(holes, Word(1U), Word(0U));
-    path.alive = path.alive && path.holes <= Word(most_holes);
+    path.alive = path.alive || (holes && path.holes <= Word(most_holes));
 }
 
 /// Chooses how a path goes on, by reflection in a mirror, by what a dielectric does or, with indirect light, by
 /// scattering from a matt surface: each with a chance in proportion to its share of the light, so that a surface of one
-/// kind leaves nothing to chance but Fresnel's reflectance. Lanes that do not go on leave path.alive. Returns the lanes
-/// whose media are lost (Border).
+/// kind leaves nothing to chance but Fresnel's reflectance. Lanes that do not go on leave path.alive; those that are
+/// not there stay as they are. Returns the lanes whose media are lost (Border).
 ///
 /// Radiance is followed as L / n^2, which borders leave as it is; a camera in air sees L.
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
@@ -127,11 +125,12 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
         matt = select(meeting.is_front, largest(surface.diffuse), zero);
     }
     path.alive = path.alive && (mirror > zero || glass > zero || matt > zero);
-    if (!any(path.alive)) return lost;
+    const Mask<Real> active = path.alive;
+    if (!any(active)) return lost;
 
     PhiloxBlock<Word> random;
     if (Effects::has(Effect::refraction) || Effects::has(Effect::indirect)) {
-        random = sample.block(Dimension::scatter, vertex);
+        random = sample.block_at_vertex(Dimension::scatter, vertex);
     }
     // a surface of one kind takes it with the chance 1, to the bit
     const Real total = (mirror + glass) + matt;
@@ -165,9 +164,9 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
         path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
     }
     if (Effects::has(Effect::indirect)) {
-        path.pdf = D(0.0);
+        path.pdf = select(active, D(0.0), path.pdf);
         if (any(takes_matt)) {
-            const auto at = sample.block(Dimension::hemisphere, vertex);
+            const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
             const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
                                                               widen(to_unit_interval<Real>(at.word[1])));
             direction = select(takes_matt, drawn.direction, direction);
@@ -185,7 +184,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     path.reflections = path.reflections + select(bounces_off, one, Word(0U));
     path.alive =
         path.alive && path.reflections <= Word(limits.reflection) && path.refractions <= Word(limits.refraction);
-    const Mask<Real> plays = Word(scene.roulette_from) <= vertex;
+    const Mask<Real> plays = active && Word(scene.roulette_from) <= vertex;
     if (Effects::has(Effect::roulette) && any(plays)) {
         const Real least(0.05F);
         const Real chance_to_live = select(plays, survival_probability(path.throughput, least), Real(1.0F));
@@ -195,8 +194,10 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     }
     // The side follows from the choice: that of a direction next to the surface could be rounding's.
     const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
-    path.ray = {departure(point, inside), to_real<Real>(direction)};
-    path.source = {point.primitive, inside};
+    path.ray.origin = select(active, departure(point, inside), path.ray.origin);
+    path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
+    path.source.primitive = select(active, point.primitive, path.source.primitive);
+    path.source.inside = select(active, inside, path.source.inside);
     return lost && path.alive;
 }
 

@@ -6,6 +6,16 @@
 
 namespace tandem {
 
+/// Are rays counted one by one? Where no surface sends any there are as many as samples.
+template <class Effects>
+TANDEM_HD constexpr bool counts_rays() {
+    return Effects::has_any(counted_ray_effects);
+}
+template <class Effects, class Real>
+TANDEM_HD void count_rays(const Mask<Real>& traced, UInt<Real>& rays) {
+    if (counts_rays<Effects>()) rays = rays + select(traced, UInt<Real>(1U), UInt<Real>(0U));
+}
+
 namespace shadow_detail {
 
 template <class Real, class From, class Tracer>
@@ -23,34 +33,36 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
     return tracer.closest(ray, source, active);
 }
 
-/// Tracer::occluded(), with holes where materials are cut out. `to`: where a ray of finite length leads, from wherever
-/// it goes on; null for a direction.
+/// Tracer::occluded(), with holes where materials are cut out. `rays`: one is added for each part of the way.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView& scene, Ray<Real> ray,
-                                          const ShadowSource<Real>& from, const Double<Real>& t_max,
-                                          const Vec3<Real>* to, const Mask<Real>& active) {
+TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView& scene,
+                                          const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
+                                          UInt<Real>& rays) {
+    count_rays<Effects, Real>(shadow.active, rays);
     if (!Effects::has(Effect::cutouts) || (!is_linked && scene.has_cutouts == 0)) {
-        return tracer.occluded(ray, t_max, from, active);
+        return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
     }
-    Source<Real> source = from;
-    Mask<Real> open = active;
+    Ray<Real> ray = shadow.ray;
+    Source<Real> source = shadow.source;
+    Mask<Real> open = shadow.active;
     Mask<Real> stopped(false);
     for (std::uint32_t holes = 0; holes < most_holes; ++holes) {
         const Closest<Real> hit = nearest_hit<Effects>(tracer, ray, source, open);
-        const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < t_max;
+        const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
         if (!any(met)) return stopped;
         const Mask<Real> passes =
-            hit.primitive == from.light || !is_opaque_at<Tracer::kinds>(scene, ray, source, hit, met);
+            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, ray, source, hit, met);
         stopped = stopped || (met && !passes);
         open = met && passes;
         if (!any(open)) return stopped;
+        count_rays<Effects, Real>(open, rays);
         const SurfacePoint<Real> point = surface_point<Tracer::kinds>(scene, ray, source, hit, open);
         const Mask<Real> inside = dot(widen(ray.direction), point.normal) < Double<Real>(0.0);
         ray.origin = select(open, departure(point, inside), ray.origin);
-        if (to != nullptr) {
-            ray.direction = select(open, to_real<Real>(widen(*to) - widen(ray.origin)), ray.direction);
-            open = open && is_traceable(ray);
-        }
+        // a ray of finite length leads to the light from wherever it goes on
+        const Mask<Real> aims = open && !light.is_far;
+        ray.direction = select(aims, to_real<Real>(widen(light.to) - widen(ray.origin)), ray.direction);
+        open = open && (light.is_far || is_traceable(ray));
         source = {point.primitive, inside};
     }
     return stopped || open;
@@ -59,18 +71,10 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
 /// Is `light` stopped on its way to `point`, in the lanes of `active`? One at the very point brings nothing.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD_STEP Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
-                                     const SurfacePoint<Real>& point, const Mask<Real>& active) {
-    ShadowRay<Real> shadow;
-    if (light.is_far) {
-        const SpawnedRay<Real> ray = spawn_ray(point, light.to);
-        shadow = {ray.ray, {ray.source, UInt<Real>(no_primitive)}, Double<Real>(__builtin_huge_val()), active};
-    } else {
-        shadow = spawn_shadow_ray(point, light.to, light.primitive);
-        shadow.active = shadow.active && active;
-    }
-    const Vec3<Real>* to = light.is_far ? nullptr : &light.to;
-    return (active && !shadow.active) ||
-           is_stopped_by_opaque<Effects>(tracer, scene, shadow.ray, shadow.source, shadow.t_max, to, shadow.active);
+                                     const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
+    ShadowRay<Real> shadow = spawn_shadow_ray(point, light.to, light.primitive, light.is_far);
+    shadow.active = shadow.active && active;
+    return (active && !shadow.active) || is_stopped_by_opaque<Effects>(tracer, scene, light, shadow, rays);
 }
 
 }  // namespace tandem

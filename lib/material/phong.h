@@ -45,7 +45,7 @@ TANDEM_HD Vec3<Real> phong_light(const Vec3<Real>& diffuse, const Vec3<Real>& sp
                               twice * normal.z - to_light.z};
     const D mirror_cosine = dot(mirrored, to_viewer);
     Real specular_weight(0.0F);
-    if (any(mirror_cosine > zero)) {
+    if (any(mirror_cosine > zero && norm1(specular) > Real(0.0F))) {
         const Real lobe = specular_lobe<Real>(select(mirror_cosine > zero, mirror_cosine, D(1.0)), shininess);
         specular_weight = select(mirror_cosine > zero, lobe, Real(0.0F));
     }

@@ -19,6 +19,46 @@ struct ScaledPair {
     int exponent;
 };
 
+namespace exact_sum_detail {
+
+/// `words`: two's complement, least first.
+template <int word_count>
+TANDEM_HD bool is_negative(const std::uint32_t (&words)[word_count]) {
+    return (words[word_count - 1] >> 31) != 0;
+}
+
+/// The integer in units of 2^least, within 2^-100 of itself.
+template <int word_count>
+TANDEM_HD_CALL ScaledPair leading(const std::uint32_t (&words)[word_count], int least) {
+    constexpr int taken = 5;  // words, for a hundred bits at least
+    const bool negative = is_negative(words);
+    const std::uint32_t flip = negative ? 0xFFFFFFFFU : 0U;  // of -x, but for the carry: one unit of the last place
+    int top = word_count - 1;
+    TANDEM_KEEP_LOOP
+    while (top > 0 && (words[top] ^ flip) == 0) --top;
+    ScaledPair result = {{0.0, 0.0}, 32 * top + least};
+    std::uint64_t carry = negative ? 1 : 0;
+    std::uint32_t magnitude[taken] = {};
+    TANDEM_KEEP_LOOP
+    for (int word = 0; word <= top; ++word) {
+        carry += words[word] ^ flip;
+        if (top - word < taken) magnitude[top - word] = static_cast<std::uint32_t>(carry);
+        carry >>= 32;
+    }
+    // a carry out of the top: all bits below are zero
+    if (carry != 0) result.mantissa.high = 0x1p32;
+    double weight = 1.0;
+    TANDEM_KEEP_LOOP
+    for (const std::uint32_t word : magnitude) {
+        result.mantissa = result.mantissa + Pair<double>{word * weight, 0.0};
+        weight *= 0x1p-32;
+    }
+    if (negative) result.mantissa = -result.mantissa;
+    return result;
+}
+
+}  // namespace exact_sum_detail
+
 /// `T` is float or double. Up to 64 products of numbers of magnitude 2^60 at most.
 template <class T>
 class ExactSum {
@@ -30,6 +70,7 @@ class ExactSum {
         int used = 1;
         int shift = 0;
         bool negative = take_away;
+        TANDEM_KEEP_LOOP
         for (const Decoded& factor : factors) {
             used = multiply(product, used, factor);
             shift += factor.shift;
@@ -41,6 +82,7 @@ class ExactSum {
     /// -1, 0 or 1.
     [[nodiscard]] TANDEM_HD int sign() const {
         if (is_negative()) return -1;
+        TANDEM_KEEP_LOOP
         for (const std::uint32_t word : words_) {
             if (word != 0) return 1;
         }
@@ -48,36 +90,13 @@ class ExactSum {
     }
 
     /// The sum, within 2^-100 of itself.
-    [[nodiscard]] TANDEM_HD ScaledPair leading() const {
-        const bool negative = is_negative();
-        const std::uint32_t flip = negative ? 0xFFFFFFFFU : 0U;  // of -x, but for the carry: one unit of the last place
-        int top = word_count - 1;
-        while (top > 0 && (words_[top] ^ flip) == 0) --top;
-        ScaledPair result = {{0.0, 0.0}, 32 * top + 3 * least};
-        std::uint64_t carry = negative ? 1 : 0;
-        std::uint32_t magnitude[taken] = {};
-        for (int word = 0; word <= top; ++word) {
-            carry += words_[word] ^ flip;
-            if (top - word < taken) magnitude[top - word] = static_cast<std::uint32_t>(carry);
-            carry >>= 32;
-        }
-        // a carry out of the top: all bits below are zero
-        if (carry != 0) result.mantissa.high = 0x1p32;
-        double weight = 1.0;
-        for (const std::uint32_t word : magnitude) {
-            result.mantissa = result.mantissa + Pair<double>{word * weight, 0.0};
-            weight *= 0x1p-32;
-        }
-        if (negative) result.mantissa = -result.mantissa;
-        return result;
-    }
+    [[nodiscard]] TANDEM_HD ScaledPair leading() const { return exact_sum_detail::leading(words_, 3 * least); }
 
   private:
     static constexpr int digits = std::numeric_limits<T>::digits;
     static constexpr int least = std::numeric_limits<T>::min_exponent - digits;  ///< 2^least is the smallest number
     static constexpr int limbs = (digits + 31) / 32;
     static constexpr int word_count = (3 * (60 - least) + 8 + 31) / 32;
-    static constexpr int taken = 5;  ///< words, for a hundred bits at least
 
     /// |value| = mantissa * 2^(shift + least).
     struct Decoded {
@@ -116,6 +135,7 @@ class ExactSum {
         const int bits = shift % 32;
         std::uint64_t carry = negative ? 1 : 0;  // -x is ~x + 1
         std::uint32_t below = 0;
+        TANDEM_KEEP_LOOP
         for (int i = 0, at = shift / 32; at < word_count; ++i, ++at) {
             const std::uint32_t limb = i < used ? product[i] : 0;
             const auto piece = static_cast<std::uint32_t>((std::uint64_t{limb} << 32 | below) >> (32 - bits));
@@ -128,7 +148,7 @@ class ExactSum {
         }
     }
 
-    [[nodiscard]] TANDEM_HD bool is_negative() const { return (words_[word_count - 1] >> 31) != 0; }
+    [[nodiscard]] TANDEM_HD bool is_negative() const { return exact_sum_detail::is_negative(words_); }
 
     std::uint32_t words_[word_count] = {};  ///< two's complement, least first
 };
@@ -139,6 +159,7 @@ TANDEM_HD_CALL void add_determinant(ExactSum<T>& sum, Vec3<T> a, Vec3<T> b, Vec3
     const T p[3] = {a.x, a.y, a.z};
     const T q[3] = {b.x, b.y, b.z};
     const T r[3] = {c.x, c.y, c.z};
+    TANDEM_KEEP_LOOP
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         sum.add(p[i], q[j], r[k], take_away);

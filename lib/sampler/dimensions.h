@@ -14,7 +14,17 @@ enum class Dimension : std::uint32_t {
     area_light = 3,   ///< number 0: which light; 1 and 2: where on it
     hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a matt surface
     environment = 5,  ///< numbers 0 and 1: direction to the background
+    light = 6,        ///< number 0: which of the lights has a shadow ray
 };
+
+namespace sampler_detail {
+
+template <class Word>
+TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
+    return philox4x32<Word>(counter, key0, key1);
+}
+
+}  // namespace sampler_detail
 
 /// One sample of one pixel, of `Real`'s lanes. Its random numbers hang on nothing else.
 template <class Real>
@@ -27,10 +37,19 @@ struct SampleId {
     /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
     /// (pixel, sample, dimension and vertex, frame) and the key the seed: each combination once, no state.
     TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, const UInt<Real>& vertex = UInt<Real>(0U)) const {
+        return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
+                                      static_cast<std::uint32_t>(seed >> 32));
+    }
+    /// The same by a call, on the device: for what a path asks for at every vertex.
+    TANDEM_HD PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
+        return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
+                                                          static_cast<std::uint32_t>(seed >> 32));
+    }
+
+  private:
+    TANDEM_HD PhiloxBlock<UInt<Real>> counter(Dimension dimension, const UInt<Real>& vertex) const {
         using Word = UInt<Real>;
-        const Word place = (vertex << 8) | Word(static_cast<std::uint32_t>(dimension));
-        return philox4x32<Word>({{pixel, sample, place, Word(frame)}}, static_cast<std::uint32_t>(seed),
-                                static_cast<std::uint32_t>(seed >> 32));
+        return {{pixel, sample, (vertex << 8) | Word(static_cast<std::uint32_t>(dimension)), Word(frame)}};
     }
 };
 

@@ -30,8 +30,13 @@ void find_area_lights(PreparedScene& prepared) {
         const double brightness = double{emission.x} + double{emission.y} + double{emission.z};
         if (!(brightness > 0)) continue;
         double power = 0;
-        visit_primitive(scene, id, [&](const auto& body) { power = brightness * area_of(body); });
+        std::uint32_t kind = 0;
+        visit_primitive(scene, id, [&](const auto& body) {
+            power = brightness * area_of(body);
+            kind = kind_of<std::decay_t<decltype(body)>>;
+        });
         if (!(power > 0)) continue;
+        prepared.area_light_kinds |= kind;
         total += power;
         powers.push_back(power);
         prepared.area_lights.push_back({id, 0, 0});

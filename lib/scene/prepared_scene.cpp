@@ -27,6 +27,7 @@ SceneView view(const PreparedScene& scene) {
 #undef TANDEM_PRIMITIVE
         .light_count = count(scene.lights),
         .area_light_count = count(scene.area_lights),
+        .area_light_kinds = scene.area_light_kinds,
         .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
         .has_cutouts = scene.has_cutouts ? 1U : 0U,
         .roulette_from = scene.roulette_from,

@@ -37,6 +37,7 @@ struct PreparedScene {
     std::vector<Optics> optics;  ///< by material
     std::vector<PunctualLight> lights;
     std::vector<AreaLight> area_lights;  ///< spheres, triangles and quads that glow, in the order of their ids
+    std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of those
     bool area_light_shadows = true;
     bool has_cutouts = false;             ///< some material is cut out by its alpha
     std::uint32_t roulette_from = never;  ///< vertex of a path

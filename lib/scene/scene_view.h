@@ -37,6 +37,7 @@ struct SceneView {
 #undef TANDEM_PRIMITIVE
     std::uint32_t light_count;
     std::uint32_t area_light_count;
+    std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
     std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha
     std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
@@ -72,6 +73,15 @@ struct PrimitiveKinds {
     static constexpr std::uint32_t bodies = all & ~faces;
 };
 
+/// The bit of a type of primitive.
+template <class Primitive>
+inline constexpr std::uint32_t kind_of = 0;
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    template <>                             \
+    inline constexpr std::uint32_t kind_of<Type> = PrimitiveKinds::name;
+#include "tandem/scene/primitives.def"
+#undef TANDEM_PRIMITIVE
+
 TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
 
 /// Does a kernel learn what its scene has when it is linked (cuda/linked_facts.h)?
@@ -85,6 +95,15 @@ inline constexpr bool is_linked = false;
 TANDEM_HD bool may_have(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
+/// Can a light with an area be of one of these kinds?
+TANDEM_HD bool may_glow(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_LIGHT_KINDS & kinds) != 0;
 #else
     return kinds != 0;
 #endif

@@ -37,7 +37,7 @@ Scene uniform_light(const Vec3f& colour) {
 class ClosedForms : public test::ExactBackend {
   protected:
     /// After a check that no path met anything out of order.
-    [[nodiscard]] Film film_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
+    [[nodiscard]] RenderResult render(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
         RenderJob job;
         job.width = job.height = size;
         job.samples = samples;
@@ -45,7 +45,10 @@ class ClosedForms : public test::ExactBackend {
         job.limits = limits;
         RenderResult result = backend_->render(load(prepare(scene)), job);
         EXPECT_EQ(result.stats.counters, RenderCounters{});
-        return std::move(result.film);
+        return result;
+    }
+    [[nodiscard]] Film film_of(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
+        return render(scene, samples, limits, size).film;
     }
 
     /// The mean of all pixels' means.
@@ -71,6 +74,25 @@ class ClosedForms : public test::ExactBackend {
         EXPECT_LT(error, 0.02 * expected);  // or the test would say nothing
     }
 };
+
+// Every ray is counted: of the camera, of mirrors, and to lights that a surface would reflect if nothing stopped it.
+TEST_P(ClosedForms, RaysAreCounted) {
+    Scene scene = uniform_light({0, 0, 0});
+    Material mirror = black("mirror");
+    mirror.optics.mirror = {0.5F, 0.5F, 0.5F};
+    Material matt = black("matt");
+    matt.phong.diffuse = {0.5F, 0.5F, 0.5F};
+    scene.materials = {mirror, matt};
+    scene.nodes = {camera({0, 0, 0}, 0.1), body(BoxShape{{2, 2, 1}}, {0, 0, -2}, 1)};
+    constexpr std::uint64_t samples = 16 * 16 * 3;
+    EXPECT_EQ(render(scene, 3, {}).stats.rays, samples);
+    scene.nodes.push_back({.name = "lamp", .trs = {.translation = {0, 0.5, 0}}, .light = LightSource{}});
+    EXPECT_EQ(render(scene, 3, {}).stats.rays, 2 * samples) << "a light that all of it sees";
+    // mirrors before and behind the camera: one ray for each of five reflections, none to a lamp that they do not show
+    scene.nodes[1] = body(BoxShape{{2, 2, 1}}, {0, 0, -2}, 0);
+    scene.nodes[2] = body(BoxShape{{2, 2, 1}}, {0, 0, 3}, 0);
+    EXPECT_EQ(render(scene, 3, {.reflection = 5, .refraction = 0}).stats.rays, 6 * samples);
+}
 
 // Between two facing mirrors of reflectance r, each of which adds a: a sum over r^k. Ends at the limit of reflections.
 TEST_P(ClosedForms, FacingMirrorsMakeAGeometricSeries) {

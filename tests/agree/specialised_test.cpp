@@ -61,7 +61,9 @@ TEST_P(SpecialisedKernel, DrawsWhatTheOthersDraw) {
     EXPECT_EQ(exact.stats.warning, "");
     EXPECT_TRUE(exact.stats.carried.empty());
     EXPECT_EQ(exact.stats.counters, RenderCounters{});
-    const std::string expected = film_hash(render("cpu", Specialise::never).film);
+    const RenderResult on_cpu = render("cpu", Specialise::never);
+    EXPECT_EQ(exact.stats.rays, on_cpu.stats.rays);
+    const std::string expected = film_hash(on_cpu.film);
     EXPECT_EQ(film_hash(exact.film), expected);
     EXPECT_EQ(film_hash(render("cuda", Specialise::never, all_effects).film), expected) << "with all effects";
     const EffectMask more = Effect::reflection | Effect::shadows;

@@ -34,7 +34,9 @@ const std::vector<test::LaneOperations>& packets() {
 void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where, int& hits, int& rejected) {
     if (!is_traceable(ray)) return;
     double t = 0;
-    bool passes = may_touch_sphere(make_filter_ray(ray), sphere.centre, sphere.radius);
+    const FilterRay<float> f = make_filter_ray(ray);
+    bool passes =
+        may_touch_sphere(f, sphere.centre, sphere.radius) && !is_behind_sphere(f, sphere.centre, sphere.radius);
     if (!passes) ++rejected;
     if (!first_in_front(sphere, ray, t)) return;
     for (const auto& packet : packets()) passes = passes && packet.may_touch_sphere(&sphere.centre.x, &ray.origin.x);
@@ -78,6 +80,24 @@ TEST(Filter, NeverRejectsASphereThatIsHit) {
     }
     EXPECT_GT(hits, 400000);
     EXPECT_GT(rejected, 50000) << "a filter that rejects nothing is no filter";
+}
+
+TEST(Filter, KnowsWhatIsBehindARay) {
+    const auto is_behind = [](const Vec3f& origin, const Vec3f& direction) {
+        return is_behind_sphere(make_filter_ray(Ray<float>{origin, direction}), {0, 0, 0}, 1);
+    };
+    EXPECT_TRUE(is_behind({0, 0, 2}, {0, 0, 1}));
+    EXPECT_TRUE(is_behind({0, 0, 1.001F}, {5, 0, 0.01F}));
+    EXPECT_FALSE(is_behind({0, 0, 2}, {0, 0, -1}));
+    EXPECT_FALSE(is_behind({0, 0, 0.999F}, {0, 0, 1})) << "inside";
+    EXPECT_FALSE(is_behind({0, 0, 1}, {0, 0, 1})) << "on the surface there is doubt";
+    const auto may_touch = [](float z, float dz) {
+        return may_touch_triangle(make_filter_ray(Ray<float>{{0.25F, 0.25F, z}, {0, 0, dz}}), {0, 0, 0}, {1, 0, 0},
+                                  {0, 1, 0});
+    };
+    EXPECT_TRUE(may_touch(1, -1) && may_touch(-1, 1));
+    EXPECT_FALSE(may_touch(1, 1) || may_touch(-1, -1)) << "behind";
+    EXPECT_TRUE(may_touch(1e-9F, 1)) << "so near to the plane there is doubt";
 }
 
 TEST(Filter, NeverRejectsABoxThatIsHit) {

@@ -50,6 +50,13 @@ TEST_P(TriangleAgainstOracle, DecidesRightAndGivesTheNearestT) {
         if (test::error_in_ulps(narrow(t), exact->t) > 1 || !is_nearest_double(t, exact->t)) {
             if (++coarse <= 3) ADD_FAILURE() << "t = " << t << ": " << describe(kind, number, c);
         }
+        double t_limited = 0;
+        for (const double farthest : {t, 2 * t}) {
+            ASSERT_TRUE(first_in_front(c.triangle, c.ray, t_limited, true, farthest) && t_limited == t)
+                << "as far as " << farthest << ": " << describe(kind, number, c);
+        }
+        const bool found_beyond = first_in_front(c.triangle, c.ray, t_limited, true, t / 2);
+        ASSERT_TRUE(!found_beyond || t_limited == t) << describe(kind, number, c);
         const auto at = barycentrics(c.triangle.v0, c.triangle.v1, c.triangle.v2, c.ray, true);
         ASSERT_TRUE(at.u >= 0 && at.v >= 0 && at.u <= 1 && at.v <= 1 && at.u + at.v <= 1)
             << at.u << " " << at.v << ": " << describe(kind, number, c);
@@ -101,6 +108,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, TriangleAgainstOracle,
                          testing::Range(0, static_cast<int>(std::size(test::triangle_kinds))), kind_name);
 
 const Triangle unit = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+TEST(Triangle, LeavesOutWhatIsTooFar) {
+    const Ray<float> ray = {{0.25F, 0.25F, 1}, {0, 0, -2}};
+    double t = 0;
+    EXPECT_FALSE(first_in_front(unit, ray, t, true, 0.49));
+    EXPECT_TRUE(first_in_front(unit, ray, t, true, 0.5)) << "at the same t ids decide";
+}
 
 TEST(Triangle, IsClosedAndHasTwoSides) {
     for (const float side : {1.0F, -1.0F}) {

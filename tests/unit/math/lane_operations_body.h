@@ -112,7 +112,9 @@ TANDEM_HD FilterRay<Real> filter_ray(const float* ray) {
 }
 template <class Real>
 bool lanes_may_touch_sphere(const float* sphere, const float* ray) {
-    return all(may_touch_sphere(filter_ray<Real>(ray), {sphere[0], sphere[1], sphere[2]}, sphere[3]));
+    const auto f = filter_ray<Real>(ray);
+    const Vec3f centre = {sphere[0], sphere[1], sphere[2]};
+    return all(may_touch_sphere(f, centre, sphere[3]) && !is_behind_sphere(f, centre, sphere[3]));
 }
 template <class Real>
 bool lanes_may_touch_box(const float* box, const float* ray) {
