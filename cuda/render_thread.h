@@ -15,7 +15,7 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
     if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.rays);
 }
 
-/// One pixel, for paths of one vertex.
+/// One pixel, for paths of one vertex and little code.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                            Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
@@ -30,9 +30,10 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
-/// Pixels from a queue, for paths that go on: whoever is done takes the next. All threads of a block start each vertex
-/// together, because the code of a vertex is longer than the caches for instructions close to the cores: so one warp's
-/// instructions are fetched for all (docs/performance.md). Which thread has which pixel changes no bit.
+/// Pixels from a queue, for all others (gathering_effects): whoever is done takes the next. All threads of a block
+/// start each vertex together, because the code of a vertex is longer than the caches for instructions close to the
+/// cores: so one warp's instructions are fetched for all (docs/performance.md). Which thread has which pixel changes no
+/// bit.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {

@@ -33,8 +33,8 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure) {
     return {};
 }
 
-/// Do paths go on behind their first vertex?
-bool goes_on(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(bouncing_effects); }
+/// Do its threads take pixels from a queue, a block together?
+bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(gathering_effects); }
 
 /// More lights than these are a loop whose length is no constant: it would not be unrolled.
 constexpr std::uint32_t most_linked_lights = 4;
@@ -60,7 +60,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture) {
     JitInput input;
     input.code = linked_code(tier, structure);
-    input.kernel = goes_on(facts) ? "tandem_render_long" : "tandem_render_short";
+    input.kernel = has_queue(facts) ? "tandem_render_long" : "tandem_render_short";
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = tier;
@@ -82,7 +82,7 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
         try {
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, input.kernel), goes_on(facts)});
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, input.kernel), has_queue(facts)});
             if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
         } catch (const std::exception& error) {
             warn(fmt::format(

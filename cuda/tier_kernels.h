@@ -16,12 +16,15 @@ namespace tandem::cuda {
 template <class Real>
 inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
 
+template <class Effects>
+inline constexpr bool has_queue = Effects::most.has_any(gathering_effects);
+
 template <class Effects, class Real, class Tracer>
-__global__ void __launch_bounds__(can_bounce<Effects>() ? queue_threads : block_threads,
-                                  can_bounce<Effects>() ? 1 : resident_blocks<Real>)
+__global__ void __launch_bounds__(has_queue<Effects> ? queue_threads : block_threads,
+                                  has_queue<Effects> ? 1 : resident_blocks<Real>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    if constexpr (can_bounce<Effects>()) {
+    if constexpr (has_queue<Effects>) {
         render_queue<Effects, Real>(tracer, job, height, sums, counters);
     } else {
         render_one<Effects, Real>(tracer, job, height, sums, counters);
@@ -94,8 +97,8 @@ auto with_render_kernel(std::size_t variant, const DeviceSceneView& scene, Devic
 template <class Real>
 void launch_render(std::size_t variant, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const bool goes_on = variants[variant].effects.has_any(bouncing_effects);
-    const RenderGrid grid = goes_on ? pixel_queue() : thread_per_pixel(job.width, height);
+    const bool queued = variants[variant].effects.has_any(gathering_effects);
+    const RenderGrid grid = queued ? pixel_queue() : thread_per_pixel(job.width, height);
     with_render_kernel<Real>(variant, scene, counters, [&](auto* kernel, const auto& tracer) {
         launch("rendering", kernel, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     });

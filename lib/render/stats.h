@@ -41,8 +41,8 @@ struct RenderCounters {
 struct RenderStats {
     PhaseTimes seconds;
     RenderCounters counters;
-    std::uint64_t rays =
-        0;  ///< that were traced: of cameras, of paths that go on, shadow rays; by the oracle, of cameras
+    /// That were traced: of cameras, of paths that go on, and shadow rays; by the oracle, of cameras.
+    std::uint64_t rays = 0;
     std::size_t device_bytes = 0;
     int registers = 0;     ///< of the kernel, per thread; 0 on the CPU
     double occupancy = 0;  ///< resident warps over the most there can be; 0 on the CPU
