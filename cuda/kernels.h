@@ -45,8 +45,10 @@ inline constexpr KernelVariant variants[] = {
     {"full", all_effects},
 };
 
-/// What kernels count, in device memory. Every pixel adds its rays, the threads of a warp to counters of their own.
+/// Every pixel adds its rays to one of so many counters: the threads of a warp to different ones.
 inline constexpr std::size_t ray_counters = 32;
+
+/// What kernels count, in device memory.
 struct DeviceCounters {
     unsigned long long invalid_samples;
     unsigned long long lost_media;

@@ -10,13 +10,12 @@
 ///                         from the common way. Pass arguments by value.
 /// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
 ///                         a copy of its own, for the reason above. Pass arguments by value.
-/// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: kernels whose code
-/// is
-///                         larger than the instruction cache wait for it (docs/performance.md). Inline on the host.
+/// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: where the code is
+///                         larger than the caches for it, warps wait (docs/performance.md). Inline on the host.
 /// TANDEM_HD_STEP          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
 ///                         grows with the code and no faster; inline on the device, where a call costs a stack.
-/// TANDEM_KEEP_LOOP        before a loop that few threads ever come to: it stays a loop on the device, for the same
-/// reason TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason above
+/// TANDEM_KEEP_LOOP        before a loop that few threads ever come to: on the device it stays a loop, to be short
+/// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason given with TANDEM_HD
 /// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles, to
 ///                         float and back, also where it made the vector itself out of scalars, and the rounding.
 #pragma once
