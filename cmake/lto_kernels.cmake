@@ -18,6 +18,18 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
+# Optimised as far as can be without the facts, so that a link begins there: it takes half the time
+# (docs/performance.md). Not every toolkit that the build takes is known to have the option.
+execute_process(
+  COMMAND ${CMAKE_CUDA_COMPILER} --help
+  OUTPUT_VARIABLE tandem_nvcc_help
+  ERROR_QUIET
+)
+set(tandem_optimised_lto)
+if(tandem_nvcc_help MATCHES "--gen-opt-lto")
+  set(tandem_optimised_lto --gen-opt-lto)
+endif()
+
 # tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
 # [DEFINES NAME=VALUE...]): compiles FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET
 # the function
@@ -48,6 +60,7 @@ function(tandem_add_lto_kernels target)
     OUTPUT ${fatbin}
     COMMAND
       ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" ${arg_DEFINES} -rdc=true
+      ${tandem_optimised_lto}
       -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin ${source} -o ${fatbin}
       -MD -MF ${fatbin}.d -MT ${fatbin}
     DEPENDS ${source}

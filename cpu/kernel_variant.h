@@ -4,6 +4,8 @@
 
 #include "cpu/embree_tracer.h"
 #include "cpu/kernels.h"
+#include "cpu/path_pool.h"
+#include "cpu/tile_pixels.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {
@@ -51,107 +53,60 @@ struct CalledTracer {
     }
 };
 
-/// The pixels of a tile in the order in which lanes take them: in blocks as square as can be of as many as a packet has
-/// lanes, whose rays see the same things.
-template <class Real>
-class TilePixels {
-  public:
-    TANDEM_HD explicit TilePixels(const Tile& tile) : tile_(tile), x_(tile.x0), y_(tile.y0) {}
-
-    /// Puts the next pixels into the lanes of `free`; returns the lanes for which there was one.
-    TANDEM_HD Mask<Real> next(const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
-        UInt<Real> got(0U);
-        for (int i = 0; i < Real::size; ++i) {
-            if (!free[i] || !find()) continue;
-            set_lane(x, i, x_ + at_ % width);
-            set_lane(y, i, y_ + at_ / width);
-            set_lane(got, i, 1U);
-            ++at_;
-        }
-        return got != UInt<Real>(0U);
-    }
-
-  private:
-    static constexpr std::uint32_t width = Real::size == 4 ? 2 : 4;
-
-    /// Goes on to a pixel within the tile; false if there is none.
-    TANDEM_HD bool find() {
-        while (true) {
-            if (at_ == static_cast<std::uint32_t>(Real::size)) {
-                at_ = 0;
-                x_ += width;
-                if (x_ >= tile_.x1) {
-                    x_ = tile_.x0;
-                    y_ += static_cast<std::uint32_t>(Real::size) / width;
-                }
-            }
-            if (y_ >= tile_.y1) return false;
-            if (x_ + at_ % width < tile_.x1 && y_ + at_ / width < tile_.y1) return true;
-            ++at_;
-        }
-    }
-
-    Tile tile_;
-    std::uint32_t x_, y_;   // of the block
-    std::uint32_t at_ = 0;  // within it
-};
-
-/// Keeps the sums of the pixels in the lanes of `done`.
-template <class Effects, class Real>
-TANDEM_HD void keep(const PixelSum<Real>& pixel, const UInt<Real>& at, const Mask<Real>& done, Vec3d* sums,
-                    TileStats& stats) {
-    for (int i = 0; i < Real::size; ++i) {
-        if (!done[i]) continue;
-        sums[at[i]] = {pixel.sum.x[i], pixel.sum.y[i], pixel.sum.z[i]};
-        stats.counters.invalid_samples += pixel.invalid[i];
-        stats.counters.lost_media += pixel.lost_media[i];
-        if (counts_rays<Effects>()) stats.rays += pixel.rays[i];
-    }
-}
-
-/// One pixel per lane. Where paths go on, a lane that is done takes the next one of the tile.
-template <class Effects, class Reals, class Tracer>
+/// Paths of one vertex: a pixel per lane.
+template <class Effects, class Real, class Tracer>
 TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                         Vec3d* sums) {
-    using Real = typename Reals::Packet;
     using Word = UInt<Real>;
     TileStats stats;
     TilePixels<Real> pixels(tile);
     Word x(0U), y(0U);
-    if constexpr (can_bounce<Effects>()) {
-        PixelWalk<Effects, Real> walk;
-        while (true) {
-            const Mask<Real> free = !walk.working();
-            if (any(free)) {
-                const Mask<Real> taken = pixels.next(free, x, y);
-                walk.take(job, x, y, taken);
-            }
-            const Mask<Real> working = walk.working();
-            if (!any(working)) return stats;
-            walk.step(tracer, scene, job);
-            const Mask<Real> done = working && !walk.working();
-            if (any(done)) keep<Effects>(walk.sum(), walk.pixel(), done, sums, stats);
+    while (true) {
+        const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
+        if (!any(used)) return stats;
+        const auto pixel = render_pixel<Effects, Real>(tracer, scene, job, x, y, used);
+        const Word at = y * Word(job.width) + x;
+        for (int i = 0; i < Real::size; ++i) {
+            if (!used[i]) continue;
+            sums[at[i]] = {pixel.sum.x[i], pixel.sum.y[i], pixel.sum.z[i]};
+            stats.counters.invalid_samples += pixel.invalid[i];
         }
-    } else {
-        while (true) {
-            const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
-            if (!any(used)) return stats;
-            const auto pixel = render_pixel<Effects, Real>(tracer, scene, job, x, y, used);
-            keep<Effects>(pixel, y * Word(job.width) + x, used, sums, stats);
-        }
+        stats.add(pixel.tally);
     }
+}
+
+/// Paths that go on: a lane that is done takes the next pixel of the tile.
+template <class Effects, class Real, class Tracer>
+TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                       Vec3d* sums) {
+    TileStats stats;
+    TilePixels<Real> pixels(tile);
+    PathPool<Effects, Real> pool;
+    do {
+        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) TANDEM_INLINE_LAMBDA {
+            const Mask<Real> taken = pixels.next(free, x, y);
+            for (int i = 0; i < Real::size; ++i) {
+                if (taken[i]) sums[y[i] * job.width + x[i]] = {0.0, 0.0, 0.0};
+            }
+            return taken;
+        });
+    } while (pool.step(tracer, scene, job, sums, stats));
+    return stats;
 }
 
 template <class Reals, std::size_t variant>
 TileStats render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
     using Effects = EffectSet<variants[variant].effects.bits()>;
-    if constexpr (can_leave_surfaces<Effects>()) {
-        return render_pixels<Effects, Reals>(CalledTracer{view}, view.scene, job, tile, sums);
+    using Real = typename Reals::Packet;
+    if constexpr (can_bounce<Effects>()) {
+        return follow_paths<Effects, Real>(CalledTracer{view}, view.scene, job, tile, sums);
+    } else if constexpr (can_leave_surfaces<Effects>()) {
+        return render_pixels<Effects, Real>(CalledTracer{view}, view.scene, job, tile, sums);
     } else {
         if (view.embree != nullptr) {
-            return render_pixels<Effects, Reals>(EmbreeTracer{view}, view.scene, job, tile, sums);
+            return render_pixels<Effects, Real>(EmbreeTracer{view}, view.scene, job, tile, sums);
         }
-        return render_pixels<Effects, Reals>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+        return render_pixels<Effects, Real>(LoopTracer{view.scene}, view.scene, job, tile, sums);
     }
 }
 

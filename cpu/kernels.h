@@ -38,6 +38,14 @@ struct Tile {
 struct TileStats {
     RenderCounters counters;
     std::uint64_t rays = 0;  ///< if the path loop counts them (counted_ray_effects)
+
+    template <class Real>
+    TANDEM_HD void add(const PathTally<Real>& tally) {
+        for (int i = 0; i < Real::size; ++i) {
+            counters.lost_media += tally.lost_media[i];
+            rays += tally.rays[i];
+        }
+    }
 };
 
 /// The sets of effects that the path loop is compiled for.

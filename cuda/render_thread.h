@@ -3,6 +3,7 @@
 
 #include "cuda/block_shape.h"
 #include "cuda/kernels.h"
+#include "tandem/integrator/path_walk.h"
 
 namespace tandem::cuda {
 
@@ -11,8 +12,8 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
                                      DeviceCounters* __restrict__ counters) {
     sums[at] = pixel.sum;
     if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
-    if (pixel.lost_media != 0) atomicAdd(&counters->lost_media, pixel.lost_media);
-    if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.rays);
+    if (pixel.tally.lost_media != 0) atomicAdd(&counters->lost_media, pixel.tally.lost_media);
+    if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.tally.rays);
 }
 
 /// One pixel, for paths of one vertex and little code.
@@ -40,7 +41,8 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     const std::uint32_t tiles_across = (job.width + warp_width - 1) / warp_width;
     const std::uint32_t tiles_down = (height + warp_height - 1) / warp_height;
     const std::uint32_t end = tiles_across * tiles_down * 32;
-    PixelWalk<Effects, Real> walk;
+    PathWalk<Effects, Real> walk;
+    PixelSum<Real> pixel;
     bool is_open = true;
     while (true) {
         while (is_open && !walk.working()) {
@@ -52,9 +54,12 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
             if (is_open && x < job.width && y < height) walk.take(job, x, y, true);
         }
         if (__syncthreads_or(walk.working()) == 0) return;
-        const bool worked = walk.working();
-        walk.step(tracer, tracer.scene, job);
-        if (worked && !walk.working()) keep<Effects>(walk.sum(), walk.pixel(), sums, counters);
+        const Closest<Real> hit = walk.find(tracer, tracer.scene, job, pixel.tally);
+        if (!walk.leave(tracer, tracer.scene, job, hit, pixel.tally)) continue;
+        add(walk.radiance(), pixel);
+        if (walk.working()) continue;
+        keep<Effects>(pixel, walk.pixel(job), sums, counters);
+        pixel = {};
     }
 }
 

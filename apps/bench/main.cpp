@@ -79,6 +79,7 @@ CLI::App* add_parity(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand("parity", "Does everything draw the same picture? Status 1 if not");
     command->add_option("SCENE", all.parity.scenes, "Files, or named:NAME")->capture_default_str();
     add_backends_option(*command, all.parity);
+    add_tiers_option(*command, all.parity);
     add_frames_option(*command, all.texts, all.parity);
     add_picture_options(*command, all.texts, all.parity);
     command->add_option("--seed", all.parity.seed, "Of the random numbers")->capture_default_str();

@@ -7,6 +7,7 @@
 
 #include "frame_timing.h"
 #include "output.h"
+#include "tandem/error/error.h"
 #include "tandem/film/compare.h"
 #include "tandem/report/format_number.h"
 #include "tandem/scene/load_scene.h"
@@ -34,12 +35,18 @@ struct Outcome {
     std::string reason;  ///< why there is no result; empty if there is one
 };
 
-/// One scene in all variants. Backends live one at a time: a limit on threads is a limit on the whole process.
+/// One scene in one tier, in all variants. Backends live one at a time: a limit on threads is a limit on the whole
+/// process.
 class SceneParity {
   public:
-    SceneParity(std::string name, const std::vector<ParityVariant>& variants, const ParityOptions& options,
+    SceneParity(std::string name, Tier tier, const std::vector<ParityVariant>& variants, const ParityOptions& options,
                 const BackendSource& source, Report& report)
-        : name_(std::move(name)), scene_(load_scene(name_)), options_(options), source_(source), report_(report) {
+        : name_(std::move(name)),
+          tier_(tier),
+          scene_(load_scene(name_)),
+          options_(options),
+          source_(source),
+          report_(report) {
         const double tests = static_cast<double>(options.size.width) * options.size.height * options.samples *
                              static_cast<double>(primitive_count(prepare(scene_, {options.frames.first, {}})));
         for (const ParityVariant& variant : variants) {
@@ -65,7 +72,7 @@ class SceneParity {
         }
     }
 
-    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::string label() const { return fmt::format("{}, {}", name_, to_string(tier_)); }
     [[nodiscard]] std::vector<Outcome>& outcomes() { return outcomes_; }
     /// By frame, of the first variant that ran.
     [[nodiscard]] const std::vector<std::string>& hashes() const { return hashes_; }
@@ -73,11 +80,11 @@ class SceneParity {
   private:
     void render(Outcome& outcome) {
         log_progress(
-            fmt::format("parity: {}: frames {} to {}: {}", name_, chunk_.first, chunk_.last, outcome.variant.label));
+            fmt::format("parity: {}: frames {} to {}: {}", label(), chunk_.first, chunk_.last, outcome.variant.label));
         const std::unique_ptr<Backend> backend = source_.make(outcome.variant.backend, outcome.variant.options);
         describe_backend(*backend, report_);
         outcome.exact = backend->capabilities().exact;
-        RenderJob job{options_.size.width, options_.size.height, options_.samples, options_.seed, 0, Tier::strict};
+        RenderJob job{options_.size.width, options_.size.height, options_.samples, options_.seed, 0, tier_};
         BenchmarkRow& row = outcome.row;
         row.label = outcome.variant.label;
         row.scene = name_;
@@ -108,6 +115,7 @@ class SceneParity {
     }
 
     std::string name_;
+    Tier tier_;
     Scene scene_;
     const ParityOptions& options_;
     const BackendSource& source_;
@@ -160,13 +168,13 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
 
 /// True if all exact variants gave equal films.
 bool report_parity(SceneParity& parity, const ParityOptions& options, Report& report) {
-    const std::string& name = parity.name();
+    const std::string name = parity.label();
     report.blocks.emplace_back(Heading{name});
     report.blocks.emplace_back(hash_table(parity.hashes(), options.frames.first));
     report.blocks.emplace_back(outcome_table(parity.outcomes()));
     for (std::size_t i = 0; i < parity.hashes().size(); ++i) {
         const auto frame = options.frames.first + static_cast<std::int32_t>(i);
-        report.properties.emplace_back(fmt::format("film {} frame {}", name, frame), parity.hashes()[i]);
+        report.properties.emplace_back(fmt::format("film {}, frame {}", name, frame), parity.hashes()[i]);
     }
     std::size_t pixels = 0, variants = 0;
     std::string broken;
@@ -192,6 +200,18 @@ bool report_parity(SceneParity& parity, const ParityOptions& options, Report& re
         Callout{Callout::Kind::good, fmt::format("{}: {} variants, {} pixels, the same bits in all.", name, variants,
                                                  format_number(static_cast<double>(pixels)))});
     return true;
+}
+
+/// Throws InputError for those that have no bits to compare.
+std::vector<Tier> exact_tiers(const std::vector<std::string>& names) {
+    std::vector<Tier> tiers;
+    for (const std::string& name : names) {
+        tiers.push_back(parse_tier(name));
+        if (tiers.back() == Tier::fast) {
+            throw InputError("parity: the tier fast promises no equal bits; take strict or precise");
+        }
+    }
+    return tiers;
 }
 
 }  // namespace
@@ -220,6 +240,7 @@ bool run_parity(const ParityOptions& options, const BackendSource& source, Repor
     report.summary = fmt::format(
         "Frames {} to {} at {} x {} with {} samples a pixel, rendered in every way that must not change the picture.",
         options.frames.first, options.frames.last, options.size.width, options.size.height, options.samples);
+    const std::vector<Tier> tiers = exact_tiers(options.tiers);
     const std::vector<std::string> backends = available_backends(source, options.backends, report);
     const auto wanted = [](const std::vector<std::string>& list, const char* name) {
         return std::find(list.begin(), list.end(), name) != list.end();
@@ -231,9 +252,11 @@ bool run_parity(const ParityOptions& options, const BackendSource& source, Repor
     const std::vector<ParityVariant> variants = parity_variants(backends, supported_instruction_sets());
     bool equal = true;
     for (const std::string& scene : options.scenes) {
-        SceneParity parity(scene, variants, options, source, report);
-        parity.run();
-        equal = report_parity(parity, options, report) && equal;
+        for (const Tier tier : tiers) {
+            SceneParity parity(scene, tier, variants, options, source, report);
+            parity.run();
+            equal = report_parity(parity, options, report) && equal;
+        }
     }
     report.properties.emplace_back("equal", equal ? "true" : "false");
     return equal;

@@ -15,6 +15,7 @@ namespace tandem::bench {
 struct ParityOptions {
     std::vector<std::string> scenes = {"named:paper", "named:mixed/10000", "named:spheres/1000000"};
     std::vector<std::string> backends = {"cpu", "cuda", "oracle"};
+    std::vector<std::string> tiers = {"strict", "precise"};  ///< only those that promise equal bits
     FrameRange frames{0, 0};
     FilmSize size{1000, 900};
     int samples = 4;
@@ -33,8 +34,8 @@ struct ParityVariant {
 [[nodiscard]] std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backends,
                                                          const std::vector<std::string>& instruction_sets);
 
-/// Renders and compares; fills `report`. True if all films of backends that promise bits are equal. The others (the
-/// oracle) are compared by tolerance and only reported.
+/// Renders and compares; fills `report`. Throws InputError for a tier that promises no equal bits. True if all films of
+/// backends that promise bits are equal. The others (the oracle) are compared by tolerance and only reported.
 [[nodiscard]] bool run_parity(const ParityOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

@@ -93,15 +93,16 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     // one more round, for the chosen one: so shadow rays start from one place
     for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
         IncidentLight<Real> light = {black, black};
-        if (!any_reflects) {
-        } else if (i < punctual) {
-            light = punctual_light<Effects, Real>(scene.lights[i], surface, position, to_viewer);
-        } else if (i == count) {
-            light = choice.chosen();
-        } else if (area && i == punctual) {
-            light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, goes_on, reflects);
-        } else if (sky) {
-            light = environment_light<Real>(scene, surface, sample, vertex);
+        if (any_reflects) {  // a thread without makes the rounds as well: those of a block keep together
+            if (i < punctual) {
+                light = punctual_light<Effects, Real>(scene.lights[i], surface, position, to_viewer);
+            } else if (i == count) {
+                light = choice.chosen();
+            } else if (area && i == punctual) {
+                light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, goes_on, reflects);
+            } else if (sky) {
+                light = environment_light<Real>(scene, surface, sample, vertex);
+            }
         }
         if (by_chance && i < count) {
             choice.offer(light);

@@ -50,6 +50,7 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
 /// In the place of a stack where bodies of glass lie apart: a ray within one meets nothing but that body's own surface.
 template <class Real>
 struct NoMediumStack {
+    TANDEM_HD std::tuple<> per_lane() { return {}; }
     TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
 };
 

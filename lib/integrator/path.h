@@ -9,12 +9,11 @@
 
 namespace tandem {
 
-/// What a path brings.
+/// What is counted along paths: of many together.
 template <class Real>
-struct PathResult {
-    Vec3<Real> radiance;                     ///< RGB, linear
+struct PathTally {
     UInt<Real> lost_media = UInt<Real>(0U);  ///< borders at which the stack of media was at a loss
-    UInt<Real> rays = UInt<Real>(0U);        ///< that were traced for it, with shadow rays; if counts_rays()
+    UInt<Real> rays = UInt<Real>(0U);        ///< that were traced, with shadow rays; if counts_rays()
 };
 
 /// What a path meets.
@@ -57,16 +56,16 @@ namespace path_detail {
 /// Adds the background that paths see which meet nothing, in the lanes of `missed`.
 template <class Effects, class Real, bool bounces>
 TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, PathState<Effects, Real, bounces>& path,
-                              PathResult<Real>& result) {
+                              Vec3<Real>& radiance) {
     using D = Double<Real>;
     const Vec3<Real> seen = background(scene.environment, path.ray.direction);
     if constexpr (bounces) {
         path.absorb(scene, D(__builtin_huge_val()), UInt<Real>(no_medium), missed);
         Mask<Real> shows = missed;
         if (Effects::has(Effect::indirect) && scene.environment.illuminates == 0) shows = shows && path.pdf == D(0.0);
-        result.radiance = select(shows, result.radiance + path.throughput * seen, result.radiance);
+        radiance = select(shows, radiance + path.throughput * seen, radiance);
     } else {
-        result.radiance = select(missed, seen, result.radiance);
+        radiance = select(missed, seen, radiance);
     }
 }
 
@@ -78,18 +77,28 @@ TANDEM_HD Vec3<Double<Real>> point_of(const Ray<Real>& ray, const Double<Real>& 
 
 }  // namespace path_detail
 
+/// What paths meet next: those that cannot go on, from the camera.
+template <class Effects, class Real, class Tracer>
+TANDEM_HD Closest<Real> next_hit(const Tracer& tracer, const PathState<Effects, Real>& path, PathTally<Real>& tally) {
+    count_rays<Effects, Real>(path.alive, tally.rays);
+    if constexpr (can_bounce<Effects>()) {
+        return nearest_hit<Effects>(tracer, path.ray, path.source, path.alive);
+    } else {
+        return nearest_hit<Effects>(tracer, path.ray, NoSource(), path.alive);
+    }
+}
+
 /// Follows paths that end at their first vertex.
 template <class Effects, class Real, class Tracer>
 requires(!can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits&, const SampleId<Real>& sample,
-                 const UInt<Real>& number, PathState<Effects, Real>& path, PathResult<Real>& result) {
+                 const UInt<Real>& number, const Closest<Real>& hit, PathState<Effects, Real>& path,
+                 Vec3<Real>& radiance, PathTally<Real>& tally) {
     const NoSource source;
-    count_rays<Effects, Real>(path.alive, result.rays);
-    const Closest<Real> hit = nearest_hit<Effects>(tracer, path.ray, source, path.alive);
     const Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
     const Mask<Real> missed = path.alive && !found;
     path.alive = Mask<Real>(false);
-    if (any(missed)) path_detail::see_background(scene, missed, path, result);
+    if (any(missed)) path_detail::see_background(scene, missed, path, radiance);
     if (!any(found)) return;
     Vertex<Real> vertex;
     if constexpr (can_leave_surfaces<Effects>()) {
@@ -99,28 +108,27 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     }
     auto reflected = reflected_light<Effects>(tracer, scene, vertex.surface, path_detail::point_of(path.ray, hit.t),
                                               -normalize(widen(path.ray.direction)), vertex.point, sample, number,
-                                              Mask<Real>(false), found, result.rays);
+                                              Mask<Real>(false), found, tally.rays);
     if (Effects::has(Effect::emission)) reflected = reflected + vertex.surface.emission;
-    result.radiance = select(found, reflected, result.radiance);
+    radiance = select(found, reflected, radiance);
 }
 
-/// Follows paths to their next vertex, number `number` of theirs, and on to where they leave it; what they bring is
-/// added to `result`. Paths that end are no longer alive. `Effects`: what is simulated (effects/effects.h); what the
-/// scene calls for beyond it is left out, and what it does not call for changes no bit in strict and precise. `Tracer`
-/// is a LoopTracer (geometry/intersect.h) or has its functions, and `kinds`, the PrimitiveKinds that it finds. On a GPU
-/// all threads of a block come here together (integrator/block.h).
+/// Follows paths on from their vertex at `hit`, which next_hit() found, number `number` of theirs, to where they leave
+/// it; what they bring is added to `radiance`. Paths that end are no longer alive. `Effects`: what is simulated
+/// (effects/effects.h); what the scene calls for beyond it is left out, and what it does not call for changes no bit in
+/// strict and precise. `Tracer` is a LoopTracer (geometry/intersect.h) or has its functions, and `kinds`, the
+/// PrimitiveKinds that it finds. On a GPU all threads of a block come here together (integrator/block.h).
 template <class Effects, class Real, class Tracer>
 requires(can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
-                 const UInt<Real>& number, PathState<Effects, Real>& path, PathResult<Real>& result) {
+                 const UInt<Real>& number, const Closest<Real>& hit, PathState<Effects, Real>& path,
+                 Vec3<Real>& radiance, PathTally<Real>& tally) {
     using D = Double<Real>;
     const Source<Real> source = path.source;
-    count_rays<Effects, Real>(path.alive, result.rays);
-    const Closest<Real> hit = nearest_hit<Effects>(tracer, path.ray, source, path.alive);
     Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
     const Mask<Real> missed = path.alive && !found;
     path.alive = found;
-    if (any(missed)) path_detail::see_background(scene, missed, path, result);
+    if (any(missed)) path_detail::see_background(scene, missed, path, radiance);
 
     gather_block<Effects>();
     if (!TANDEM_ON_DEVICE && !any(found)) return;
@@ -139,8 +147,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
         if (Effects::has(Effect::cutouts)) found = found && !holes;
         if (Effects::has(Effect::emission)) {
             const Real share = seen_share<Effects>(scene, path, hit, found);
-            result.radiance =
-                select(found, result.radiance + path.throughput * (vertex.surface.emission * share), result.radiance);
+            radiance = select(found, radiance + path.throughput * (vertex.surface.emission * share), radiance);
         }
         take_transmitted<Effects>(vertex.surface, meeting);
         goes_on = meeting.is_front && path.scatterings < UInt<Real>(limits.diffuse);
@@ -148,10 +155,10 @@ requires(can_bounce<Effects>()) TANDEM_HD
 
     const auto reflected =
         reflected_light<Effects>(tracer, scene, vertex.surface, path_detail::point_of(path.ray, hit.t), to_viewer,
-                                 vertex.point, sample, number, goes_on, found, result.rays);
+                                 vertex.point, sample, number, goes_on, found, tally.rays);
     gather_block<Effects>();
     if (!any(path.alive)) return;
-    result.radiance = select(found, result.radiance + path.throughput * reflected, result.radiance);
+    radiance = select(found, radiance + path.throughput * reflected, radiance);
     if (!has_bounces<Effects>()) {
         path.alive = Mask<Real>(false);
         return;
@@ -159,7 +166,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     path.alive = found;
     const Mask<Real> lost =
         scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, meeting, path);
-    result.lost_media = result.lost_media + select(lost, UInt<Real>(1U), UInt<Real>(0U));
+    tally.lost_media = tally.lost_media + select(lost, UInt<Real>(1U), UInt<Real>(0U));
     if (Effects::has(Effect::cutouts) && any(holes)) pass_through(vertex.point, meeting, holes, path);
 }
 

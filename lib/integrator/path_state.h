@@ -1,6 +1,8 @@
 /// What a path carries from vertex to vertex: no more than its effects need.
 #pragma once
 
+#include <tuple>
+
 #include "tandem/geometry/ray_source.h"
 #include "tandem/integrator/media.h"
 #include "tandem/integrator/path_limits.h"
@@ -56,6 +58,15 @@ struct PathState<Effects, Real, true> {
         holes = select(active, none, holes);
         pdf = select(active, Double<Real>(0.0), pdf);
         media = select(active, media_at_camera<Effects>(scene, Media()), media);
+    }
+
+    /// References to all that has a value per lane.
+    TANDEM_HD auto per_lane() {
+        auto& [origin, direction] = ray;
+        return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
+                                       source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
+                                       reflections, refractions, scatterings, holes, pdf),
+                              media.per_lane());
     }
 
     /// Over the segment of `ray` that ends at t, in the lanes of `active`. `own`: the medium that the path is in if

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 
 #include "tandem/math/real.h"
 
@@ -68,6 +69,12 @@ class MediumStack {
             best = select(wins, entry, best);
         }
         return select(best == Word(empty), Word(no_medium), best & Word(medium_mask));
+    }
+
+    /// References to all that has a value per lane.
+    TANDEM_HD auto per_lane() {
+        auto& [a, b, c, d, e, f, g, h] = entries_;
+        return std::tie(a, b, c, d, e, f, g, h);
     }
 
     /// `a` in the lanes of `mask`, else `b`.

@@ -81,6 +81,23 @@ TANDEM_HD LaneMask<I> select(const LaneMask<I>& mask, const LaneMask<I>& a, cons
     return (mask && a) || (!mask && b);
 }
 
+/// Lane i is lane[i] of the mask that lies packet[i] bytes behind `base`. Reads four bytes there, also of a mask of
+/// two.
+template <class I, class Words>
+TANDEM_HD LaneMask<I> gather_mask(const LaneMask<I>* base, const Words& packet, const Words& lane) {
+#if TANDEM_MASK_REGISTERS
+    if constexpr (I::bytes == 64) {
+        const Words bits = Words::gather(base, packet);
+        const auto bit = _mm512_sllv_epi32(_mm512_set1_epi32(1), reinterpret_cast<__m512i>(lane.part[0]));
+        return LaneMask<I>(_mm512_test_epi32_mask(reinterpret_cast<__m512i>(bits.part[0]), bit));
+    } else
+#endif
+    {
+        return LaneMask<I>(
+            reinterpret_cast<typename LaneMask<I>::Vector>(Words::gather(base, packet + (lane << 2)).part[0]));
+    }
+}
+
 namespace lanes_detail {
 
 enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equal };

@@ -5,6 +5,7 @@
 #include <immintrin.h>
 
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "tandem/math/real.h"
@@ -228,6 +229,42 @@ TANDEM_HD U64 multiply_even(U64 a, U64 b) {
         _mm512_maskz_mul_epu32(0xFF, reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
 }
 #endif
+
+/// A vector of the elements that lie so many bytes behind `base`. V has elements of 32 or of 64 bits.
+template <class V, class Offsets>
+TANDEM_HD V gather(const void* base, Offsets offsets) {
+    constexpr bool words = sizeof(V) == sizeof(Offsets);
+    static_assert(words || sizeof(V) == 2 * sizeof(Offsets));
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    if constexpr (sizeof(V) == 64 && words) {
+        const auto at = reinterpret_cast<__m512i>(offsets);
+        return reinterpret_cast<V>(_mm512_mask_i32gather_epi32(__m512i{}, 0xFFFF, at, base, 1));
+    } else if constexpr (sizeof(V) == 64) {
+        const auto at = reinterpret_cast<__m256i>(offsets);
+        return reinterpret_cast<V>(_mm512_mask_i32gather_epi64(__m512i{}, 0xFF, at, base, 1));
+    } else
+#endif
+#if defined(__AVX2__)
+        if constexpr (sizeof(V) == 32) {
+        if constexpr (words) {
+            return reinterpret_cast<V>(
+                _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(offsets), 1));
+        } else {
+            return reinterpret_cast<V>(
+                _mm256_i32gather_epi64(static_cast<const long long*>(base), reinterpret_cast<__m128i>(offsets), 1));
+        }
+    } else
+#endif
+    {
+        V result;
+        for (unsigned i = 0; i < sizeof(V) / sizeof(result[0]); ++i) {
+            auto element = result[0];
+            std::memcpy(&element, static_cast<const char*>(base) + offsets[i], sizeof(element));
+            result[i] = element;
+        }
+        return result;
+    }
+}
 
 }  // namespace lanes_detail
 

@@ -32,6 +32,18 @@ struct Lanes {
         return result;
     }
 
+    /// Lane i holds the T that lies offsets[i] bytes behind `base`.
+    TANDEM_HD static Lanes gather(const void* base, const Lanes<std::uint32_t, I>& offsets) {
+        Lanes result;
+        if constexpr (parts == 1) {
+            result.part[0] = lanes_detail::gather<Vector>(base, offsets.part[0]);
+        } else {
+            result.part[0] = lanes_detail::gather<Vector>(base, lanes_detail::half<0>(offsets.part[0]));
+            result.part[1] = lanes_detail::gather<Vector>(base, lanes_detail::half<1>(offsets.part[0]));
+        }
+        return result;
+    }
+
     TANDEM_HD T operator[](int lane) const { return part[lane / (size / parts)][lane % (size / parts)]; }
     TANDEM_HD void set(int lane, T value) { part[lane / (size / parts)][lane % (size / parts)] = value; }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "loop_backend.h"
+#include "tandem/error/error.h"
 #include "tandem/film/film.h"
 
 namespace tandem::bench {
@@ -42,12 +43,20 @@ TEST(Parity, HoldsForEqualBackendsAndGivesTheHashes) {
     Report report;
     EXPECT_TRUE(run_parity(small_options(), loop_source(), report)) << prose_of(report);
     EXPECT_EQ(property_of(report, "equal"), "true");
-    const std::string hash = property_of(report, "film named:paper frame 2");
+    const std::string hash = property_of(report, "film named:paper, strict, frame 2");
     EXPECT_EQ(hash.size(), 64U);
-    EXPECT_NE(hash, property_of(report, "film named:paper frame 1"));
-    LoopBackend backend("cpu", false, true);
+    EXPECT_NE(hash, property_of(report, "film named:paper, strict, frame 1"));
+    EXPECT_EQ(property_of(report, "film named:paper, precise, frame 2").size(), 64U);
     EXPECT_FALSE(report.rows.empty());
     for (const BenchmarkRow& row : report.rows) EXPECT_EQ(row.seconds.size(), 3U) << row.label;
+}
+
+TEST(Parity, IsNotAskedOfATierWithoutIt) {
+    ParityOptions options = small_options();
+    options.tiers = {"strict", "fast"};
+    Report report;
+    EXPECT_THROW((void)run_parity(options, loop_source(), report), InputError);
+    EXPECT_TRUE(report.rows.empty());
 }
 
 TEST(Parity, OneBitOfOneVariantBreaksIt) {

@@ -169,6 +169,39 @@ TANDEM_HD Double<Real> warp_sum(const Double<Real>& a, const Double<Real>& b) {
     return (lens.x * lens.y + disk.x * disk.y) + (up.direction.x + up.direction.y * up.direction.z) * up.pdf;
 }
 
+/// The lanes counted from the last one.
+template <class Real>
+TANDEM_HD UInt<Real> from_end() {
+    using Word = UInt<Real>;
+    return Word::from([](int i) { return static_cast<std::uint32_t>(Real::size - 1 - i); });
+}
+/// `a` by way of memory, where its lanes lie the other way round.
+template <class Real, class T>
+TANDEM_HD T gathered(const T& a) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return a;
+    } else {
+        const T memory = T::from([&](int i) { return a[T::size - 1 - i]; });
+        return T::gather(&memory, from_end<Real>() * UInt<Real>(static_cast<std::uint32_t>(sizeof(a[0]))));
+    }
+}
+/// a < b by way of two masks in memory: of lanes the other way round and, where `second`, of the second mask.
+template <class Real>
+TANDEM_HD Mask<Real> gathered_less(const UInt<Real>& a, const UInt<Real>& b, const UInt<Real>& second) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return a < b;
+    } else {
+        using Word = UInt<Real>;
+        const auto reversed = [](const Word& x) { return Word::from([&](int i) { return x[Real::size - 1 - i]; }); };
+        const Mask<Real> less = reversed(a) < reversed(b);
+        const Mask<Real> is_second = reversed(second) != Word(0U);
+        // each lane is right in one of the two only
+        const Mask<Real> masks[3] = {less != is_second, less != !is_second, is_second};
+        const Word packet = select(second != Word(0U), Word(static_cast<std::uint32_t>(sizeof(masks[0]))), Word(0U));
+        return gather_mask(&masks[0], packet, from_end<Real>());
+    }
+}
+
 /// A picture of 3 x 2 texels; the levels need no meaning here.
 template <class Real>
 TANDEM_HD Float<Real> sampled(const Double<Real>& u, const Double<Real>& v) {
@@ -225,6 +258,7 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(D, bits_of, bits_of(a))                                                                                \
     OPERATION(D, multiply_add, multiply_add(a, b, c))                                                                \
     OPERATION(D, round_to_int, round_to_int(a))                                                                      \
+    OPERATION(D, gather, gathered<Real>(a))                                                                          \
     OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))                 \
     OPERATION(D, exp_wide, exp_wide<Real>(a))                                                                        \
     OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b)))          \
@@ -241,6 +275,8 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(U, less, a < b)                                                                                        \
     OPERATION(U, equal, (a & U(3U)) == (b & U(3U)))                                                                  \
     OPERATION(U, select, select(a < b, b, c))                                                                        \
+    OPERATION(U, gather, gathered<Real>(a))                                                                          \
+    OPERATION(U, gather_mask, gathered_less<Real>(a, b, c & U(1U)))                                                  \
     OPERATION(U, float_of, float_of(a))                                                                              \
     OPERATION(U, to_float, to_float(a >> 1))                                                                         \
     OPERATION(U, high_word, high_word<Real>(a, b))                                                                   \

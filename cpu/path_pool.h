@@ -1,0 +1,170 @@
+/// Paths that change places, so that the paths of a packet meet the same thing.
+#pragma once
+
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "cpu/kernels.h"
+#include "tandem/integrator/path_walk.h"
+#include "tandem/math/lanes.h"
+
+namespace tandem {
+
+/// Which lane of which packet, for each lane of one.
+template <class Isa>
+struct LanePlaces {
+    using Word = Lanes<std::uint32_t, Isa>;
+    Word packet;  ///< bytes from the first packet
+    Word lane;
+
+    /// The numbers that lie there. `first`: the member of the first packet.
+    template <class T>
+    [[nodiscard]] TANDEM_HD Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
+        return Lanes<T, Isa>::gather(&first, packet + (lane << (sizeof(T) == 8 ? 3 : 2)));
+    }
+    [[nodiscard]] TANDEM_HD LaneMask<Isa> gather(const LaneMask<Isa>& first) const {
+        return gather_mask(&first, packet, lane);
+    }
+};
+
+/// Some packets of paths. A packet runs through the code of all that any of its paths meets, and paths that have gone
+/// on from a surface meet many things; so once it is known what each meets next, they are sorted by it.
+/// Source: after S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
+template <class Effects, class Real>
+class PathPool {
+  public:
+    /// Fills lanes that have no pixel: take(free, x, y) sets x and y in lanes of `free` and returns which it has set.
+    template <class Take>
+    TANDEM_HD void take(const PixelJob& job, Take take) {
+        UInt<Real> x(0U), y(0U);
+        for (int i = 0; i < packet_count; ++i) {
+            Walk& walk = now_[i].walk;
+            const Mask<Real> free = !walk.working();
+            if (!any(free)) continue;
+            const Mask<Real> taken = take(free, x, y);
+            walk.take(job, x, y, taken);
+        }
+    }
+
+    /// Brings all paths to their next vertex and on from there, and adds what those bring that end to `sums`, by
+    /// pixel. False if there was no path.
+    template <class Tracer>
+    TANDEM_HD bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
+                        TileStats& stats) {
+        Mask<Real> working(false), gone_on(false);
+        for (int i = 0; i < packet_count; ++i) {
+            working = working || now_[i].walk.working();
+            gone_on = gone_on || now_[i].walk.gone_on();
+        }
+        if (!any(working)) return false;
+        // camera rays are neighbours as they are
+        const bool sorts = any(gone_on);
+        const int together = sorts ? packet_count : 1;
+        PathTally<Real> tally;
+        for (int first = 0; first < packet_count; first += together) {
+            for (int i = first; i < first + together; ++i) {
+                Packet& packet = now_[i];
+                if (any(packet.walk.working())) packet.hit = packet.walk.find(tracer, scene, job, tally);
+            }
+            if (sorts) sort(scene);
+            for (int i = first; i < first + together; ++i) {
+                Walk& walk = now_[i].walk;
+                if (!any(walk.working())) continue;
+                const Mask<Real> ended = walk.leave(tracer, scene, job, now_[i].hit, tally);
+                if (any(ended)) add(walk.radiance(), walk.pixel(job), ended, sums, stats);
+            }
+        }
+        stats.add(tally);
+        return true;
+    }
+
+  private:
+    using Isa = typename Real::Isa;
+    using Word = UInt<Real>;
+    using Walk = PathWalk<Effects, Real>;
+    static constexpr int packet_count = 8;
+    static constexpr int path_count = packet_count * Real::size;
+
+    struct Packet {
+        Walk walk;
+        Closest<Real> hit = no_hit<Real>();
+
+        TANDEM_HD auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
+    };
+
+    // Paths that meet the same primitive or, if there are many, the same material; then those that meet nothing, and
+    // those that are none.
+    static constexpr std::uint32_t bucket_count = 64;
+    static constexpr std::uint32_t no_path = bucket_count - 1;
+    static constexpr std::uint32_t nothing = bucket_count - 2;
+
+    TANDEM_HD static Word buckets_of(const SceneView& scene, const Packet& packet) {
+        const Mask<Real> working = packet.walk.working();
+        const Word primitive = packet.hit.primitive;
+        const Mask<Real> missed = primitive == Word(no_primitive);
+        Word bucket = primitive;
+        if (primitive_count(scene) > nothing) {
+            for (int i = 0; i < Real::size; ++i) {
+                if (working[i] && !missed[i]) set_lane(bucket, i, scene.material_of[primitive[i]] % nothing);
+            }
+        }
+        return select(working, select(missed, Word(nothing), bucket), Word(no_path));
+    }
+
+    TANDEM_HD void sort(const SceneView& scene) {
+        alignas(64) std::uint32_t bucket[path_count];
+        std::uint32_t first[bucket_count + 1] = {};
+        for (int i = 0; i < packet_count; ++i) {
+            const Word buckets = buckets_of(scene, now_[i]);
+            std::memcpy(bucket + i * Real::size, &buckets, sizeof(buckets));
+        }
+        for (const std::uint32_t b : bucket) ++first[b + 1];
+        for (std::uint32_t b = 0; b < bucket_count; ++b) first[b + 1] += first[b];
+        alignas(64) std::uint32_t from[path_count];
+        std::uint32_t moved = 0;
+        for (std::uint32_t i = 0; i < path_count; ++i) {
+            const std::uint32_t to = first[bucket[i]]++;
+            from[to] = i;
+            moved |= to ^ i;
+        }
+        if (moved == 0) return;
+        for (int i = 0; i < packet_count; ++i) {
+            Word path;
+            std::memcpy(&path, from + i * Real::size, sizeof(path));
+            constexpr std::uint32_t size = Real::size;
+            LanePlaces<Isa> places;
+            places.lane = path & Word(size - 1);
+            places.packet = (path >> std::countr_zero(size)) * Word(static_cast<std::uint32_t>(sizeof(Packet)));
+            fetch(places, next_[i], now_[0]);
+        }
+        std::swap(now_, next_);
+    }
+
+    TANDEM_HD static void fetch(const LanePlaces<Isa>& places, Packet& packet, Packet& first) {
+        auto to = packet.per_lane();
+        const auto from = first.per_lane();
+        [&]<std::size_t... i>(std::index_sequence<i...>) TANDEM_INLINE_LAMBDA {
+            ((std::get<i>(to) = places.gather(std::get<i>(from))), ...);
+        }
+        (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
+    }
+
+    TANDEM_HD static void add(const Vec3<Real>& radiance, const Word& pixel, const Mask<Real>& ended, Vec3d* sums,
+                              TileStats& stats) {
+        const Mask<Real> valid = is_finite(radiance);
+        const Vec3<Wide<Real>> wide = to_wide(radiance);
+        for (unsigned int rest = (ended && valid).bits(); rest != 0; rest &= rest - 1) {
+            const int i = lowest_bit(rest);
+            Vec3d& sum = sums[pixel[i]];
+            sum = sum + Vec3d{wide.x[i], wide.y[i], wide.z[i]};
+        }
+        stats.counters.invalid_samples += static_cast<std::uint64_t>(std::popcount((ended && !valid).bits()));
+    }
+
+    Packet memory_[2][packet_count];
+    Packet* now_ = memory_[0];
+    Packet* next_ = memory_[1];
+};
+
+}  // namespace tandem
