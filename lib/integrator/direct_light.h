@@ -82,7 +82,7 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     Vec3<Real> reflected = surface.ambient * broadcast<Real>(scene.environment.ambient);
     const Mask<Real> reflects = found && norm1(surface.diffuse) + norm1(surface.specular) > Real(0.0F);
     const bool any_reflects = any(reflects);
-    if (!any_reflects && !TANDEM_ON_DEVICE) return reflected;
+    if (!any_reflects && !keeps_together<Effects>()) return reflected;
     const bool area = Effects::has(Effect::area_lights) && scene.area_light_count > 0;
     const bool indirect = Effects::has(Effect::indirect) && scene.environment.indirect != 0;
     const bool sky = Effects::has(Effect::environment_light) && scene.environment.illuminates != 0 && !indirect;

@@ -131,7 +131,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     if (any(missed)) path_detail::see_background(scene, missed, path, radiance);
 
     gather_block<Effects>();
-    if (!TANDEM_ON_DEVICE && !any(found)) return;
+    if (!any(found) && !keeps_together<Effects>()) return;
     Vertex<Real> vertex;
     Meeting<Real> meeting;
     Vec3<D> to_viewer;
