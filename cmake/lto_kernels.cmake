@@ -18,7 +18,7 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# Optimised as far as can be without the facts, so that a link begins there: it takes half the time
+# Optimised as far as can be without the facts, so that a link begins there
 # (docs/performance.md). Not every toolkit that the build takes is known to have the option.
 execute_process(
   COMMAND ${CMAKE_CUDA_COMPILER} --help

@@ -30,6 +30,7 @@ struct LanePlaces {
 
 /// Some packets of paths. A packet runs through the code of all that any of its paths meets, and paths that have gone
 /// on from a surface meet many things; so once it is known what each meets next, they are sorted by it.
+/// Where a path is changes no bit: held by tests/agree/effects_test.cpp, between packets of 4, 8 and 16 and the GPU.
 /// Source: after S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
 template <class Effects, class Real>
 class PathPool {

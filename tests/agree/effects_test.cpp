@@ -172,7 +172,7 @@ TEST_P(EffectBits, HaveTheMeansOfTheOracle) {
             TileMeans ours(*backend_, scene, GetParam().tier, samples);
             TileMeans theirs(*oracle, scene, GetParam().tier, samples_of_oracle);
             ours.add_films(count, first_seed);
-            theirs.add_films(count, first_seed + 5000);
+            theirs.add_films(count, first_seed + 800);
             drawn += ours.samples() + theirs.samples();
             std::vector<std::size_t> differ;
             for (const std::size_t tile : suspects) {
