@@ -5,27 +5,21 @@
 #include <array>
 
 #include "tandem/error/error.h"
+#include "tandem/report/processor_level.h"
 
 namespace tandem {
 
 namespace {
 
-bool has_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-bool has_v3() {
-    return has_v2() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-}
+bool has_v2() { return x86_64_level() >= 2; }
+bool has_v3() { return x86_64_level() >= 3; }
 #if defined(TANDEM_ONE_INSTRUCTION_SET)
 // without kernels in such a build
 bool has_v4() { return false; }
 constexpr auto exact_kernels_v4 = exact_kernels_v3;
 constexpr auto fast_kernels_v4 = fast_kernels_v3;
 #else
-bool has_v4() {
-    return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-}
+bool has_v4() { return x86_64_level() >= 4; }
 #endif
 
 constexpr std::array sets = {

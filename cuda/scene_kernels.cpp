@@ -11,29 +11,38 @@
 namespace tandem::cuda {
 
 // Embedded by tandem_add_lto_kernels().
-#define TANDEM_TIER(name, promise)                   \
-    std::span<const std::byte> linked_few_##name();  \
-    std::span<const std::byte> linked_loop_##name(); \
-    std::span<const std::byte> linked_bvh_##name();
+#define TANDEM_TIER(name, promise)                         \
+    std::span<const std::byte> linked_short_few_##name();  \
+    std::span<const std::byte> linked_short_loop_##name(); \
+    std::span<const std::byte> linked_short_bvh_##name();  \
+    std::span<const std::byte> linked_long_few_##name();   \
+    std::span<const std::byte> linked_long_loop_##name();  \
+    std::span<const std::byte> linked_long_bvh_##name();
 #include "tandem/accuracy/tiers.def"
 #undef TANDEM_TIER
 
 namespace {
 
-std::span<const std::byte> linked_code(Tier tier, Structure structure) {
+std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_long) {
     switch (tier) {
-#define TANDEM_TIER(name, promise)                                   \
-    case Tier::name:                                                 \
-        return structure == Structure::few    ? linked_few_##name()  \
-               : structure == Structure::loop ? linked_loop_##name() \
-                                              : linked_bvh_##name();
+#define TANDEM_TIER(name, promise)                                                       \
+    case Tier::name:                                                                     \
+        switch (structure) {                                                             \
+            case Structure::few:                                                         \
+                return is_long ? linked_long_few_##name() : linked_short_few_##name();   \
+            case Structure::loop:                                                        \
+                return is_long ? linked_long_loop_##name() : linked_short_loop_##name(); \
+            case Structure::bvh:                                                         \
+                return is_long ? linked_long_bvh_##name() : linked_short_bvh_##name();   \
+        }                                                                                \
+        break;
 #include "tandem/accuracy/tiers.def"
 #undef TANDEM_TIER
     }
     return {};
 }
 
-/// Do its threads take pixels from a queue, a block together?
+/// Are they kernels for long paths? Their threads take pixels from a queue, a block together.
 bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(gathering_effects); }
 
 /// More lights than these are a loop whose length is no constant: it would not be unrolled.
@@ -59,8 +68,8 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 
 JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture) {
     JitInput input;
-    input.code = linked_code(tier, structure);
-    input.kernel = has_queue(facts) ? "tandem_render_long" : "tandem_render_short";
+    input.code = linked_code(tier, structure, has_queue(facts));
+    input.kernel = "tandem_render";
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = tier;

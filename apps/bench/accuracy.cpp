@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tandem/error/error.h"
+#include "tiers.h"
 
 namespace tandem::bench {
 
@@ -15,8 +16,7 @@ bool run_accuracy(const AccuracyOptions& options, const BackendSource& source, R
     report.summary =
         "Every tier on every backend: time beside error. Errors of rays are against the oracle, which tries every "
         "primitive with 64-bit significands; errors of frames are against the tier precise with the same samples.";
-    std::vector<Tier> tiers;
-    for (const std::string& name : options.tiers) tiers.push_back(parse_tier(name));
+    const std::vector<Tier> tiers = parse_tiers(options.tiers);
     AccuracyStage stage;
     for (const std::string& name : available_backends(source, options.backends, report)) {
         stage.backends.push_back(source.make(name, {options.threads, 16, {}}));

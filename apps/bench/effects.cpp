@@ -9,6 +9,7 @@
 #include "tandem/error/error.h"
 #include "tandem/report/format_number.h"
 #include "tandem/scene/load_scene.h"
+#include "tiers.h"
 
 namespace tandem::bench {
 
@@ -241,8 +242,7 @@ bool run_effects(const EffectsOptions& options, const BackendSource& source, Rep
         "Frame 0 at {} x {} with {} samples a pixel, with and without each effect that the scene calls for; {} rounds "
         "that go forth and back.",
         options.size.width, options.size.height, options.samples, options.repetitions);
-    std::vector<Tier> tiers;
-    for (const std::string& name : options.tiers) tiers.push_back(parse_tier(name));
+    const std::vector<Tier> tiers = parse_tiers(options.tiers);
     const std::vector<LedgerBackends> backends = make_backends(options, source, report);
     Table prices = price_table();
     bool equal = true;

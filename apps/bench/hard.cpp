@@ -13,6 +13,7 @@
 #include "tandem/accuracy/marks.h"
 #include "tandem/error/error.h"
 #include "tandem/report/format_number.h"
+#include "tiers.h"
 
 namespace tandem::bench {
 
@@ -135,8 +136,7 @@ void compare_times(std::vector<Result>& results) {
 }
 
 std::vector<Tier> tiers_of(const HardOptions& options) {
-    std::vector<Tier> tiers;
-    for (const std::string& name : options.tiers) tiers.push_back(parse_tier(name));
+    std::vector<Tier> tiers = parse_tiers(options.tiers);
     if (!tiers.empty()) return tiers;
 #define TANDEM_TIER(name, promise) tiers.push_back(Tier::name);
 #include "tandem/accuracy/tiers.def"

@@ -12,6 +12,7 @@
 #include "tandem/report/format_number.h"
 #include "tandem/scene/load_scene.h"
 #include "tandem/scene/prepare.h"
+#include "tiers.h"
 
 namespace tandem::bench {
 
@@ -204,12 +205,9 @@ bool report_parity(SceneParity& parity, const ParityOptions& options, Report& re
 
 /// Throws InputError for those that have no bits to compare.
 std::vector<Tier> exact_tiers(const std::vector<std::string>& names) {
-    std::vector<Tier> tiers;
-    for (const std::string& name : names) {
-        tiers.push_back(parse_tier(name));
-        if (tiers.back() == Tier::fast) {
-            throw InputError("parity: the tier fast promises no equal bits; take strict or precise");
-        }
+    std::vector<Tier> tiers = parse_tiers(names);
+    if (std::find(tiers.begin(), tiers.end(), Tier::fast) != tiers.end()) {
+        throw InputError("parity: the tier fast promises no equal bits; take strict or precise");
     }
     return tiers;
 }

@@ -11,7 +11,8 @@
 /// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
 ///                         a copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: where the code is
-///                         larger than the caches for it, warps wait (docs/performance.md). Inline on the host.
+///                         larger than the caches for it, warps wait (docs/performance.md). Inline on the host, and
+///                         in kernels that fit there (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
 /// TANDEM_HD_STEP          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
 ///                         grows with the code and no faster; inline on the device, where a call costs a stack.
 /// TANDEM_KEEP_LOOP        before a loop that few threads ever come to: on the device it stays a loop, to be short
@@ -49,7 +50,11 @@
 #define TANDEM_HD_RARE __host__ __device__ __noinline__
 #define TANDEM_HD_CALL static __host__ __device__ __noinline__
 #define TANDEM_HD_STEP static __host__ __device__ __forceinline__
+#if defined(TANDEM_SHORT_PATHS)
+#define TANDEM_HD_SHARED TANDEM_HD
+#else
 #define TANDEM_HD_SHARED static __host__ __device__ __noinline__
+#endif
 #define TANDEM_INLINE_LAMBDA
 #elif defined(TANDEM_ONE_INSTRUCTION_SET)
 #define TANDEM_HD inline

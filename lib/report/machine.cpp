@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tandem/report/processor_level.h"
 #include "tandem_build_info.h"
 #include "tandem_git_commit.h"
 
@@ -62,23 +63,7 @@ std::optional<double> parse_core_quota(const std::string& text) {
 
 std::vector<std::string> supported_instruction_sets() {
     std::vector<std::string> sets;
-#if defined(__x86_64__)
-    // By features: compilers of our oldest systems do not know the levels by name.
-    __builtin_cpu_init();
-    if (!(__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"))) return sets;
-    sets.emplace_back("x86-64-v2");
-    if (!(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-          __builtin_cpu_supports("bmi2"))) {
-        return sets;
-    }
-    sets.emplace_back("x86-64-v3");
-    if (!(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-          __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-          __builtin_cpu_supports("avx512vl"))) {
-        return sets;
-    }
-    sets.emplace_back("x86-64-v4");
-#endif
+    for (int level = 2; level <= x86_64_level(); ++level) sets.push_back(fmt::format("x86-64-v{}", level));
     return sets;
 }
 

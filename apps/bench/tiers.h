@@ -1,0 +1,19 @@
+/// The tiers that a command is asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tandem/accuracy/tier.h"
+
+namespace tandem::bench {
+
+/// Throws InputError for a name that is no tier's.
+inline std::vector<Tier> parse_tiers(const std::vector<std::string>& names) {
+    std::vector<Tier> tiers;
+    tiers.reserve(names.size());
+    for (const std::string& name : names) tiers.push_back(parse_tier(name));
+    return tiers;
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,69 @@
+// The render kernel that is specialised at load. Compiled to LTO-IR of its own for each tier (TANDEM_LINKED_TIER), each
+// way to find primitives (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go
+// through the code of the others.
+//
+// TANDEM_SHORT_PATHS is defined for paths of one vertex: without gathering_effects. Their code fits into the caches for
+// it, and TANDEM_HD_SHARED is inline.
+#include "cuda/linked_facts.h"
+
+extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
+#define TANDEM_LINKED_KINDS tandem_facts.kinds
+#define TANDEM_LINKED_LIGHT_KINDS tandem_facts.light_kinds
+
+#include "cuda/render_thread.h"
+#include "tandem/math/fast_math.h"
+
+namespace tandem::cuda {
+
+/// What the facts say, in the place of an EffectSet.
+struct LinkedEffects {
+#if defined(TANDEM_SHORT_PATHS)
+    static constexpr EffectMask most = all_effects - gathering_effects;
+#else
+    static constexpr EffectMask most = all_effects;
+#endif
+
+#if TANDEM_ON_DEVICE
+    [[nodiscard]] TANDEM_HD static bool has_any(EffectMask of) {
+        return (tandem_facts.effects & (most & of).bits()) != 0;
+    }
+    [[nodiscard]] TANDEM_HD static std::uint32_t light_count(std::uint32_t count) {
+        return tandem_facts.lights == LinkedFacts::any ? count : tandem_facts.lights;
+    }
+    [[nodiscard]] TANDEM_HD static PathLimits limits(const PathLimits&) {
+        return {tandem_facts.reflection, tandem_facts.refraction, tandem_facts.diffuse};
+    }
+#else  // nvcc reads it for the host too, where the facts are not
+    static bool has_any(EffectMask);
+    static std::uint32_t light_count(std::uint32_t);
+    static PathLimits limits(const PathLimits&);
+#endif
+    [[nodiscard]] TANDEM_HD static bool has(Effect effect) { return has_any(effect); }
+};
+
+/// The Reals of the tiers, by their names.
+namespace linked_real {
+using strict = float;
+using precise = double;
+using fast = FastFloat;
+}  // namespace linked_real
+using LinkedReal = linked_real::TANDEM_LINKED_TIER;
+
+#if defined(TANDEM_SHORT_PATHS)
+// Blocks that must fit on a multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
+#define TANDEM_LINKED_BOUNDS block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6
+#else
+#define TANDEM_LINKED_BOUNDS queue_threads, 1
+#endif
+
+extern "C" __global__ void __launch_bounds__(TANDEM_LINKED_BOUNDS)
+    tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer, const __grid_constant__ PixelJob job,
+                  std::uint32_t height, Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+#if defined(TANDEM_SHORT_PATHS)
+    render_one<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
+#else
+    render_queue<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
+#endif
+}
+
+}  // namespace tandem::cuda
