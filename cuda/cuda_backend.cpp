@@ -164,8 +164,8 @@ class CudaBackend final : public Backend {
         if (linked.kernel != nullptr) {
             launch_linked(*linked.kernel, resident.view(), pixel_job, height, device_sums, counters, compute_.get());
         } else {
-            kernels(job.tier).render(variant, resident.view(), pixel_job, height, device_sums, counters,
-                                     compute_.get());
+            kernels(job.tier).render[variant].start(resident.view(), pixel_job, height, device_sums, counters,
+                                                    compute_.get());
         }
         memory->render_end.record(compute_.get());
 
@@ -179,7 +179,7 @@ class CudaBackend final : public Backend {
         memory->download_end.record(download_.get());
 
         const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->code.function())
-                                                           : kernels(job.tier).render_facts(variant, resident.view());
+                                                           : kernels(job.tier).render[variant].facts(resident.view());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;

@@ -4,6 +4,7 @@
 #include <cuda_runtime_api.h>
 
 #include <cstdint>
+#include <iterator>
 
 #include "tandem/accuracy/tier.h"
 #include "tandem/bvh/bvh_tracer.h"
@@ -69,15 +70,20 @@ struct DeviceRays {
     std::size_t count;
 };
 
+/// A render kernel that is compiled ahead of time: one per tier and set of effects (`variants`).
+struct RenderKernel {
+    /// Starts the sums of all pixels. `sums` and `counters` are in device memory.
+    void (*start)(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
+                  DeviceCounters* counters, cudaStream_t stream);
+    /// Of the kernel that a scene gets.
+    KernelFacts (*facts)(const DeviceSceneView& scene);
+};
+
 /// The kernels of one tier.
 struct TierKernels {
-    /// Starts the sums of all pixels. `sums` and `counters` are in device memory, `variant` is a place in `variants`.
-    void (*render)(std::size_t variant, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
+    RenderKernel render[std::size(variants)];
     /// Starts the answers to the rays.
     void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
-    /// Of the render kernel that a scene gets.
-    KernelFacts (*render_facts)(std::size_t variant, const DeviceSceneView& scene);
 };
 
 [[nodiscard]] const TierKernels& fast_kernels();

@@ -3,6 +3,9 @@
 
 namespace tandem::cuda {
 
-const TierKernels& fast_kernels() { return tier_kernels<FastFloat>; }
+const TierKernels& fast_kernels() {
+    static const TierKernels kernels = tier_kernels<FastFloat>(full_fast_kernel());
+    return kernels;
+}
 
 }  // namespace tandem::cuda

@@ -2,6 +2,9 @@
 
 namespace tandem::cuda {
 
-const TierKernels& precise_kernels() { return tier_kernels<double>; }
+const TierKernels& precise_kernels() {
+    static const TierKernels kernels = tier_kernels<double>(full_precise_kernel());
+    return kernels;
+}
 
 }  // namespace tandem::cuda

@@ -2,6 +2,9 @@
 
 namespace tandem::cuda {
 
-const TierKernels& strict_kernels() { return tier_kernels<float>; }
+const TierKernels& strict_kernels() {
+    static const TierKernels kernels = tier_kernels<float>(full_strict_kernel());
+    return kernels;
+}
 
 }  // namespace tandem::cuda

@@ -1,0 +1,33 @@
+/// How kernels that are compiled ahead of time get the tracer that fits a scene. Included by .cu files.
+#pragma once
+
+#include <type_traits>
+
+#include "cuda/kernels.h"
+
+namespace tandem::cuda {
+
+/// Blocks that must fit on a multiprocessor: 64 registers a thread. Measured on an H200 against 5, 6 and 7
+/// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
+template <class Real>
+inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
+
+/// Calls f with the tracer that fits the scene, which counts into `counters`.
+template <class F>
+auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
+    constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
+    const bool faces = has_faces(scene.scene);
+    switch (structure_of(scene)) {
+        case Structure::few:
+            return f(scene.few);
+        case Structure::loop:
+            return faces ? f(LoopTracerFor<all>{scene.scene}) : f(LoopTracerFor<bodies>{scene.scene});
+        case Structure::bvh:
+            break;
+    }
+    BvhView bvh = scene.bvh;
+    bvh.stack_overflows = counters == nullptr ? nullptr : &counters->stack_overflows;
+    return faces ? f(BvhTracerFor<all>{scene.scene, bvh}) : f(BvhTracerFor<bodies>{scene.scene, bvh});
+}
+
+}  // namespace tandem::cuda
