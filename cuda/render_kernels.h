@@ -12,7 +12,7 @@ inline constexpr bool has_queue = Effects::most.has_any(gathering_effects);
 
 template <class Effects, class Real, class Tracer>
 __global__ void __launch_bounds__(has_queue<Effects> ? queue_threads : block_threads,
-                                  has_queue<Effects> ? 1 : resident_blocks<Real>)
+                                  has_queue<Effects> ? 1 : resident_blocks<Real, Tracer>)
     render_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::uint32_t height,
                   Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     if constexpr (has_queue<Effects>) {

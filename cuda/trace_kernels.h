@@ -11,7 +11,7 @@ namespace tandem::cuda {
 enum class Ask { nearest, nearest_from_surface, occluded };
 
 template <class Real, Ask ask, class Tracer>
-__global__ void __launch_bounds__(block_threads, resident_blocks<Real>)
+__global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
     trace_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
     if (i >= job.count) return;

@@ -7,10 +7,14 @@
 
 namespace tandem::cuda {
 
-/// Blocks that must fit on a multiprocessor: 64 registers a thread. Measured on an H200 against 5, 6 and 7
-/// (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
-template <class Real>
-inline constexpr unsigned int resident_blocks = std::is_same_v<Real, double> ? 4 : 8;
+/// Blocks that must fit on a multiprocessor: with 8 a thread has 64 registers, with 6 80, with 4 128. Measured on an
+/// H200 (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
+template <class Real, class Tracer>
+inline constexpr unsigned int resident_blocks = [] {
+    if (std::is_same_v<Real, double>) return 4;
+    const bool faces = (Tracer::kinds & ~PrimitiveKinds::bodies) != 0;
+    return faces && !is_fast<Real> ? 6 : 8;
+}();
 
 /// Calls f with the tracer that fits the scene, which counts into `counters`.
 template <class F>

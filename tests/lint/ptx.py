@@ -21,36 +21,45 @@ from lint import FAST_TIER, Report
 FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|ftz)(?:\.\w+)*|fma\.r[nzmp]\.f32)\b", re.M)
 
 
+def units_of(source):
+    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone."""
+    if source.name != "linked_kernel.cu":
+        return [(source, [] if source.stem.endswith("_full") else ["-DTANDEM_SHORT_PATHS=1"])]
+    return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
+            for tracer in ("FewTracer", "LoopTracer", "BvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
+
+
 def main():
     root, build, nvcc, glm = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
     # naming the system's own folder would hide the C library from the C++ one
     where = [] if glm == "/usr/include" else [f"-isystem={glm}"]
     report = Report()
-    sources = sorted((root / "cuda").glob("*.cu")) + [root / "tests/lint/device_probe.cu"]
-    for source in sources:
+    units = [unit for source in sorted((root / "cuda").glob("*.cu")) for unit in units_of(source)]
+    units.append((root / "tests/lint/device_probe.cu", []))
+    for source, defines in units:
+        name = source.relative_to(root).as_posix()
+        shown = " ".join([name, *defines])
         with tempfile.TemporaryDirectory() as folder:
             ptx = pathlib.Path(folder, "out.ptx")
-            fast = FAST_TIER.match(source.relative_to(root).as_posix())
+            fast = FAST_TIER.match(name)
             exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
-            linked = ["-rdc=true", "-DTANDEM_LINKED_TIER=strict"] if source.name.startswith("linked_") else []
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-DTANDEM_NO_LOOSE_FMA", *linked, *where,
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines, *where,
                  *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{build / 'include'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
-            name = source.relative_to(root).as_posix()
             if result.returncode:
-                report.add(name, f"nvcc fails: {result.stderr.strip()[:2000]}")
+                report.add(shown, f"nvcc fails: {result.stderr.strip()[:2000]}")
                 continue
             text = ptx.read_text()
         if fast:
             if "fma.rn.ftz.f32" not in text or "sqrt.approx.ftz.f32" not in text:
-                report.add(name, "does not contract or approximate, which is what the tier fast is for")
-            print(f"{name}: {len(re.findall(r'[.]approx', text))} approximations")
+                report.add(shown, "does not contract or approximate, which is what the tier fast is for")
+            print(f"{shown}: {len(re.findall(r'[.]approx', text))} approximations")
             continue
         for instruction, count in collections.Counter(FORBIDDEN.findall(text)).items():
-            report.add(name, f"{count} x {instruction} in the PTX")
-        print(f"{name}: {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
-    report.finish(f"{len(sources)} files")
+            report.add(shown, f"{count} x {instruction} in the PTX")
+        print(f"{shown}: {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
+    report.finish(f"{len(units)} compilations")
 
 
 main()
