@@ -2,6 +2,10 @@
 /// flags of its tier and with TANDEM_SHORT_PATHS (cuda/CMakeLists.txt).
 #pragma once
 
+#if !defined(TANDEM_SHORT_PATHS)
+#error "compile it with TANDEM_SHORT_PATHS: the kernels that trace rays are slower by a tenth without"
+#endif
+
 #include "cuda/render_kernels.h"
 #include "cuda/trace_kernels.h"
 
@@ -11,6 +15,9 @@ namespace tandem::cuda {
 #define TANDEM_TIER(name, promise) RenderKernel full_##name##_kernel();
 #include "tandem/accuracy/tiers.def"
 #undef TANDEM_TIER
+
+static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(gathering_effects),
+              "the kernels of long paths have files of their own");
 
 template <class Real>
 TierKernels tier_kernels(RenderKernel full) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
+#include <utility>
 
 namespace tandem {
 namespace {
@@ -39,6 +41,12 @@ TEST(Machine, InstructionSetsComeInOrderWithoutGaps) {
     const std::vector<std::string> here = supported_instruction_sets();
     ASSERT_LE(here.size(), all.size());
     EXPECT_TRUE(std::equal(here.begin(), here.end(), all.begin()));
+    // the kernel's own list of what the processor has
+    std::ifstream processors("/proc/cpuinfo");
+    const std::string flags = value_of(processors, "flags");
+    for (const auto& [level, flag] : {std::pair{1U, "sse4_2"}, {2U, "avx2"}, {2U, "fma"}, {3U, "avx512vl"}}) {
+        EXPECT_TRUE(here.size() < level || flags.find(flag) != std::string::npos) << flag << " in " << flags;
+    }
 }
 
 TEST(Machine, FactsHoldWhatTheCallerAdds) {
