@@ -96,7 +96,7 @@ Json describe_materials(const Scene& scene) {
                              {"diffuse", colour(material.phong.diffuse)},
                              {"specular", colour(material.phong.specular)},
                              {"shininess", material.phong.shininess},
-                             {"double_sided", material.double_sided},
+                             {"double_sided", material.sides == FaceSides::double_sided},
                              {"mirror", colour(material.optics.mirror)},
                              {"transmission", material.optics.transmission},
                              {"ior", material.optics.ior},

@@ -54,6 +54,8 @@ void add_pictures(const PreparedTextures& textures, std::size_t material, const 
     if (textures.materials.empty()) return;
     const MaterialTextures& of_material = textures.materials[material];
     if (has_colours(textures, of_material.diffuse)) needs.add(Effect::textures, name + " has a texture");
+    if (has_colours(textures, of_material.emission)) needs.add(Effect::textures, name + " has an emissive texture");
+    if (of_material.colour_slot != no_slot) needs.add(Effect::textures, name + " has vertices with colours");
     if (of_material.normal.texture != no_texture) needs.add(Effect::normal_maps, name + " has a normal map");
     if (of_material.alpha_cutoff > 0) needs.add(Effect::cutouts, name + " is cut out by its alpha");
 }
@@ -89,7 +91,8 @@ void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs)
 
 void add_material(const Optics& optics, const std::string& name, Needs& needs) {
     const float glow = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
-    if (glow > 0) needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
+    if (optics.unlit != 0) needs.add(Effect::emission, name + " is unlit");
+    if (glow > 0 && optics.unlit == 0) needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
     const float mirror = std::max({optics.mirror.x, optics.mirror.y, optics.mirror.z});
     if (mirror > 0) needs.add(Effect::reflection, fmt::format("{} is a mirror of reflectance {:g}", name, mirror));
     if (!(optics.transmission > 0)) return;
@@ -115,8 +118,13 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!used[i]) continue;
         const std::string name = label("material", scene.materials[i].name, i);
-        add_material(scene.materials[i].optics, name, needs);
+        add_material(prepared.optics[i], name, needs);
         add_pictures(prepared.textures, i, name, needs);
+    }
+    if (prepared.culled_node != PreparedScene::never) {
+        const std::uint32_t node = prepared.culled_node;
+        needs.add(Effect::cutouts, label("node", scene.nodes[node].name, node) +
+                                       " has single-sided faces that may be seen from behind");
     }
     add_surroundings(scene, prepared, needs);
     if (!prepared.area_lights.empty()) {
@@ -173,11 +181,23 @@ Scene without_effects(Scene scene, EffectMask off) {
     for (Material& material : scene.materials) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
         if (off.has(Effect::refraction)) material.optics.transmission = 0;
-        if (off.has(Effect::cutouts)) material.alpha_mode = AlphaMode::opaque;
-        if (off.has(Effect::textures)) remove_colours(scene, material);
+        if (off.has(Effect::cutouts)) {
+            material.alpha_mode = AlphaMode::opaque;
+            if (material.sides == FaceSides::culled) material.sides = FaceSides::single_sided;
+        }
+        if (off.has(Effect::textures)) {
+            remove_colours(scene, material);
+            material.emissive_texture.reset();
+        }
         if (off.has(Effect::normal_maps)) material.normal_texture.reset();
-        if (off.has(Effect::emission)) material.optics.emission = {0, 0, 0};
+        if (off.has(Effect::emission)) {
+            material.optics.emission = {0, 0, 0};
+            material.unlit = false;
+        }
         if (off.has(Effect::absorption)) material.optics.absorption = {0, 0, 0};
+    }
+    if (off.has(Effect::textures)) {
+        for (Mesh& mesh : scene.meshes) mesh.colours.clear();
     }
     if (off.has(Effect::nested_media)) scene.bodies_lie_apart = true;
     if (off.has(Effect::area_lights)) scene.area_lights = false;

@@ -13,11 +13,19 @@
 /// unit body's transform leads; so prepare() makes these of what is textured and turned or mirrored.
 #pragma once
 
+#include <type_traits>
+
 #include "tandem/geometry/affine.h"
 #include "tandem/geometry/quad.h"
 #include "tandem/math/turns.h"
 
 namespace tandem {
+
+/// Of a face; 0 for what has no corners.
+template <class Primitive>
+inline constexpr std::uint32_t corner_count = std::is_same_v<Primitive, Triangle> ? 3
+                                              : std::is_same_v<Primitive, Quad>   ? 4
+                                                                                  : 0;
 
 /// u and v of a point, and the directions, world space, in which they grow there, of any length. Zero, or along each
 /// other, where the texture coordinates of a face span no area.
@@ -104,10 +112,26 @@ TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3f v0, Vec3f v1, Vec3f v2, V
     return result;
 }
 
+/// The values at the corners of a face; without any, those of the whole square, of which a triangle has half.
+template <int count>
+struct Corners {
+    Vec2f uv[count];
+};
+TANDEM_HD Corners<3> corners_of(const Triangle& face, const Vec2f* texcoords) {
+    const std::uint32_t first = face.attributes.texcoords;
+    if (first == no_attributes) return {{{0, 0}, {1, 0}, {0, 1}}};
+    return {{texcoords[first], texcoords[first + 1], texcoords[first + 2]}};
+}
+TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
+    const std::uint32_t first = face.attributes.texcoords;
+    if (first == no_attributes) return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    return {{texcoords[first], texcoords[first + 1], texcoords[first + 2], texcoords[first + 3]}};
+}
+
 }  // namespace parametrisation_detail
 
 // The parametrisation of each kind where `ray` meets it at `t`, in the lanes of `here`. `texcoords`: the scene's
-// (PreparedScene::texcoords). `exits`: the ray comes from within, as in surface_point().
+// (PreparedScene::texcoords), of one slot. `exits`: the ray comes from within, as in surface_point().
 //
 // Gives: u and v within 2^-21 on faces and 1e-12 on bodies, more where the ray itself moves far along the surface with
 // its last digit. In the tier fast what float gives. Held by tests/unit/geometry/parametrisation_test.cpp.
@@ -160,23 +184,17 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Parallelepiped& body, cons
 template <class Real>
 TANDEM_HD Parametrisation<Real> parametrisation(const Triangle& triangle, const Vec2f* texcoords, const Ray<Real>& ray,
                                                 const Double<Real>&, const Mask<Real>& here, const Mask<Real>&) {
-    const std::uint32_t first = triangle.attributes.texcoords;
-    const bool own = first == no_attributes;
-    return parametrisation_detail::on_triangle<Real>(
-        triangle.v0, triangle.v1, triangle.v2, own ? Vec2f{0, 0} : texcoords[first],
-        own ? Vec2f{1, 0} : texcoords[first + 1], own ? Vec2f{0, 1} : texcoords[first + 2], ray, here);
+    const auto corner = parametrisation_detail::corners_of(triangle, texcoords);
+    return parametrisation_detail::on_triangle<Real>(triangle.v0, triangle.v1, triangle.v2, corner.uv[0], corner.uv[1],
+                                                     corner.uv[2], ray, here);
 }
 
 template <class Real>
 TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const Vec2f* texcoords, const Ray<Real>& ray,
                                                 const Double<Real>& t, const Mask<Real>& here, const Mask<Real>&) {
     using D = Double<Real>;
-    const std::uint32_t corner = quad.attributes.texcoords;
-    const bool own = corner == no_attributes;
-    const Vec2f a = own ? Vec2f{0, 0} : texcoords[corner];
-    const Vec2f b = own ? Vec2f{1, 0} : texcoords[corner + 1];
-    const Vec2f c = own ? Vec2f{1, 1} : texcoords[corner + 2];
-    const Vec2f d = own ? Vec2f{0, 1} : texcoords[corner + 3];
+    const auto corner = parametrisation_detail::corners_of(quad, texcoords);
+    const auto& [a, b, c, d] = corner.uv;
     const Mask<Real> first = is_in_first_half(quad, ray, t, here);
     Parametrisation<Real> result{};
     if (any(here && first)) {

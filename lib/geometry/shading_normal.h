@@ -43,14 +43,14 @@ template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3f* normals, const Ray<Real>& ray,
                                             const Mask<Real>& here) {
     return shading_normal<Real>(triangle.v0, triangle.v1, triangle.v2, normals, 1,
-                                triangle.attributes.double_sided != 0, ray, here);
+                                is_double_sided(triangle.attributes), ray, here);
 }
 
 /// The same for the triangle of the quad that the ray meets at t.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const Vec3f* normals, const Ray<Real>& ray,
                                             const Double<Real>& t, const Mask<Real>& here) {
-    const bool double_sided = quad.attributes.double_sided != 0;
+    const bool double_sided = is_double_sided(quad.attributes);
     const Mask<Real> first = is_in_first_half(quad, ray, t, here);
     Vec3<Double<Real>> normal{};
     if (any(here && first)) {

@@ -1,6 +1,7 @@
 /// The triangle.
 #pragma once
 
+#include "tandem/geometry/face_sides.h"
 #include "tandem/geometry/filter.h"
 #include "tandem/math/aabb.h"
 #include "tandem/math/exact_sum.h"
@@ -11,12 +12,17 @@ namespace tandem {
 /// For a face without normals or texture coordinates.
 inline constexpr std::uint32_t no_attributes = 0xFFFFFFFFU;
 
-/// What a face carries beside its corners. Values of its corners stand in their order in arrays of the scene.
+/// What a face carries beside its corners. Values of its corners stand in their order in arrays of the scene. Of
+/// texture coordinates there may be several sets: a slot has a pair for each corner, and one slot follows the other.
 struct FaceAttributes {
     std::uint32_t normals = no_attributes;    ///< index of the first corner's shading normal
-    std::uint32_t texcoords = no_attributes;  ///< index of the first corner's texture coordinates
-    std::uint32_t double_sided = 0;           ///< 1: its normal is turned to the side that a ray comes from
+    std::uint32_t texcoords = no_attributes;  ///< index of the first corner's texture coordinates, in slot 0
+    FaceSides sides = FaceSides::single_sided;
 };
+
+TANDEM_HD bool is_double_sided(const FaceAttributes& attributes) {
+    return attributes.sides == FaceSides::double_sided;
+}
 
 /// World space, metres; counter-clockwise seen from the side that its normal points to. The area is not zero. Aligned,
 /// so that a GPU reads it in three loads.

@@ -7,7 +7,7 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> rendered = {
+constexpr std::array<std::string_view, 17> rendered = {
     "EXT_implicit_geometry",
     "EXT_mesh_gpu_instancing",
     "KHR_implicit_shapes",
@@ -15,6 +15,7 @@ constexpr std::array<std::string_view, 16> rendered = {
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_transmission",
+    "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

@@ -21,15 +21,12 @@ struct Feature {
 
 constexpr const char* film_decides = "the film decides the shape of the picture";
 constexpr const char* no_clipping = "a ray tracer has no clipping planes";
-constexpr const char* no_skins = "Tandem does not render skins yet";
 constexpr const char* no_morphing = "Tandem does not render morph targets yet";
 constexpr const char* phong_only = "Tandem shades with Phong's model only";
 
 /// By place in the file, with [] for any index.
 const std::map<std::string, Feature>& ignored_features() {
     static const std::map<std::string, Feature> features = {
-        {"skins[]", {"skin", no_skins}},
-        {"nodes[].skin", {"node skin", no_skins}},
         {"nodes[].weights", {"morph weights", no_morphing}},
         {"meshes[].weights", {"morph weights", no_morphing}},
         {"meshes[].primitives[].targets", {"morph targets", no_morphing}},
@@ -43,7 +40,6 @@ const std::map<std::string, Feature>& ignored_features() {
         {"materials[].pbrMetallicRoughness.metallicFactor", {"metallicFactor", phong_only}},
         {"materials[].pbrMetallicRoughness.roughnessFactor", {"roughnessFactor", phong_only}},
         {"materials[].occlusionTexture", {"occlusion texture", "Tandem renders no textures of occlusion"}},
-        {"materials[].emissiveTexture", {"emissive texture", "Tandem renders no textures of emission"}},
         {"extensions.KHR_lights_punctual.lights[].range",
          {"light range", "light falls off with the square of the distance"}},
         {"materials[].extensions.KHR_materials_transmission.transmissionTexture",

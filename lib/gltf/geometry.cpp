@@ -8,6 +8,8 @@
 #include "tandem/gltf/accessor.h"
 #include "tandem/gltf/materials.h"
 #include "tandem/gltf/triangles.h"
+#include "tandem/scene/corner_slots.h"
+#include "tandem/scene/mesh_topology.h"
 
 namespace tandem::gltf {
 
@@ -62,20 +64,28 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
         budget_.spend(source_.document, node_path + ".mesh",
                       primitives_in(*shape) * std::max<std::size_t>(1, instances.size()));
         result.push_back({*shape, material_of(primitives[i], path), instances});
-        complete_texcoords(result.back(), path);
+        note_sides(result.back(), path);
     }
     return result;
 }
 
-void GeometryReader::complete_texcoords(const Geometry& geometry, const std::string& path) {
+void GeometryReader::complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path) {
+    for (const std::uint32_t set : sets) {
+        if (!mesh.texcoords[set].empty()) continue;
+        mesh.texcoords[set].assign(mesh.positions.size(), Vec2f{0, 0});
+        report_.add(Treatment::approximated, "texture without coordinates", path + ".attributes",
+                    fmt::format("there is no TEXCOORD_{}; the corner of the texture covers all", set));
+    }
+}
+
+void GeometryReader::note_sides(const Geometry& geometry, const std::string& path) {
     const auto* shape = std::get_if<MeshShape>(&geometry.shape);
-    const Material& material = scene_.materials[geometry.material];
-    if (shape == nullptr || !(material.diffuse_texture || material.normal_texture)) return;
+    if (shape == nullptr || scene_.materials[geometry.material].sides != FaceSides::culled) return;
     Mesh& mesh = scene_.meshes[shape->mesh];
-    if (!mesh.texcoords.empty()) return;
-    mesh.texcoords.assign(mesh.positions.size(), Vec2f{0, 0});
-    report_.add(Treatment::approximated, "texture without coordinates", path + ".attributes",
-                "there is no TEXCOORD_0; the corner of the texture covers all");
+    mesh.is_closed = is_closed(mesh);
+    if (mesh.is_closed) return;
+    report_.add(Treatment::rendered, "single-sided faces", path,
+                "rays go through them from behind, as the material is not doubleSided");
 }
 
 std::size_t GeometryReader::primitives_in(const Shape& shape) const {
@@ -104,10 +114,16 @@ std::optional<Shape> GeometryReader::read_shape(std::size_t mesh, std::size_t in
 std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t index, const std::string& path) {
     const Json& described = source_.document.json["meshes"][mesh];
     const Json& primitive = described["primitives"][index];
-    if (!has_triangles(primitive, path, report_)) return std::nullopt;
-    const auto [known, is_new] = mesh_of_.try_emplace({mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size()));
+    const Json* material = find(primitive, "material");
+    std::vector<std::uint32_t> sets;
+    if (material != nullptr) sets = texcoord_sets(scene_.materials[material->get<std::size_t>()]);
+    if (!has_triangles(primitive, sets, path, report_)) return std::nullopt;
+    const auto [known, is_new] =
+        mesh_of_.try_emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size()));
     if (is_new) {
-        scene_.meshes.push_back(read_triangles(source_, primitive, path, budget_));
+        scene_.meshes.push_back(read_triangles(source_, primitive, sets, path, budget_, report_));
+        primitives_.push_back(known->first);
+        complete_texcoords(scene_.meshes.back(), sets, path);
         scene_.meshes.back().name = described.value("name", std::string());
     }
     return MeshShape{known->second};

@@ -23,6 +23,14 @@ class GeometryReader {
     /// What hangs on node `index` of the file.
     [[nodiscard]] std::vector<Geometry> read(std::size_t index);
 
+    /// A primitive of the file: of a mesh, by its number there.
+    struct Primitive {
+        std::size_t mesh, index;
+        friend auto operator<=>(const Primitive&, const Primitive&) = default;
+    };
+    /// Where a mesh of the scene was read from.
+    [[nodiscard]] Primitive primitive_of(std::uint32_t mesh) const { return primitives_[mesh]; }
+
     /// Notes the shapes of KHR_implicit_shapes that no primitive of the file uses.
     void note_unused_shapes();
 
@@ -31,7 +39,9 @@ class GeometryReader {
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
     /// A textured mesh needs texture coordinates.
-    void complete_texcoords(const Geometry& geometry, const std::string& path);
+    void complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path);
+    /// Notes what becomes of the backs of single-sided faces.
+    void note_sides(const Geometry& geometry, const std::string& path);
     [[nodiscard]] std::size_t primitives_in(const Shape& shape) const;
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);
@@ -43,7 +53,8 @@ class GeometryReader {
     ImportReport& report_;
     Budget budget_;
     std::optional<std::uint32_t> default_material_;
-    std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> mesh_of_;  ///< by mesh and primitive of the file
+    std::map<Primitive, std::uint32_t> mesh_of_;
+    std::vector<Primitive> primitives_;  ///< by mesh of the scene
 };
 
 }  // namespace tandem::gltf

@@ -15,6 +15,7 @@
 #include "tandem/gltf/model.h"
 #include "tandem/gltf/printable.h"
 #include "tandem/gltf/schema.h"
+#include "tandem/gltf/skins.h"
 #include "tandem/gltf/structure.h"
 #include "tandem/gltf/textures.h"
 
@@ -71,6 +72,7 @@ class SceneBuilder {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
         }
         geometry_.note_unused_shapes();
+        gltf::pose_skins(source_, node_of_, geometry_, scene_, report_);
         gltf::read_animation(source_, node_of_, scene_, report_);
         read_frame_rate();
         return std::move(scene_);

@@ -8,6 +8,8 @@ namespace tandem::gltf {
 
 namespace {
 
+constexpr const char* unlit_name = "KHR_materials_unlit";
+
 /// A matt surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on.
 PhongMaterial phong_from_base_colour(const Vec3f& base_colour) {
     return {base_colour * 0.1F, base_colour, {0.04F, 0.04F, 0.04F}, 32};
@@ -43,8 +45,15 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
                        "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
                        "shininess 32");
         }
+        // the far side of a body of glass has to be there
+        if (!(material.optics.transmission > 0)) material.sides = FaceSides::culled;
+        if (find_extension((*described)[i], unlit_name) != nullptr) {
+            material.unlit = true;
+            report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),
+                       "the base colour is what is seen; no light changes it, and it lights nothing");
+        }
         if (read.doubleSided) {
-            material.double_sided = true;
+            material.sides = FaceSides::double_sided;
             report.add(Treatment::rendered, "doubleSided", path + ".doubleSided",
                        "faces of meshes turn to the side that a ray comes from; closed shapes have one side");
         }
@@ -53,7 +62,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
     return materials;
 }
 
-Material default_material() { return {"default", phong_from_base_colour({1, 1, 1})}; }
+Material default_material() { return {"default", phong_from_base_colour({1, 1, 1}), FaceSides::culled}; }
 
 Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
                              ImportReport& report) {

@@ -268,6 +268,7 @@ constexpr Property properties[] = {
     numbers("phong", "mirror", 3).between(0, 1),
     object("material extensions", "TANDEM_materials_dielectric", "dielectric"),
     whole("dielectric", "priority").between(0, 127),
+    object("material extensions", "KHR_materials_unlit", "unlit"),
     object("material extensions", "KHR_materials_transmission", "transmission"),
     number("transmission", "transmissionFactor").between(0, 1),
     object("transmission", "transmissionTexture", "texture info"),

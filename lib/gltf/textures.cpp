@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tandem/gltf/images.h"
+#include "tandem/gltf/triangles.h"
 
 namespace tandem::gltf {
 
@@ -59,6 +60,15 @@ class TextureReader {
                                                "linear; in the frame of the texture coordinates");
             material.normal_scale = info->value("scale", 1.0F);
         }
+        if (const Json* info = find(read, "emissiveTexture")) {
+            if (norm1(material.optics.emission) > 0) {
+                material.emissive_texture =
+                    read_use(*info, path + ".emissiveTexture", "emissive texture", "sRGB; multiplies the emission");
+            } else {
+                report_.add(Treatment::ignored, "emissive texture", path + ".emissiveTexture",
+                            "the emissiveFactor that multiplies it is 0");
+            }
+        }
         read_alpha(read, path, material);
     }
 
@@ -84,9 +94,9 @@ class TextureReader {
         const Json* transform = find_extension(info, transform_name);
         std::uint64_t texcoord = info.value("texCoord", std::uint64_t{0});
         if (transform != nullptr) texcoord = transform->value("texCoord", texcoord);
-        if (texcoord != 0) {
+        if (texcoord > last_texcoord) {
             report_.add(Treatment::ignored, feature, path,
-                        fmt::format("it lies at TEXCOORD_{}; Tandem reads TEXCOORD_0 only", texcoord));
+                        fmt::format("it lies at TEXCOORD_{}; Tandem reads up to TEXCOORD_{}", texcoord, last_texcoord));
             return std::nullopt;
         }
         const auto index = info["index"].get<std::size_t>();
@@ -97,6 +107,7 @@ class TextureReader {
         }
         TextureReference use;
         use.texture = texture(index, image->get<std::size_t>());
+        use.texcoord = static_cast<std::uint32_t>(texcoord);
         report_.add(Treatment::rendered, feature, path, reason);
         if (transform != nullptr) {
             use.offset = read_vec2(*transform, "offset", use.offset);

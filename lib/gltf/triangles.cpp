@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tandem/error/error.h"
 #include "tandem/gltf/accessor.h"
 
 namespace tandem::gltf {
@@ -23,18 +24,25 @@ std::uint64_t mode_of(const Json& primitive) { return primitive.value("mode", st
 
 class TriangleReader {
   public:
-    TriangleReader(const Source& source, const Json& primitive, const std::string& path, Budget& budget)
-        : source_(source), primitive_(primitive), path_(path), budget_(budget) {
+    TriangleReader(const Source& source, const Json& primitive, const std::string& path, Budget& budget,
+                   ImportReport& report)
+        : source_(source), primitive_(primitive), path_(path), budget_(budget), report_(report) {
         const Json* used = find(source.document.json, "extensionsUsed");
         is_quantised_ = used != nullptr && std::find(used->begin(), used->end(), mesh_quantization) != used->end();
     }
 
-    Mesh run() {
+    Mesh run(const std::vector<std::uint32_t>& sets) {
         Mesh mesh;
         mesh.positions = vectors<Vec3f>("POSITION", "VEC3", Components::floats, Components::quantised);
         vertices_ = mesh.positions.size();
         mesh.normals = vectors<Vec3f>("NORMAL", "VEC3", Components::floats, Components::normalised);
-        mesh.texcoords = vectors<Vec2f>("TEXCOORD_0", "VEC2", Components::normalised, Components::quantised);
+        if (!sets.empty()) mesh.texcoords.resize(sets.back() + 1);
+        for (const std::uint32_t set : sets) {
+            const std::string name = fmt::format("TEXCOORD_{}", set);
+            mesh.texcoords[set] =
+                vectors<Vec2f>(name.c_str(), "VEC2", Components::normalised, Components::quantised);
+        }
+        mesh.colours = colours();
         mesh.triangles = triangles(corners());
         return mesh;
     }
@@ -61,6 +69,44 @@ class TriangleReader {
             for (std::size_t c = 0; c < width; ++c) {
                 result[i][static_cast<typename Vector::length_type>(c)] = values[i * width + c];
             }
+        }
+        return result;
+    }
+
+    /// COLOR_0 as RGB or RGBA; none if all are white.
+    std::vector<VertexColour> colours() {
+        const Json* index = find(primitive_["attributes"], "COLOR_0");
+        if (index == nullptr) return {};
+        const std::string where = path_ + ".attributes.COLOR_0";
+        const auto accessor = index->get<std::size_t>();
+        const auto type = source_.document.json["accessors"][accessor].value("type", std::string());
+        const std::size_t width = type == "VEC4" ? 4 : 3;
+        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
+        std::vector<float> values;
+        try {
+            values = read_accessor(source_, accessor, {width == 4 ? "VEC4" : "VEC3", Components::normalised,
+                                                       "vertex colours", where});
+        } catch (const InputError& error) {
+            report_.add(Treatment::ignored, "vertex colours", where, error.what());
+            return {};
+        }
+        if (values.size() != width * vertices_) {
+            report_.add(Treatment::ignored, "vertex colours", where, "there is not one for each position");
+            return {};
+        }
+        bool in_range = true;
+        for (float& value : values) {
+            in_range = in_range && value >= 0 && value <= 1;
+            value = std::clamp(value, 0.0F, 1.0F);
+        }
+        report_.add(in_range ? Treatment::rendered : Treatment::approximated, "vertex colours", where,
+                    in_range ? "linear; multiply the base colour" : "linear; multiply the base colour; some lie outside "
+                                                                    "of 0 to 1 and count as the nearer end");
+        if (std::all_of(values.begin(), values.end(), [](float value) { return value == 1; })) return {};
+        std::vector<VertexColour> result(vertices_);
+        for (std::size_t i = 0; i < vertices_; ++i) {
+            const float* at = &values[i * width];
+            result[i] = {{at[0], at[1], at[2]}, width == 4 ? at[3] : 1};
         }
         return result;
     }
@@ -111,13 +157,33 @@ class TriangleReader {
     const Json& primitive_;
     const std::string& path_;
     Budget& budget_;
+    ImportReport& report_;
     bool is_quantised_ = false;
     std::size_t vertices_ = 0;
 };
 
 }  // namespace
 
-bool has_triangles(const Json& primitive, const std::string& path, ImportReport& report) {
+namespace {
+
+/// Why an attribute is not in the picture; null if it is, or if another reader says so.
+const char* why_ignored_attribute(const std::string& name, const std::vector<std::uint32_t>& sets) {
+    for (const char* known : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"}) {
+        if (name == known) return nullptr;
+    }
+    if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) return nullptr;  // skins.h
+    const auto is_used = [&](std::uint32_t set) { return name == fmt::format("TEXCOORD_{}", set); };
+    if (std::any_of(sets.begin(), sets.end(), is_used)) return nullptr;
+    if (name.starts_with("TEXCOORD_")) return "no texture that Tandem renders uses it";
+    if (name.starts_with("COLOR_")) return "glTF gives a meaning to COLOR_0 only";
+    if (name == "TANGENT") return "the frame of normal maps comes from the texture coordinates";
+    return "Tandem does not know it";
+}
+
+}  // namespace
+
+bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, const std::string& path,
+                   ImportReport& report) {
     const std::uint64_t mode = mode_of(primitive);
     if (mode < triangle_list || mode > triangle_fan) {
         report.add(Treatment::ignored, mode_name(mode), path, "Tandem renders surfaces only");
@@ -130,18 +196,17 @@ bool has_triangles(const Json& primitive, const std::string& path, ImportReport&
     }
     report.add(Treatment::rendered, mode_name(mode), path, "its triangles, without gaps between them");
     for (const auto& [name, index] : attributes->items()) {
-        if (name == "POSITION" || name == "NORMAL" || name == "TEXCOORD_0") continue;
-        const bool is_skin = name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+        const char* reason = why_ignored_attribute(name, sets);
+        if (reason == nullptr) continue;
         report.add(Treatment::ignored, fmt::format("attribute {}", name), fmt::format("{}.attributes.{}", path, name),
-                   is_skin                        ? "Tandem does not render skins yet"
-                   : name.starts_with("TEXCOORD") ? "textures lie at TEXCOORD_0"
-                                                  : "Tandem reads positions and normals of vertices");
+                   reason);
     }
     return true;
 }
 
-Mesh read_triangles(const Source& source, const Json& primitive, const std::string& path, Budget& budget) {
-    return TriangleReader(source, primitive, path, budget).run();
+Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
+                    const std::string& path, Budget& budget, ImportReport& report) {
+    return TriangleReader(source, primitive, path, budget, report).run(sets);
 }
 
 }  // namespace tandem::gltf

@@ -1,7 +1,9 @@
 /// Triangle meshes.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tandem/gltf/budget.h"
 #include "tandem/gltf/model.h"
@@ -13,16 +15,21 @@ namespace tandem::gltf {
 /// The extension that a file lists to store attributes as integers. It puts nothing into the JSON otherwise.
 inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
 
-/// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
-/// which attributes are ignored.
-[[nodiscard]] bool has_triangles(const Json& primitive, const std::string& path, ImportReport& report);
+/// Sets of texture coordinates that are read: TEXCOORD_0 up to this one.
+inline constexpr std::uint32_t last_texcoord = 15;
 
-/// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and normals and
-/// the first texture coordinates where there are some.
+/// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
+/// which attributes are ignored. `sets`: of texture coordinates, those that its material uses.
+[[nodiscard]] bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, const std::string& path,
+                                 ImportReport& report);
+
+/// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and where there are
+/// some, normals, the texture coordinates of `sets`, and colours.
 ///
 /// Throws InputError if a count is not that of whole triangles, an index is out of range, the attributes do not have
 /// as many elements as POSITION, or an accessor is of the wrong type. Integers stand for positions only in files that
 /// use KHR_mesh_quantization.
-[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::string& path, Budget& budget);
+[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
+                                  const std::string& path, Budget& budget, ImportReport& report);
 
 }  // namespace tandem::gltf

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/integrator/incident_light.h"
+#include "tandem/integrator/light_picture.h"
 #include "tandem/integrator/surface.h"
 #include "tandem/light/quad_light.h"
 #include "tandem/light/sphere_light.h"
@@ -45,7 +46,7 @@ TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& poin
 template <class Real, class Face>
 requires(!std::is_same_v<Face, Sphere>) TANDEM_HD Mask<Real> shines(const Face& face, const Vec3<Double<Real>>&,
                                                                     const Vec3<Double<Real>>& direction) {
-    if (face.attributes.double_sided != 0) return Mask<Real>(true);
+    if (is_double_sided(face.attributes)) return Mask<Real>(true);
     return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
 }
 
@@ -100,7 +101,9 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     Word primitive(no_primitive);
     for_each_value(light, found, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         const AreaLight& chosen = scene.area_lights[index];
+        const std::uint32_t material = scene.material_of[chosen.primitive];
         LightSample<Real> of_light = drawn;
+        Vec3<Real> emitted = broadcast<Real>(scene.optics[material].emission);
         Mask<Real> lights = here && point.primitive != Word(chosen.primitive);
         visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
@@ -108,14 +111,17 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
                 if (!may_glow(kind_of<Body>)) return;
                 of_light = sample_light(glow_detail::view_light<Real>(body, position), u, v);
                 lights = lights && glow_detail::shines<Real>(body, position, of_light.direction);
+                if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
+                const MaterialTextures& textures = scene.textures.materials[material];
+                if (textures.emission.texture == no_texture) return;
+                emitted = emitted * light_picture<Real>(scene, textures, body, of_light.point);
             }
         });
         const D pdf = select(lights, of_light.pdf * D(chosen.chance), zero);
-        const Vec3f& emission = scene.optics[scene.material_of[chosen.primitive]].emission;
         drawn.direction = select(here, of_light.direction, drawn.direction);
         drawn.point = select(here, of_light.point, drawn.point);
         drawn.pdf = select(here, pdf, drawn.pdf);
-        radiance = select(here, broadcast<Real>(emission), radiance);
+        radiance = select(here, emitted, radiance);
         primitive = select(here, Word(chosen.primitive), primitive);
     });
     IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};

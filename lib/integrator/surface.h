@@ -3,11 +3,11 @@
 
 #include "tandem/effects/effects.h"
 #include "tandem/geometry/hit.h"
-#include "tandem/geometry/parametrisation.h"
 #include "tandem/geometry/ray_source.h"
 #include "tandem/geometry/shading_normal.h"
 #include "tandem/geometry/spawn_ray.h"
 #include "tandem/geometry/tangent_frame.h"
+#include "tandem/integrator/corner_values.h"
 #include "tandem/scene/scene_view.h"
 #include "tandem/texture/normal_map.h"
 
@@ -24,6 +24,7 @@ struct Surface {
     Real transmission;
     Vec3<Real> emission;  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
+    Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
 };
 
 /// How many holes a ray passes before it counts as stopped.
@@ -70,17 +71,6 @@ TANDEM_HD constexpr bool has_pictures() {
     return Effects::has(Effect::textures) || Effects::has(Effect::normal_maps) || Effects::has(Effect::cutouts);
 }
 
-/// Where the picture of primitive `id` is seen, as parametrisation().
-template <std::uint32_t kinds, class Real>
-TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, Ray<Real> ray,
-                                                        Double<Real> t, Mask<Real> here, Mask<Real> exits) {
-    Parametrisation<Real> at{};
-    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-        at = parametrisation(body, scene.texcoords, ray, t, here, exits);
-    });
-    return at;
-}
-
 /// The normal that a normal map makes of `normal`, unit. Where `turned`, on the back of a double-sided face, `normal`
 /// is turned round, and so is what the map says of the front.
 template <class Real>
@@ -93,20 +83,37 @@ TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const Mate
     return select(turned, -bent, bent);
 }
 
+/// Is primitive `id` a face that is not there from behind, and does the ray come from there? `on_face`: whether it is a
+/// face at all.
+template <std::uint32_t kinds, class Real>
+TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
+                               const Mask<Real>& here, bool& on_face) {
+    Mask<Real> culled(false);
+    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+        if constexpr (is_face<std::decay_t<decltype(body)>>) {
+            on_face = true;
+            if (body.attributes.sides != FaceSides::culled) return;
+            culled = surface_point(body, ray, t, Mask<Real>(false), here).from_inside;
+        }
+    });
+    return culled;
+}
+
 /// Is the surface there at `hit`, or a hole, in the lanes of `found`?
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                        const Closest<Real>& hit, const Mask<Real>& found) {
     Mask<Real> opaque(true);
     for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        bool on_face = false;
+        const Mask<Real> culled = is_culled<kinds>(scene, primitive, ray, hit.t, here, on_face);
+        opaque = opaque && !(here && culled);
+        if (!has_textures(scene.textures)) return;
         const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
         if (!(textures.alpha_cutoff > 0.0F)) return;
         const Mask<Real> exits = leaves_inward<Real>(source, primitive);
-        Real alpha(1.0F);
-        if (textures.diffuse.texture != no_texture) {
-            const auto at = parametrisation_of<kinds>(scene, primitive, ray, hit.t, here, exits);
-            alpha = sample<Real>(scene.textures, textures.diffuse, at.u, at.v).a;
-        }
+        CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+        const Real alpha = base_colour(textures, on_face, values).a;
         opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
     });
     return opaque;
@@ -140,7 +147,9 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
         const std::uint32_t number = scene.material_of[primitive];
         const Real one(1.0F);
         Rgba<Real> picture = {one, one, one, one};
-        bool both_sides = false;
+        Vec3<Real> glow = {one, one, one};
+        bool on_face = false;
+        FaceSides sides = FaceSides::single_sided;
         SurfacePoint<Real> own;
         visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
@@ -151,27 +160,38 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                 normal = normal_at<Real>(scene, body, ray, hit.t, here, exits);
                 if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
             }
-            if constexpr (is_face<Body>) both_sides = body.attributes.double_sided != 0;
+            if constexpr (is_face<Body>) {
+                on_face = true;
+                sides = body.attributes.sides;
+            }
         });
         if (needs_point) {
             own.primitive = UInt<Real>(primitive);
             keep(here, own, point);
         }
+        const bool both_sides = sides == FaceSides::double_sided;
+        const Optics& optics = scene.optics[number];
         if (has_pictures<Effects>() && has_textures(scene.textures)) {
             const MaterialTextures& textures = scene.textures.materials[number];
-            if (textures.diffuse.texture != no_texture || textures.normal.texture != no_texture) {
-                const auto at = parametrisation_of<kinds>(scene, primitive, ray, hit.t, here, exits);
-                if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
-                    picture = sample<Real>(scene.textures, textures.diffuse, at.u, at.v);
-                }
-                if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
-                    const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
-                    normal = bent_normal<Real>(scene, textures, at, normalize(normal), turned);
-                }
+            CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+            if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
+                picture = base_colour(textures, on_face, values);
+            }
+            if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
+                const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
+                normal = bent_normal<Real>(scene, textures, values.in(textures.normal.slot), normalize(normal), turned);
+            }
+            if (Effects::has(Effect::emission) && Effects::has(Effect::textures)) {
+                const bool lit = textures.emission.texture != no_texture;
+                const Rgba<Real> at = lit ? values.texture(textures.emission) : picture;
+                if (lit || optics.unlit != 0) glow = {at.r, at.g, at.b};
             }
             if (Effects::has(Effect::cutouts)) {
                 surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, picture.a));
             }
+        }
+        if (Effects::has(Effect::cutouts) && sides == FaceSides::culled) {
+            surface.opaque = surface.opaque && !(here && own.from_inside);
         }
         const PhongMaterial& material = scene.materials[number];
         Vec3<Real> ambient = broadcast<Real>(material.ambient);
@@ -187,7 +207,6 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
         surface.specular = select(here, broadcast<Real>(material.specular), surface.specular);
         surface.shininess = select(here, Real(material.shininess), surface.shininess);
         if (has_bounces<Effects>()) {
-            const Optics& optics = scene.optics[number];
             surface.material = select(here, UInt<Real>(number), surface.material);
             if (Effects::has(Effect::reflection)) {
                 surface.mirror = select(here, broadcast<Real>(optics.mirror), surface.mirror);
@@ -197,10 +216,11 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             }
         }
         if (Effects::has(Effect::emission)) {
-            const Vec3f& emission = scene.optics[number].emission;
-            if (norm1(emission) > 0.0F) {
-                const Mask<Real> shines = here && (Mask<Real>(both_sides) || !own.from_inside);
-                surface.emission = select(shines, broadcast<Real>(emission), surface.emission);
+            if (norm1(optics.emission) > 0.0F) {
+                const bool unlit = optics.unlit != 0;
+                const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
+                surface.emission = select(shines, broadcast<Real>(optics.emission) * glow, surface.emission);
+                surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
             }
         }
     });

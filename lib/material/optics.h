@@ -13,6 +13,9 @@ struct Optics {
     Vec3f absorption{0, 0, 0};   ///< of the dielectric, RGB, per metre: Beer's law
     Vec3f emission{0, 0, 0};     ///< radiance that leaves the outside of the surface, RGB
     std::uint32_t priority = 0;  ///< of the dielectric where bodies overlap (medium_stack.h)
+    /// 1: `emission` times the base colour is what is seen, from both sides, and lights nothing. No effect on materials
+    /// of a Scene: Material::unlit says it there.
+    std::uint32_t unlit = 0;
 };
 
 }  // namespace tandem

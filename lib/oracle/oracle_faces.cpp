@@ -88,10 +88,10 @@ std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttribu
         const Vector sum = interpolate(corners, normals + attributes.normals, weight);
         if (inner(sum, sum) > 0x1p-40L) normal = unit(sum);
     }
-    if (attributes.double_sided != 0 && inner(own, line.direction) > 0) normal = normal * -1;
+    if (is_double_sided(attributes) && inner(own, line.direction) > 0) normal = normal * -1;
     return SurfaceHit{t,      normal,
                       own,    {corners.number[0], corners.number[1], corners.number[2]},
-                      weight, attributes.double_sided != 0};
+                      weight, attributes.sides};
 }
 
 }  // namespace tandem::oracle

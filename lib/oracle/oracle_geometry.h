@@ -35,7 +35,7 @@ struct SurfaceHit {
     // of a face: the triangle's corners by their number in it, and what each of them weighs
     std::uint32_t corner[3] = {0, 0, 0};
     Vector weight{0, 0, 0};
-    bool double_sided = false;
+    FaceSides sides = FaceSides::single_sided;
 };
 
 /// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.

@@ -30,6 +30,8 @@ struct Vertex {
     std::uint32_t material = 0;
     bool from_inside = false;
     bool shines = false;  ///< this side is one that light leaves from, if the surface glows
+    bool is_hole = false;
+    Vector emission{0, 0, 0};
 };
 
 Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& nearest) {
@@ -41,30 +43,35 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     vertex.primitive = nearest.primitive;
     vertex.material = scene.material_of[nearest.primitive];
     vertex.from_inside = inner(vertex.direction, vertex.facet) > 0;
-    vertex.shines = !vertex.from_inside || nearest.surface.double_sided;
+    const bool double_sided = nearest.surface.sides == FaceSides::double_sided;
+    const Optics& optics = scene.optics[vertex.material];
+    vertex.shines = !vertex.from_inside || double_sided || optics.unlit != 0;
+    vertex.is_hole = vertex.from_inside && nearest.surface.sides == FaceSides::culled;
+    vertex.emission = to_vector(optics.emission);
     if (!has_textures(scene.textures)) return vertex;
     const MaterialTextures& textures = scene.textures.materials[vertex.material];
-    const TexturePoint at = texture_point(scene, nearest.primitive, vertex.point, nearest.surface);
-    vertex.picture = sample_texture(scene, textures.diffuse, at);
+    const auto at = [&](std::uint32_t slot) {
+        return texture_point(scene, nearest.primitive, vertex.point, nearest.surface, slot);
+    };
+    vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
+    vertex.is_hole = vertex.is_hole || Real{textures.alpha} * vertex.picture.a < Real{textures.alpha_cutoff};
+    const Texel glow =
+        optics.unlit != 0 ? vertex.picture : sample_texture(scene, textures.emission, at(textures.emission.slot));
+    vertex.emission = times(vertex.emission, {glow.r, glow.g, glow.b});
     if (textures.normal.texture != no_texture) {
-        const Texel texel = sample_texture(scene, textures.normal, at);
-        const bool turned = nearest.surface.double_sided && vertex.from_inside;
+        const TexturePoint point = at(textures.normal.slot);
+        const Texel texel = sample_texture(scene, textures.normal, point);
+        const bool turned = double_sided && vertex.from_inside;
         const Vector n = vertex.normal * (turned ? -1 : 1);
-        const Vector t = unit(at.along_u - n * inner(at.along_u, n));
+        const Vector t = unit(point.along_u - n * inner(point.along_u, n));
         Vector b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
-        if (inner(b, at.along_v) > 0) b = b * -1;
+        if (inner(b, point.along_v) > 0) b = b * -1;
         const Real scale = textures.normal_scale;
         const Vector bent =
             unit(t * ((2 * texel.r - 1) * scale) + b * ((2 * texel.g - 1) * scale) + n * (2 * texel.b - 1));
         vertex.normal = bent * (turned ? -1 : 1);
     }
     return vertex;
-}
-
-bool is_hole(const SceneView& scene, const Vertex& vertex) {
-    if (!has_textures(scene.textures)) return false;
-    const MaterialTextures& textures = scene.textures.materials[vertex.material];
-    return Real{textures.alpha} * vertex.picture.a < Real{textures.alpha_cutoff};
 }
 
 /// Does anything but holes and `except` stand on the way from `vertex`, up to `to` times `way`?
@@ -79,7 +86,7 @@ bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way,
         done += between.surface.t;
         if (done >= to) return false;
         const Vertex met = vertex_at(scene, ray, between);
-        if (!is_hole(scene, met)) return true;
+        if (!met.is_hole) return true;
         ray.origin = met.point;
         source = {met.primitive, !met.from_inside};
     }
@@ -161,39 +168,60 @@ Vector phong(const Reflectances& material, const Vertex& vertex, const Vector& l
     return material.diffuse * std::max<Real>(0, inner(l, n)) + material.specular * specular;
 }
 
-/// A point of a surface that glows, uniform in its area, with the normal there. Returns the area.
-Real point_of_light(const SceneView& scene, std::uint32_t id, Chance& chance, Vector& point, Vector& normal) {
-    Real area = 0;
-    const auto on_triangle = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+/// A point of a surface that glows.
+struct LightPoint {
+    Vector point;
+    SurfaceHit hit;  ///< normal, corners and weights there
+    Real area = 0;   ///< of the surface
+};
+
+/// Uniform in the area.
+LightPoint point_of_light(const SceneView& scene, std::uint32_t id, Chance& chance) {
+    LightPoint light{};
+    const auto on_triangle = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c, std::uint32_t second) {
         const Vector e1 = to_vector(b) - to_vector(a), e2 = to_vector(c) - to_vector(a);
         const Vector twice = {e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z, e1.x * e2.y - e1.y * e2.x};
         const Real root = std::sqrt(chance());
-        point = to_vector(a) + e1 * (root * chance());
-        point = point + e2 * (1 - root);
-        normal = unit(twice);
+        const Real along = root * chance();
+        light.point = to_vector(a) + e1 * along + e2 * (1 - root);
+        light.hit.normal = unit(twice);
+        light.hit.corner[1] = second;
+        light.hit.corner[2] = second + 1;
+        light.hit.weight = {root - along, along, 1 - root};
         return std::sqrt(inner(twice, twice)) / 2;
     };
     visit_primitive(scene, id, [&](const auto& body) {
         using Body = std::decay_t<decltype(body)>;
         if constexpr (std::is_same_v<Body, Sphere>) {
-            normal = on_hemisphere({0, 0, 1}, chance);
+            Vector normal = on_hemisphere({0, 0, 1}, chance);
             if (chance() < Real(0.5)) normal = normal * -1;
-            point = to_vector(body.centre) + normal * Real{body.radius};
-            area = 4 * pi * Real{body.radius} * Real{body.radius};
+            light.hit.normal = normal;
+            light.point = to_vector(body.centre) + normal * Real{body.radius};
+            light.area = 4 * pi * Real{body.radius} * Real{body.radius};
         } else if constexpr (std::is_same_v<Body, Triangle>) {
-            area = on_triangle(body.v0, body.v1, body.v2);
+            light.area = on_triangle(body.v0, body.v1, body.v2, 1);
         } else if constexpr (std::is_same_v<Body, Quad>) {
-            area = 2 * (chance() < Real(0.5) ? on_triangle(body.v0, body.v1, body.v2)
-                                             : on_triangle(body.v0, body.v2, body.v3));
+            light.area = 2 * (chance() < Real(0.5) ? on_triangle(body.v0, body.v1, body.v2, 1)
+                                                   : on_triangle(body.v0, body.v2, body.v3, 2));
         }
     });
-    return area;
+    return light;
+}
+
+/// What leaves a light at a point of it.
+Vector emission_at(const SceneView& scene, std::uint32_t id, const LightPoint& light) {
+    const std::uint32_t material = scene.material_of[id];
+    const Vector emission = to_vector(scene.optics[material].emission);
+    if (!has_textures(scene.textures)) return emission;
+    const TextureUse& use = scene.textures.materials[material].emission;
+    const Texel texel = sample_texture(scene, use, texture_point(scene, id, light.point, light.hit, use.slot));
+    return times(emission, {texel.r, texel.g, texel.b});
 }
 
 bool is_double_sided(const SceneView& scene, std::uint32_t id) {
     bool result = false;
     visit_primitive(scene, id, [&](const auto& body) {
-        if constexpr (requires { body.attributes; }) result = body.attributes.double_sided != 0;
+        if constexpr (requires { body.attributes; }) result = is_double_sided(body.attributes);
     });
     return result;
 }
@@ -204,18 +232,17 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
     for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
         const std::uint32_t id = scene.area_lights[i].primitive;
         if (id == vertex.primitive) continue;
-        Vector point{}, normal{};
-        const Real area = point_of_light(scene, id, chance, point, normal);
-        const Vector way = point - vertex.point;
+        const LightPoint light = point_of_light(scene, id, chance);
+        const Vector way = light.point - vertex.point;
         const Real distance2 = inner(way, way);
         const Vector l = unit(way);
-        Real cosine = -inner(l, normal);
+        Real cosine = -inner(l, light.hit.normal);
         if (is_double_sided(scene, id)) cosine = std::abs(cosine);
         if (!(cosine > 0)) continue;
-        const Vector reflected = phong(material, vertex, l) * (cosine * area / (pi * distance2));
+        const Vector reflected = phong(material, vertex, l) * (cosine * light.area / (pi * distance2));
         if (!(largest(reflected) > 0)) continue;
         if (scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, way, 1, id)) continue;
-        sum = sum + times(reflected, to_vector(scene.optics[scene.material_of[id]].emission));
+        sum = sum + times(reflected, emission_at(scene, id, light));
     }
     return sum;
 }
@@ -345,7 +372,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
             throughput =
                 times(throughput, {std::exp(-a.x * distance), std::exp(-a.y * distance), std::exp(-a.z * distance)});
         }
-        if (is_hole(scene, vertex)) {
+        if (vertex.is_hole) {
             ray.origin = vertex.point;
             source = {vertex.primitive, !vertex.from_inside};
             continue;
@@ -354,7 +381,8 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const bool is_drawn =
             was_scattered && std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
                                          [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
-        if (vertex.shines && !is_drawn) radiance = radiance + times(throughput, to_vector(optics.emission));
+        const bool is_dark = is_drawn || (optics.unlit != 0 && was_scattered);  // what is unlit lights nothing
+        if (vertex.shines && !is_dark) radiance = radiance + times(throughput, vertex.emission);
         Chance chance(sample, vertex_number);
         radiance = radiance + times(throughput, shade(scene, vertex, chance));
 

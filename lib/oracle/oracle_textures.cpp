@@ -65,10 +65,10 @@ void to_world(const Placement& body, TexturePoint& at) {
 
 /// Of a face: its corners' coordinates, or those of the whole square.
 TexturePoint on_face(const SceneView& scene, const FaceAttributes& attributes, const Vec3f* position, bool is_quad,
-                     const SurfaceHit& hit) {
+                     const SurfaceHit& hit, std::uint32_t slot) {
     static constexpr Vec2f square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static constexpr Vec2f half[] = {{0, 0}, {1, 0}, {0, 1}};
-    const Vec2f* uv = attributes.texcoords != no_attributes ? scene.texcoords + attributes.texcoords
+    const Vec2f* uv = attributes.texcoords != no_attributes ? scene.texcoords + attributes.texcoords + slot * (is_quad ? 4U : 3U)
                       : is_quad                             ? square
                                                             : half;
     const Vec2f a = uv[hit.corner[0]], b = uv[hit.corner[1]], c = uv[hit.corner[2]];
@@ -95,7 +95,8 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
 
 }  // namespace
 
-TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vector& point, const SurfaceHit& hit) {
+TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vector& point, const SurfaceHit& hit,
+                           std::uint32_t slot) {
     TexturePoint at{};
     visit_primitive(scene, id, [&](const auto& body) {
         using Body = std::decay_t<decltype(body)>;
@@ -120,10 +121,10 @@ TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vecto
             to_world(body, at);
         } else if constexpr (std::is_same_v<Body, Triangle>) {
             const Vec3f corners[] = {body.v0, body.v1, body.v2};
-            at = on_face(scene, body.attributes, corners, false, hit);
+            at = on_face(scene, body.attributes, corners, false, hit, slot);
         } else {
             const Vec3f corners[] = {body.v0, body.v1, body.v2, body.v3};
-            at = on_face(scene, body.attributes, corners, true, hit);
+            at = on_face(scene, body.attributes, corners, true, hit, slot);
         }
     });
     return at;
@@ -160,6 +161,17 @@ Texel sample_texture(const SceneView& scene, const TextureUse& use, const Textur
         sum = {sum.r + weight * t.r, sum.g + weight * t.g, sum.b + weight * t.b, sum.a + weight * t.a};
     }
     return sum;
+}
+
+Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& point, const SurfaceHit& hit) {
+    const MaterialTextures& textures = scene.textures.materials[scene.material_of[id]];
+    Texel colour = sample_texture(scene, textures.diffuse, texture_point(scene, id, point, hit, textures.diffuse.slot));
+    bool on_face = false;
+    visit_primitive(scene, id, [&](const auto& body) { on_face = requires { body.attributes; }; });
+    if (!on_face || textures.colour_slot == no_slot) return colour;
+    const TexturePoint rg = texture_point(scene, id, point, hit, textures.colour_slot);
+    const TexturePoint ba = texture_point(scene, id, point, hit, textures.colour_slot + 1);
+    return {colour.r * rg.u, colour.g * rg.v, colour.b * ba.u, colour.a * ba.v};
 }
 
 }  // namespace tandem::oracle

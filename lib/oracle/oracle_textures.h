@@ -11,14 +11,18 @@ struct TexturePoint {
     Vector along_u, along_v;  ///< in which they grow, of any length
 };
 
-/// `exits`: the line comes from within the body.
+/// `slot`: of a face's values. `exits`: the line comes from within the body.
 [[nodiscard]] TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vector& point,
-                                         const SurfaceHit& hit);
+                                         const SurfaceHit& hit, std::uint32_t slot);
 
 /// Red, green, blue and alpha; white without a texture.
 struct Texel {
     Real r, g, b, a;
 };
 [[nodiscard]] Texel sample_texture(const SceneView& scene, const TextureUse& use, const TexturePoint& at);
+
+/// The base colour of the material of primitive `id`: its texture times the colours of a face's corners.
+[[nodiscard]] Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& point,
+                                   const SurfaceHit& hit);
 
 }  // namespace tandem::oracle

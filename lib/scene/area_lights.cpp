@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tandem/scene/emissive_texture.h"
+
 namespace tandem {
 
 namespace {
@@ -23,10 +25,13 @@ double area_of(const Body&) {
 
 void find_area_lights(PreparedScene& prepared) {
     const SceneView scene = view(prepared);
+    EmissiveTextures textures(scene);
     std::vector<double> powers;
     double total = 0;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
-        const Vec3f& emission = scene.optics[scene.material_of[id]].emission;
+        const Optics& optics = scene.optics[scene.material_of[id]];
+        if (optics.unlit != 0) continue;
+        const Vec3f& emission = optics.emission;
         const double brightness = double{emission.x} + double{emission.y} + double{emission.z};
         if (!(brightness > 0)) continue;
         double power = 0;
@@ -35,6 +40,7 @@ void find_area_lights(PreparedScene& prepared) {
             power = brightness * area_of(body);
             kind = kind_of<std::decay_t<decltype(body)>>;
         });
+        if (power > 0) power *= textures.brightness(id);
         if (!(power > 0)) continue;
         prepared.area_light_kinds |= kind;
         total += power;

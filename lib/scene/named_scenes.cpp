@@ -213,7 +213,7 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
     for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
         if (scene.meshes[m].positions.empty()) continue;
         scene.meshes[m].name = fmt::format("faces, colour {}", m);
-        scene.materials[m].double_sided = true;
+        scene.materials[m].sides = FaceSides::double_sided;
         scene.nodes.push_back(shape_node(scene.meshes[m].name, {0, 0, 0}, MeshShape{m}, m));
     }
     return scene;

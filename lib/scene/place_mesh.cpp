@@ -11,26 +11,15 @@ namespace tandem {
 
 namespace {
 
-/// det(m) * inverse(transpose(m)), up to a positive factor; of any m.
-Matrix3 normal_matrix(const Matrix3& m) {
-    Matrix3 cofactors = {{cross(m.row[1], m.row[2]), cross(m.row[2], m.row[0]), cross(m.row[0], m.row[1])}};
-    double largest = 0;
-    for (const Vec3d& row : cofactors.row) {
-        largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
-    }
-    if (!(largest > 0)) return cofactors;
-    const double sign = determinant(m) < 0 ? -1 : 1;
-    for (Vec3d& row : cofactors.row) row = row / (largest * sign);
-    return cofactors;
-}
-
 class Placer {
   public:
-    Placer(const Mesh& mesh, const Transform& world_from_object, bool double_sided, PreparedScene& scene)
+    Placer(const Mesh& mesh, const Transform& world_from_object, FaceSides sides, const CornerSlots& slots,
+           PreparedScene& scene)
         : mesh_(mesh),
           normal_matrix_(normal_matrix(world_from_object.linear)),
           mirrors_(determinant(world_from_object.linear) < 0),
-          double_sided_(double_sided),
+          sides_(sides),
+          slots_(slots),
           scene_(scene) {
         world_.reserve(mesh.positions.size());
         for (const Vec3f& position : mesh.positions) {
@@ -80,23 +69,37 @@ class Placer {
     template <std::size_t count>
     FaceAttributes attributes(const Corners<count>& c) {
         FaceAttributes result;
-        result.double_sided = double_sided_ ? 1 : 0;
+        result.sides = sides_;
         if (!mesh_.normals.empty()) {
             result.normals = next_index(scene_.normals.size());
             for (const std::uint32_t i : c) {
                 scene_.normals.push_back(narrow(normalize(normal_matrix_ * widen(mesh_.normals[i]))));
             }
         }
-        if (!mesh_.texcoords.empty()) {
+        if (!slots_.empty()) {
             result.texcoords = next_index(scene_.texcoords.size());
-            for (const std::uint32_t i : c) scene_.texcoords.push_back(mesh_.texcoords[i]);
+            for (const std::uint32_t set : slots_.texcoords) add_texcoords(set, c);
+            if (slots_.has_colours) add_colours(c);
         }
         return result;
     }
 
+    template <std::size_t count>
+    void add_texcoords(std::uint32_t set, const Corners<count>& c) {
+        const bool has_set = set < mesh_.texcoords.size() && !mesh_.texcoords[set].empty();
+        for (const std::uint32_t i : c) scene_.texcoords.push_back(has_set ? mesh_.texcoords[set][i] : Vec2f{0, 0});
+    }
+
+    template <std::size_t count>
+    void add_colours(const Corners<count>& c) {
+        const auto colour = [&](std::uint32_t i) { return mesh_.colours.empty() ? VertexColour{} : mesh_.colours[i]; };
+        for (const std::uint32_t i : c) scene_.texcoords.push_back({colour(i).rgb.x, colour(i).rgb.y});
+        for (const std::uint32_t i : c) scene_.texcoords.push_back({colour(i).rgb.z, colour(i).alpha});
+    }
+
     static std::uint32_t next_index(std::size_t size) {
         if (size > no_attributes - 4) {
-            throw InputError("the meshes of the scene have more than 4 billion corners with normals; split the scene");
+            throw InputError("the meshes of the scene have more than 4 billion values at corners of faces; split the scene");
         }
         return static_cast<std::uint32_t>(size);
     }
@@ -104,7 +107,8 @@ class Placer {
     const Mesh& mesh_;
     Matrix3 normal_matrix_;
     bool mirrors_;
-    bool double_sided_;
+    FaceSides sides_;
+    const CornerSlots& slots_;
     PreparedScene& scene_;
     std::vector<Vec3f> world_;
     PlacedMesh placed_;
@@ -112,8 +116,30 @@ class Placer {
 
 }  // namespace
 
-PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, bool double_sided, PreparedScene& scene) {
-    return Placer(mesh, world_from_object, double_sided, scene).run();
+Matrix3 normal_matrix(const Matrix3& m) {
+    Matrix3 cofactors = {{cross(m.row[1], m.row[2]), cross(m.row[2], m.row[0]), cross(m.row[0], m.row[1])}};
+    double largest = 0;
+    for (const Vec3d& row : cofactors.row) {
+        largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+    }
+    if (!(largest > 0)) return cofactors;
+    const double sign = determinant(m) < 0 ? -1 : 1;
+    for (Vec3d& row : cofactors.row) row = row / (largest * sign);
+    return cofactors;
+}
+
+PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, FaceSides sides, const CornerSlots& slots,
+                      PreparedScene& scene) {
+    return Placer(mesh, world_from_object, sides, slots, scene).run();
+}
+
+Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object) {
+    Aabb bounds;
+    for (const Vec3f& position : mesh.positions) {
+        const Vec3f placed = narrow(transform_point(world_from_object, widen(position)));
+        bounds = merge(bounds, {placed, placed});
+    }
+    return bounds;
 }
 
 }  // namespace tandem

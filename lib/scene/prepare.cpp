@@ -80,18 +80,27 @@ Placement place(const Placed& body, const Vec3d& origin, bool is_box) {
     return placement;
 }
 
+/// What is seen is the material's colour: as emission, which no light adds to.
+void make_unlit(PhongMaterial& phong, Optics& optics) {
+    optics = {.emission = phong.diffuse, .unlit = 1};
+    phong = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1};
+}
+
 class Preparer {
   public:
     Preparer(const Scene& scene, const PrepareOptions& options) : scene_(scene), options_(options) {}
 
     PreparedScene run() {
         result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
-        world_from_node_ = world_transforms();
+        world_from_node_ = world_from_nodes(scene_, result_.time);
         for (const Material& material : scene_.materials) {
             result_.materials.push_back(material.phong);
             result_.optics.push_back(material.optics);
         }
-        result_.textures = prepare_textures(scene_, result_.materials);
+        result_.textures = prepare_textures(scene_, result_.materials, result_.optics);
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
+            if (scene_.materials[i].unlit) make_unlit(result_.materials[i], result_.optics[i]);
+        }
         result_.environment = scene_.environment;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
@@ -123,19 +132,17 @@ class Preparer {
     }
 
   private:
+    /// World space, double, until the origin is known.
+    struct PlacedSurface {
+        const Mesh* mesh;
+        Transform world_from_object;
+        std::uint32_t material;
+        std::size_t node;
+    };
+
     /// Shorter paths are not worth the noise.
     static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
-
-    std::vector<Transform> world_transforms() const {
-        const std::vector<Transform> local = parents_from_nodes(scene_, result_.time);
-        std::vector<Transform> world(local.size());
-        for (const std::size_t at : parents_first(scene_)) {
-            const std::int32_t parent = scene_.nodes[at].parent;
-            world[at] = parent == Node::no_parent ? local[at] : world[static_cast<std::size_t>(parent)] * local[at];
-        }
-        return world;
-    }
 
     void add_node(std::size_t index) {
         const Node& node = scene_.nodes[index];
@@ -283,14 +290,43 @@ class Preparer {
         for (const Placed& body : placed_balls_) result_.ellipsoids.push_back({place(body, origin, false)});
         result_.parallelepipeds.reserve(placed_boxes_.size());
         for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
+        const std::vector<CornerSlots> slots = corner_slots(scene_);
         for (const PlacedSurface& surface : surfaces_) {
             Transform render_from_object = surface.world_from_object;
             render_from_object.translation -= origin;
-            const bool double_sided = scene_.materials[surface.material].double_sided;
-            const PlacedMesh placed = place_mesh(*surface.mesh, render_from_object, double_sided, result_);
+            const FaceSides sides = sides_of(surface, render_from_object);
+            const PlacedMesh placed =
+                place_mesh(*surface.mesh, render_from_object, sides, slots[surface.material], result_);
+            if (sides == FaceSides::culled && placed.triangles + placed.quads > 0 && !result_.has_cutouts) {
+                result_.has_cutouts = true;
+                result_.culled_node = static_cast<std::uint32_t>(surface.node);
+            }
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);
         }
+    }
+
+    /// Culls no face whose back cannot be seen: of a closed mesh with the camera outside.
+    FaceSides sides_of(const PlacedSurface& surface, const Transform& render_from_object) const {
+        const FaceSides sides = scene_.materials[surface.material].sides;
+        if (sides != FaceSides::culled || !surface.mesh->is_closed) return sides;
+        return sees_outside_of(bounds_of(*surface.mesh, render_from_object)) ? FaceSides::single_sided : sides;
+    }
+
+    /// Do the camera's rays start outside of the box? Those of an orthographic one start all over its plane.
+    bool sees_outside_of(const Aabb& box) const {
+        const Vec3d eye = result_.render_from_camera.translation;
+        const Vec3d lower = widen(box.lower) - eye, upper = widen(box.upper) - eye;
+        if (!result_.orthographic) {
+            const double reach = result_.lens.aperture_radius;
+            const auto holds = [&](double from, double to) { return from <= reach && to >= -reach; };
+            return !(holds(lower.x, upper.x) && holds(lower.y, upper.y) && holds(lower.z, upper.z));
+        }
+        const Vec3d forward = -transpose(result_.render_from_camera.linear).row[2];
+        const auto least = [](double a, double from, double to) { return std::min(a * from, a * to); };
+        return least(forward.x, lower.x, upper.x) + least(forward.y, lower.y, upper.y) +
+                   least(forward.z, lower.z, upper.z) >
+               0;
     }
 
     Vec3d precise_origin() const {
@@ -346,12 +382,6 @@ class Preparer {
     struct Block {
         Vec3d centre;
         Vec3d extent;  ///< half of the edges
-    };
-    struct PlacedSurface {
-        const Mesh* mesh;
-        Transform world_from_object;
-        std::uint32_t material;
-        std::size_t node;
     };
     struct Light {
         Vec3d position;

@@ -6,6 +6,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/math/exact_math.h"
+#include "tandem/scene/corner_slots.h"
 #include "tandem/texture/levels.h"
 
 namespace tandem {
@@ -28,25 +29,32 @@ std::uint32_t least_alpha(const Image& image) {
     return least;
 }
 
-TextureUse with_transform(const TextureReference& reference, std::uint32_t texture) {
+TextureUse with_transform(const TextureReference& reference, std::uint32_t texture, const CornerSlots& slots) {
     const float cosine = exact_cos(reference.rotation);
     const float sine = exact_sin(reference.rotation);
     const Vec2f& scale = reference.scale;
     return {texture,
             {cosine * scale.x, sine * scale.y, reference.offset.x},
-            {-sine * scale.x, cosine * scale.y, reference.offset.y}};
+            {-sine * scale.x, cosine * scale.y, reference.offset.y},
+            slots.slot_of(reference.texcoord)};
+}
+
+bool has_picture(const MaterialTextures& m) {
+    return m.diffuse.texture != no_texture || m.normal.texture != no_texture || m.emission.texture != no_texture ||
+           m.colour_slot != no_slot;
 }
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong) : scene_(scene), phong_(phong) {
+    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics)
+        : scene_(scene), phong_(phong), optics_(optics), slots_(corner_slots(scene)) {
         result_.levels = texture_levels();
     }
 
     PreparedTextures run() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
         const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(), [](const auto& m) {
-            return m.diffuse.texture != no_texture || m.normal.texture != no_texture || m.alpha_cutoff > 0;
+            return has_picture(m) || m.alpha_cutoff > 0;
         });
         return needed ? std::move(result_) : PreparedTextures{};
     }
@@ -54,7 +62,9 @@ class Preparer {
   private:
     void add(std::size_t index) {
         const Material& material = scene_.materials[index];
+        const CornerSlots& slots = slots_[index];
         MaterialTextures prepared;
+        if (slots.has_colours) prepared.colour_slot = slots.colour_slot();
         std::uint32_t alpha = 255;  // the least of the texture
         if (material.alpha_mode == AlphaMode::mask) {
             prepared.alpha = material.alpha;
@@ -64,24 +74,29 @@ class Preparer {
             const TextureReference& reference = *material.diffuse_texture;
             const Image& image = image_of(reference);
             const bool one_colour = has_one_colour(image, rgb);
-            if (one_colour) multiply(phong_[index], image.texels[0]);
+            if (one_colour) {
+                const Vec3f factor = colour_of(image.texels[0]);
+                phong_[index].diffuse *= factor;
+                phong_[index].ambient *= factor;
+            }
             if (has_one_colour(image)) {
                 prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
             } else if (!one_colour || prepared.alpha_cutoff > 0) {
                 if (prepared.alpha_cutoff > 0) alpha = least_alpha(image);
-                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour));
+                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
             }
         }
         // beyond the rounding of the kernels' product
-        if (double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
+        if (!slots.has_colours && double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
             prepared.alpha = 1;
             prepared.alpha_cutoff = 0;
         }
         if (material.normal_texture) {
             const TextureReference& reference = *material.normal_texture;
-            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear, false));
+            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear, false), slots);
             prepared.normal_scale = material.normal_scale;
         }
+        if (material.emissive_texture) add_emission(*material.emissive_texture, slots, index, prepared);
         result_.materials.push_back(prepared);
     }
 
@@ -89,11 +104,21 @@ class Preparer {
         return scene_.images[scene_.textures[reference.texture].image];
     }
 
-    void multiply(PhongMaterial& phong, std::uint32_t texel) const {
-        const Vec3f factor = {result_.levels[texel & 255U], result_.levels[texel >> 8 & 255U],
-                              result_.levels[texel >> 16 & 255U]};
-        phong.diffuse *= factor;
-        phong.ambient *= factor;
+    void add_emission(const TextureReference& reference, const CornerSlots& slots, std::size_t index,
+                      MaterialTextures& prepared) {
+        Vec3f& emission = optics_[index].emission;
+        if (!(norm1(emission) > 0)) return;
+        const Image& image = image_of(reference);
+        if (has_one_colour(image, rgb)) {
+            emission *= colour_of(image.texels[0]);
+        } else {
+            prepared.emission = with_transform(reference, add(reference, ColourSpace::srgb, false), slots);
+        }
+    }
+
+    /// Linear.
+    Vec3f colour_of(std::uint32_t texel) const {
+        return {result_.levels[texel & 255U], result_.levels[texel >> 8 & 255U], result_.levels[texel >> 16 & 255U]};
     }
 
     /// Index of the descriptor. `whitened`: with alpha alone.
@@ -131,6 +156,8 @@ class Preparer {
 
     const Scene& scene_;
     std::vector<PhongMaterial>& phong_;
+    std::vector<Optics>& optics_;
+    std::vector<CornerSlots> slots_;  ///< by material
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
     std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;         ///< by image, and whether whitened
     PreparedTextures result_;
@@ -145,8 +172,7 @@ TextureSet view(const PreparedTextures& textures) {
 
 bool has_texture(const PreparedTextures& textures, std::size_t material) {
     if (textures.materials.empty()) return false;
-    const MaterialTextures& m = textures.materials[material];
-    return m.diffuse.texture != no_texture || m.normal.texture != no_texture;
+    return has_picture(textures.materials[material]);
 }
 
 bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
@@ -157,8 +183,8 @@ bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
                         [](std::uint32_t t) { return (t & rgb) == rgb; });
 }
 
-PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong) {
-    return Preparer(scene, phong).run();
+PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics) {
+    return Preparer(scene, phong, optics).run();
 }
 
 }  // namespace tandem

@@ -29,7 +29,7 @@ struct PreparedScene {
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     std::vector<Vec3f> normals;  ///< shading normals of the corners of faces (FaceAttributes): unit, world space, or 0
-    std::vector<Vec2f> texcoords;            ///< texture coordinates of the corners of faces
+    std::vector<Vec2f> texcoords;  ///< values of the corners of faces, by slot: texture coordinates, colours
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;
@@ -39,7 +39,8 @@ struct PreparedScene {
     std::vector<AreaLight> area_lights;  ///< spheres, triangles and quads that glow, in the order of their ids
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of those
     bool area_light_shadows = true;
-    bool has_cutouts = false;             ///< some material is cut out by its alpha
+    bool has_cutouts = false;             ///< some material is cut out by its alpha, or some faces are culled
+    std::uint32_t culled_node = never;    ///< the first node whose faces are culled from behind
     std::uint32_t roulette_from = never;  ///< vertex of a path
     CameraMedia camera_media{};
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else

@@ -21,6 +21,11 @@ std::string node_label(const Scene& scene, std::size_t index) {
 bool is_number(double a) { return std::isfinite(a) && std::abs(a) <= coordinate_limit; }
 bool is_number(const Vec3d& a) { return is_number(a.x) && is_number(a.y) && is_number(a.z); }
 bool is_number(const Quaternion& q) { return is_number(q.x) && is_number(q.y) && is_number(q.z) && is_number(q.w); }
+/// Three numbers in [0, 1]?
+bool is_share(const Vec3f& a) {
+    const auto good = [](float x) { return x >= 0 && x <= 1; };
+    return good(a.x) && good(a.y) && good(a.z);
+}
 bool is_zero(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
 
 /// Collects sentences.
@@ -88,17 +93,13 @@ class Problems {
         const Material& material = scene_.materials[index];
         const std::string where =
             material.name.empty() ? fmt::format("material {}", index) : fmt::format("material '{}'", material.name);
-        const auto reflectance = [](const Vec3f& a) {
-            const auto good = [](float x) { return x >= 0 && x <= 1; };
-            return good(a.x) && good(a.y) && good(a.z);
-        };
-        require(reflectance(material.phong.ambient), where, "has an ambient reflectance outside [0, 1]");
-        require(reflectance(material.phong.diffuse), where, "has a diffuse reflectance outside [0, 1]");
-        require(reflectance(material.phong.specular), where, "has a specular reflectance outside [0, 1]");
+        require(is_share(material.phong.ambient), where, "has an ambient reflectance outside [0, 1]");
+        require(is_share(material.phong.diffuse), where, "has a diffuse reflectance outside [0, 1]");
+        require(is_share(material.phong.specular), where, "has a specular reflectance outside [0, 1]");
         require(material.phong.shininess >= 0 && material.phong.shininess <= 1e8F, where,
                 "has a shininess outside [0, 1e8]");
         const Optics& optics = material.optics;
-        require(reflectance(optics.mirror), where, "has a mirror reflectance outside [0, 1]");
+        require(is_share(optics.mirror), where, "has a mirror reflectance outside [0, 1]");
         require(optics.transmission >= 0 && optics.transmission <= 1, where, "has a transmission outside [0, 1]");
         require(optics.ior >= 1e-3F && optics.ior <= 1e3F, where, "has a refractive index outside [0.001, 1000]");
         const auto positive = [](float a) { return a >= 0 && std::isfinite(a); };
@@ -121,11 +122,18 @@ class Problems {
         require(mesh.normals.empty() || mesh.normals.size() == vertices, where,
                 "has a number of normals that is not that of its positions");
         require(all_numbers(mesh.normals), where, "has a normal that is not finite or beyond 1e18");
-        require(mesh.texcoords.empty() || mesh.texcoords.size() == vertices, where,
-                "has a number of texture coordinates that is not that of its positions");
-        require(std::all_of(mesh.texcoords.begin(), mesh.texcoords.end(),
-                            [](const Vec2f& v) { return std::isfinite(v.x) && std::isfinite(v.y); }),
-                where, "has a texture coordinate that is not finite");
+        for (const std::vector<Vec2f>& set : mesh.texcoords) {
+            require(set.empty() || set.size() == vertices, where,
+                    "has a number of texture coordinates that is not that of its positions");
+            require(std::all_of(set.begin(), set.end(),
+                                [](const Vec2f& v) { return std::isfinite(v.x) && std::isfinite(v.y); }),
+                    where, "has a texture coordinate that is not finite");
+        }
+        require(mesh.colours.empty() || mesh.colours.size() == vertices, where,
+                "has a number of colours that is not that of its positions");
+        require(std::all_of(mesh.colours.begin(), mesh.colours.end(),
+                            [](const VertexColour& c) { return is_share(c.rgb) && c.alpha >= 0 && c.alpha <= 1; }),
+                where, "has a vertex colour outside [0, 1]");
         require(mesh.triangles.size() % 3 == 0, where, "has a number of triangle indices that is not a multiple of 3");
         require(mesh.quads.size() % 4 == 0, where, "has a number of quad indices that is not a multiple of 4");
         for (const auto* indices : {&mesh.triangles, &mesh.quads}) {

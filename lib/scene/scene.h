@@ -11,6 +11,7 @@
 
 #include "tandem/camera/lens.h"
 #include "tandem/camera/shutter.h"
+#include "tandem/geometry/face_sides.h"
 #include "tandem/light/environment.h"
 #include "tandem/material/optics.h"
 #include "tandem/material/phong.h"
@@ -40,6 +41,12 @@ struct BoxShape {
     Vec3d size{1, 1, 1};
 };
 
+/// Linear RGB and alpha, each in [0, 1].
+struct VertexColour {
+    Vec3f rgb{1, 1, 1};
+    float alpha = 1;
+};
+
 /// Triangles and quadrilaterals between shared vertices, in the space of a node. Faces run counter-clockwise seen from
 /// their front; a transform that mirrors keeps it so. A quad is two triangles, (v0, v1, v2) and (v0, v2, v3). Faces
 /// without area are dropped, and counted (PreparedScene::dropped_primitives).
@@ -47,9 +54,12 @@ struct Mesh {
     std::string name{};
     std::vector<Vec3f> positions{};
     std::vector<Vec3f> normals{};            ///< for shading, per vertex, unit; empty: each face has its own
-    std::vector<Vec2f> texcoords{};          ///< per vertex; may be empty, but under a texture
+    /// Sets of texture coordinates, each per vertex. A texture needs the set that it names.
+    std::vector<std::vector<Vec2f>> texcoords{};
+    std::vector<VertexColour> colours{};     ///< per vertex; multiply the base colour; may be empty
     std::vector<std::uint32_t> triangles{};  ///< three vertices each
     std::vector<std::uint32_t> quads{};      ///< four vertices each
+    bool is_closed = false;  ///< its faces enclose a volume, and their fronts look outward (mesh_topology.h)
 };
 
 /// A mesh of the scene: index into Scene::meshes.
@@ -103,15 +113,19 @@ struct LightSource {
     bool casts_shadows = true;
 };
 
-/// `double_sided`: faces of meshes turn their normal to the side that a ray comes from. Without it their back sees no
-/// light but the ambient one. The other shapes are closed and have no back. A body of glass needs a closed shape.
+/// `sides` is of faces of meshes: the other shapes are closed and have no back. The back of a single-sided face sees no
+/// light but the ambient one. A body of glass needs a closed shape whose faces are not culled.
 struct Material {
     std::string name;
     PhongMaterial phong;
-    bool double_sided = false;
-    Optics optics{};                                    ///< mirrors and glass
-    std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
-    std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (texture/normal_map.h)
+    FaceSides sides = FaceSides::single_sided;
+    Optics optics{};                                     ///< mirrors and glass
+    std::optional<TextureReference> diffuse_texture{};   ///< multiplies the diffuse and the ambient reflectance
+    std::optional<TextureReference> normal_texture{};    ///< normals, as glTF 2.0 has them (texture/normal_map.h)
+    std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
+    /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
+    /// gives any (KHR_materials_unlit).
+    bool unlit = false;
     float normal_scale = 1;                             ///< of the normals' parts along the surface
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1

@@ -30,7 +30,7 @@ struct SceneView {
     const Optics* optics;  ///< by material
     const PunctualLight* lights;
     const AreaLight* area_lights;  ///< by primitive id
-    const Vec2f* texcoords;        ///< of the corners of faces (FaceAttributes)
+    const Vec2f* texcoords;        ///< values of the corners of faces, by slot (FaceAttributes)
     TextureSet textures;
 #define TANDEM_PRIMITIVE(Type, name, names) std::uint32_t name##_count;
 #include "tandem/scene/primitives.def"
@@ -39,7 +39,7 @@ struct SceneView {
     std::uint32_t area_light_count;
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
-    std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha
+    std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha, and no face is culled
     std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;

@@ -34,6 +34,7 @@ struct TextureReference {
     Vec2f offset{0, 0};
     float rotation = 0;  ///< radians
     Vec2f scale{1, 1};
+    std::uint32_t texcoord = 0;  ///< which of a mesh's sets of coordinates; other shapes have one
 };
 
 /// mask: where alpha is below Material::alpha_cutoff, there is no surface.

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "tandem/scene/corner_slots.h"
 #include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
@@ -51,6 +53,7 @@ class Finder {
         const std::string where = label("material", material.name, index);
         if (material.diffuse_texture) check_reference(*material.diffuse_texture, where + ", diffuse texture,");
         if (material.normal_texture) check_reference(*material.normal_texture, where + ", normal texture,");
+        if (material.emissive_texture) check_reference(*material.emissive_texture, where + ", emissive texture,");
         require(std::isfinite(material.normal_scale), where, "has a normal scale that is not finite");
         require(material.alpha >= 0 && material.alpha <= 1, where, "has an alpha outside [0, 1]");
         require(material.alpha_cutoff >= 0 && std::isfinite(material.alpha_cutoff), where,
@@ -75,11 +78,15 @@ class Finder {
             if (geometry.material >= scene_.materials.size()) continue;
             const Material& material = scene_.materials[geometry.material];
             const Mesh& mesh = scene_.meshes[shape->mesh];
-            const bool textured = material.diffuse_texture || material.normal_texture;
-            if (!textured || !mesh.texcoords.empty() || mesh.positions.empty()) continue;
+            const std::vector<std::uint32_t> sets = texcoord_sets(material);
+            const auto lacks = [&](std::uint32_t set) {
+                return set >= mesh.texcoords.size() || mesh.texcoords[set].empty();
+            };
+            const auto lacking = std::find_if(sets.begin(), sets.end(), lacks);
+            if (lacking == sets.end() || mesh.positions.empty()) continue;
             if (!reported_.insert({shape->mesh, geometry.material}).second) continue;
-            found_.push_back(fmt::format("{} shows a mesh without texture coordinates under the textures of {}",
-                                         label("node", node.name, index),
+            found_.push_back(fmt::format("{} shows a mesh without set {} of texture coordinates under the textures of {}",
+                                         label("node", node.name, index), *lacking,
                                          label("material", material.name, geometry.material)));
         }
     }

@@ -6,6 +6,7 @@
 namespace tandem {
 
 inline constexpr std::uint32_t no_texture = 0xFFFFFFFFU;
+inline constexpr std::uint32_t no_slot = 0xFFFFFFFFU;
 
 /// What the levels of red, green and blue mean: given by what a texture is used for.
 enum class ColourSpace : std::uint32_t { srgb, linear };
@@ -19,23 +20,29 @@ struct TextureDescriptor {
     ColourSpace space = ColourSpace::srgb;
 };
 
-/// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1).
+/// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1). A face has
+/// several pairs of values at its corners; `slot` is the one that holds the texture's coordinates. Other primitives have
+/// one parametrisation.
 struct TextureUse {
     std::uint32_t texture = no_texture;
     float u_row[3] = {1, 0, 0};
     float v_row[3] = {0, 1, 0};
+    std::uint32_t slot = 0;
 };
 
-/// The textures of one material. Its alpha is `alpha` times that of the diffuse texture; where that is below
-/// `alpha_cutoff`, there is no surface. 0 cuts nothing.
+/// The textures of one material. Its alpha is `alpha` times that of the base colour (integrator/base_colour.h); where
+/// that is below `alpha_cutoff`, there is no surface. 0 cuts nothing.
 struct MaterialTextures {
-    TextureUse diffuse;  ///< multiplies the diffuse and the ambient reflectance
-    TextureUse normal;   ///< normals in the frame of the surface: normal_map.h
+    TextureUse diffuse;   ///< base colour: multiplies the diffuse and the ambient reflectance
+    TextureUse normal;    ///< normals in the frame of the surface: normal_map.h
+    TextureUse emission;  ///< multiplies the emission
     float normal_scale = 1;
     float alpha = 1;
     float alpha_cutoff = 0;
+    /// Of faces: red and green at the corners in this slot, blue and alpha in the next. They multiply the base colour.
+    std::uint32_t colour_slot = no_slot;
 };
-static_assert(sizeof(MaterialTextures) == 68 && sizeof(TextureDescriptor) == 28,
+static_assert(sizeof(MaterialTextures) == 112 && sizeof(TextureDescriptor) == 28,
               "no byte is undefined; scene_hash() reads all");
 
 /// Pointers are to memory of the side that reads them.

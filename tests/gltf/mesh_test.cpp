@@ -61,8 +61,8 @@ TEST_F(GltfMesh, NormalsAndTextureCoordinates) {
     primitive(file)["attributes"]["TEXCOORD_0"] = places;
     const Mesh mesh = mesh_of(file);
     EXPECT_EQ(mesh.normals, std::vector<Vec3f>(6, Vec3f(0.5F, 0.5F, 0.5F)));
-    EXPECT_EQ(mesh.texcoords[0], Vec2f(0, 1));
-    EXPECT_EQ(mesh.texcoords[1], Vec2f(0.2F, 0));
+    EXPECT_EQ(mesh.texcoords.at(0)[0], Vec2f(0, 1));
+    EXPECT_EQ(mesh.texcoords.at(0)[1], Vec2f(0.2F, 0));
     EXPECT_TRUE(mesh_of(mesh_file()).normals.empty());
 }
 
@@ -93,7 +93,7 @@ TEST_F(GltfMesh, IsReadOnceHoweverManyNodesShowIt) {
     const PreparedScene prepared = prepare(result.scene);
     ASSERT_EQ(prepared.triangles.size(), 4U);
     EXPECT_EQ(prepared.triangles[2].v0, Vec3f(0, 0, 1));
-    EXPECT_EQ(prepared.triangles[0].attributes.double_sided, 1U);
+    EXPECT_EQ(prepared.triangles[0].attributes.sides, FaceSides::double_sided);
     const std::string report = sentences(result.report);
     EXPECT_TRUE(contains(report, "rendered: triangle mesh at meshes[0].primitives[0] (2 uses): "));
     EXPECT_TRUE(contains(report, "rendered: doubleSided at materials[0].doubleSided: "));

@@ -36,7 +36,7 @@ TEST(NamedScenes, CrowdsHaveWhatTheirNamesSay) {
 TEST(NamedScenes, FacesAreWhatTheirNamesSay) {
     const auto triangles = prepare(named_scene("triangles/100"));
     EXPECT_EQ(triangles.triangles.size(), 100U);
-    EXPECT_EQ(triangles.triangles[0].attributes.double_sided, 1U);
+    EXPECT_EQ(triangles.triangles[0].attributes.sides, FaceSides::double_sided);
     EXPECT_EQ(prepare(named_scene("quads/3")).quads.size(), 3U);
     const auto ball = prepare(named_scene("icosphere/2"));
     EXPECT_EQ(ball.triangles.size(), 320U);

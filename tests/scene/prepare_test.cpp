@@ -181,14 +181,14 @@ TEST(PrepareMesh, AttributesStandByCorner) {
     Mesh mesh = square();
     mesh.quads = {3, 2, 1, 0};
     mesh.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
-    mesh.texcoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.texcoords = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const auto prepared = prepare(mesh_scene(mesh));
     ASSERT_EQ(prepared.normals.size(), 10U);
     ASSERT_EQ(prepared.texcoords.size(), 10U);
     EXPECT_EQ(prepared.triangles[1].attributes.normals, 3U);
     EXPECT_EQ(prepared.normals[5], mesh.normals[3]);
     EXPECT_EQ(prepared.quads[0].attributes.texcoords, 6U);
-    EXPECT_EQ(prepared.texcoords[7], mesh.texcoords[2]);
+    EXPECT_EQ(prepared.texcoords[7], mesh.texcoords[0][2]);
 }
 
 TEST(PrepareMesh, FacesWithoutAreaAreDroppedAndCounted) {
@@ -215,12 +215,12 @@ TEST(PrepareMesh, FacesWithoutAreaAreDroppedAndCounted) {
 
 TEST(PrepareMesh, InstancesAndSides) {
     Scene scene = mesh_scene(square());
-    scene.materials[0].double_sided = true;
+    scene.materials[0].sides = FaceSides::double_sided;
     scene.nodes[1].geometry[0].instances = {{{1, 0, 0}, {}, {1, 1, 1}}, {{0, 0, 5}, {}, {2, 2, 2}}};
     const auto prepared = prepare(scene);
     ASSERT_EQ(prepared.triangles.size(), 4U);
     EXPECT_EQ(prepared.triangles[3].v2, Vec3f(0, 2, 5));
-    EXPECT_EQ(prepared.triangles[3].attributes.double_sided, 1U);
+    EXPECT_EQ(prepared.triangles[3].attributes.sides, FaceSides::double_sided);
     EXPECT_EQ(prepared.node_of, (std::vector<std::uint32_t>{1, 1, 1, 1}));
     scene.nodes[1].trs.scale = {9e17, 9e17, 9e17};
     EXPECT_TRUE(contains(input_error([&] { (void)prepare(scene); }), "node 1 'body' has something farther than 1e18"));

@@ -136,12 +136,12 @@ Scene textured(bool colours, bool normals, bool holes) {
     brick.geometry.push_back({BoxShape{{0.4, 0.3, 0.3}}, 2, {}});
     Mesh sheet{.name = "sheet",
                .positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}, {0.5F, 0.7F, 0.1F}, {-0.5F, 0.7F, 0}, {0, 1.1F, 0}},
-               .texcoords = {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}},
+               .texcoords = {{{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}}},
                .triangles = {3, 2, 4},
                .quads = {0, 1, 2, 3}};
     scene.meshes.push_back(sheet);
     scene.materials.push_back(scene.materials[3]);
-    scene.materials.back().double_sided = true;
+    scene.materials.back().sides = FaceSides::double_sided;
     Node sail{.name = "sail", .trs = {.translation = {0.6, -0.2, 0.9}}};
     sail.geometry.push_back({MeshShape{0}, 4, {}});
     scene.nodes.insert(scene.nodes.end(), {egg, brick, sail});
@@ -167,6 +167,53 @@ Scene with_lamps(Scene scene) {
     panel.geometry.push_back({MeshShape{static_cast<std::uint32_t>(scene.meshes.size())}, first + 1, {}});
     scene.meshes.push_back(sheet);
     scene.nodes.insert(scene.nodes.end(), {ball, panel});
+    return scene;
+}
+/// The same lamps under pictures: of the sheet at its second set of texture coordinates, some of it beyond the picture.
+Scene with_pictured_lamps() {
+    Scene scene = with_lamps(matt_scene());
+    scene.images = {checks("glow", false)};
+    for (std::size_t i = 0; i < 40; ++i) scene.images[0].texels[i] &= 0xFF000000U;  // black
+    scene.textures = {{0, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear}};
+    const std::size_t ball = scene.materials.size() - 2;
+    scene.materials[ball].emissive_texture = TextureReference{};
+    scene.materials[ball + 1].emissive_texture = TextureReference{.rotation = 0.4F, .scale = {2, 1.5F}, .texcoord = 1};
+    scene.meshes.back().texcoords = {{}, {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}}};
+    return scene;
+}
+/// The sheet of textured() with colours at its vertices, whose alpha cuts, and its normals at a second set of coordinates.
+Scene with_vertex_colours() {
+    Scene scene = textured(true, true, false);
+    Mesh& sheet = scene.meshes[0];
+    sheet.colours = {{{1, 0.2F, 0.3F}, 1}, {{0.4F, 1, 0.1F}, 0.2F}, {{0.9F, 0.8F, 1}, 1}, {{0.1F, 0.3F, 1}, 0.3F}, {}};
+    sheet.texcoords.push_back({{0, 0}, {0.5F, 0}, {0.5F, 1}, {0, 1}, {0.3F, 0.7F}});
+    Material& material = scene.materials[4];
+    material.normal_texture->texcoord = 1;
+    material.alpha_mode = AlphaMode::mask;
+    // a body under the same material has no vertices: it is white
+    scene.nodes[scene.nodes.size() - 2].geometry[0].material = 4;
+    return scene;
+}
+/// A ball and a sheet that no light changes, among others that they do not light.
+Scene with_unlit() {
+    Scene scene = textured(true, false, false);
+    scene.materials[1].unlit = true;
+    scene.materials[4].unlit = true;
+    scene.materials[4].sides = FaceSides::single_sided;
+    scene.meshes[0].colours = {{{1, 0.2F, 0.3F}, 1}, {{0.4F, 1, 0.1F}, 1}, {}, {{0.1F, 0.3F, 1}, 1}, {}};
+    return scene;
+}
+/// Open meshes whose backs are not there: a sheet seen from behind, one from the front, and a roof above both.
+Scene with_culled_faces() {
+    Scene scene = textured(false, false, false);
+    scene.materials[4].sides = FaceSides::culled;
+    const auto add = [&](const char* name, const Vec3d& at, const Quaternion& turn) {
+        Node node{.name = name, .trs = {at, turn, {1, 1, 1}}};
+        node.geometry.push_back({MeshShape{0}, 4, {}});
+        scene.nodes.push_back(node);
+    };
+    add("from behind", {-0.4, -0.1, 1.0}, {0, 1, 0, 0.1});
+    add("roof", {0.2, 1.2, 0}, {0.7, 0.1, 0, 0.7});
     return scene;
 }
 Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
@@ -226,6 +273,15 @@ std::vector<EffectScene> make_scenes() {
                       shadows | Effect::indirect | Effect::roulette});
     scenes.push_back({"lamps, indirect", in_daylight(with_lamps(matt_scene()), true, true),
                       lamps | Effect::environment_light | Effect::indirect | Effect::roulette});
+    scenes.push_back({"pictured lamps", with_pictured_lamps(), lamps | Effect::textures});
+    scenes.push_back({"pictured lamps, indirect", in_daylight(with_pictured_lamps(), false, true),
+                      lamps | Effect::textures | Effect::indirect | Effect::roulette});
+    scenes.push_back({"vertex colours", lit(with_vertex_colours(), {}),
+                      shadows | Effect::textures | Effect::normal_maps | Effect::cutouts});
+    scenes.push_back({"unlit", lit(with_unlit(), plain), Effect::textures | Effect::emission});
+    scenes.push_back({"unlit, indirect", in_daylight(lit(with_unlit(), {}), false, true),
+                      shadows | Effect::textures | Effect::emission | Effect::indirect | Effect::roulette});
+    scenes.push_back({"culled faces", lit(with_culled_faces(), {}), shadows | Effect::cutouts});
     Scene everything = in_daylight(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);
     const Scene pictures = textured(true, true, true);
     everything.images = pictures.images;

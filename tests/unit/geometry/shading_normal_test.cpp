@@ -37,7 +37,7 @@ TEST(ShadingNormal, OppositeNormalsFallBackToTheFacesOwn) {
 
 TEST(ShadingNormal, OfADoubleSidedFaceTurnsToTheRay) {
     Triangle face = unit;
-    face.attributes.double_sided = 1;
+    face.attributes.sides = FaceSides::double_sided;
     EXPECT_EQ(shading_normal(face, nullptr, down(0.25F, 0.25F, 1), true), Vec3d(0, 0, 1));
     EXPECT_EQ(shading_normal(face, nullptr, down(0.25F, 0.25F, -1), true), Vec3d(0, 0, -1));
     const Vec3f normals[] = {{0, 0.6F, 0.8F}, {0, 0.6F, 0.8F}, {0, 0.6F, 0.8F}};

@@ -1,0 +1,74 @@
+/// The texture coordinates of a light's surface at a point that was drawn on it.
+#pragma once
+
+#include "tandem/integrator/corner_values.h"
+
+namespace tandem {
+
+template <class Real>
+struct TexturePoint {
+    Double<Real> u, v;
+};
+
+namespace light_picture_detail {
+
+/// At the point of the plane of (v0, v1, v2) that is nearest to `point`; `a`, `b`, `c` are the corners' coordinates.
+/// Needs no ray: a light is sampled by points. The weights err by the rounding of `point` over the triangle's height.
+template <class Real>
+TANDEM_HD TexturePoint<Real> on_triangle(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec2f& a,
+                                         const Vec2f& b, const Vec2f& c, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    const Vec3<D> origin = broadcast<D>(v0);
+    const Vec3<D> edge1 = broadcast<D>(v1) - origin;
+    const Vec3<D> edge2 = broadcast<D>(v2) - origin;
+    const Vec3<D> to_point = point - origin;
+    const Vec3<D> normal = cross(edge1, edge2);
+    const D area2 = dot(normal, normal);
+    const D at1 = dot(cross(to_point, edge2), normal) / area2;
+    const D at2 = dot(cross(edge1, to_point), normal) / area2;
+    const D rest = (D(1.0) - at1) - at2;
+    return {(D(a.x) * rest + D(b.x) * at1) + D(c.x) * at2, (D(a.y) * rest + D(b.y) * at1) + D(c.y) * at2};
+}
+
+}  // namespace light_picture_detail
+
+// `texcoords`: the values of the slot, as for parametrisation(). The point is on the surface but for rounding.
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Sphere& sphere, const Vec2f*, const Vec3<Double<Real>>& point) {
+    const auto at = parametrisation_detail::on_globe<Real>(point - broadcast<Double<Real>>(sphere.centre));
+    return {at.u, at.v};
+}
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Triangle& face, const Vec2f* texcoords,
+                                           const Vec3<Double<Real>>& point) {
+    const auto corner = parametrisation_detail::corners_of(face, texcoords);
+    return light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1], corner.uv[2],
+                                                   point);
+}
+/// Of the two triangles the one on whose side of the diagonal the point lies.
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Quad& face, const Vec2f* texcoords, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    const auto corner = parametrisation_detail::corners_of(face, texcoords);
+    const Vec3<D> origin = broadcast<D>(face.v0);
+    const Vec3<D> diagonal = broadcast<D>(face.v2) - origin;
+    const Vec3<D> across = cross(diagonal, point - origin);
+    const Mask<Real> first = dot(across, cross(diagonal, broadcast<D>(face.v1) - origin)) > D(0.0);
+    const auto a = light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1],
+                                                           corner.uv[2], point);
+    const auto b = light_picture_detail::on_triangle<Real>(face.v0, face.v2, face.v3, corner.uv[0], corner.uv[2],
+                                                           corner.uv[3], point);
+    return {select(first, a.u, b.u), select(first, a.v, b.v)};
+}
+
+/// What multiplies the emission of `body`, a sphere or a face, at `point`.
+template <class Real, class Body>
+TANDEM_HD Vec3<Real> light_picture(const SceneView& scene, const MaterialTextures& textures, const Body& body,
+                                   const Vec3<Double<Real>>& point) {
+    const TextureUse& use = textures.emission;
+    const TexturePoint<Real> at = texture_point<Real>(body, scene.texcoords + use.slot * corner_count<Body>, point);
+    const Rgba<Real> texel = sample<Real>(scene.textures, use, at.u, at.v);
+    return {texel.r, texel.g, texel.b};
+}
+
+}  // namespace tandem

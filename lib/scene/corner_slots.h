@@ -1,0 +1,32 @@
+/// Which values the corners of faces carry, by material: no more than its textures and the colours of its meshes need.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+/// The slots of a material's faces (FaceAttributes): one for each set of texture coordinates that it uses, in order, then
+/// two for colours, if any mesh under the material has them.
+struct CornerSlots {
+    std::vector<std::uint32_t> texcoords;  ///< numbers of the sets, ascending
+    bool has_colours = false;
+
+    [[nodiscard]] bool empty() const { return texcoords.empty() && !has_colours; }
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t set) const {
+        const auto at = std::lower_bound(texcoords.begin(), texcoords.end(), set);
+        return static_cast<std::uint32_t>(at - texcoords.begin());
+    }
+    [[nodiscard]] std::uint32_t colour_slot() const { return static_cast<std::uint32_t>(texcoords.size()); }
+};
+
+/// The sets of texture coordinates that a material's textures use, ascending.
+[[nodiscard]] std::vector<std::uint32_t> texcoord_sets(const Material& material);
+
+/// Of all materials.
+[[nodiscard]] std::vector<CornerSlots> corner_slots(const Scene& scene);
+
+}  // namespace tandem
