@@ -92,7 +92,8 @@ void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs)
 void add_material(const Optics& optics, const std::string& name, Needs& needs) {
     const float glow = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
     if (optics.unlit != 0) needs.add(Effect::emission, name + " is unlit");
-    if (glow > 0 && optics.unlit == 0) needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
+    if (glow > 0 && optics.unlit == 0)
+        needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
     const float mirror = std::max({optics.mirror.x, optics.mirror.y, optics.mirror.z});
     if (mirror > 0) needs.add(Effect::reflection, fmt::format("{} is a mirror of reflectance {:g}", name, mirror));
     if (!(optics.transmission > 0)) return;
@@ -123,8 +124,8 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     }
     if (prepared.culled_node != PreparedScene::never) {
         const std::uint32_t node = prepared.culled_node;
-        needs.add(Effect::cutouts, label("node", scene.nodes[node].name, node) +
-                                       " has single-sided faces that may be seen from behind");
+        needs.add(Effect::cutouts,
+                  label("node", scene.nodes[node].name, node) + " has single-sided faces that may be seen from behind");
     }
     add_surroundings(scene, prepared, needs);
     if (!prepared.area_lights.empty()) {

@@ -123,16 +123,16 @@ class Poser {
             const auto read = [&](const Json& accessor, Components components, const char* what) {
                 const std::string where = fmt::format("{}.attributes.{}_{}", path, what, set);
                 budget_.spend(source_.document, where, 4 * vertices);
-                auto values = read_accessor(source_, accessor.get<std::size_t>(),
-                                            {"VEC4", components, "a skinned mesh", where});
+                auto values =
+                    read_accessor(source_, accessor.get<std::size_t>(), {"VEC4", components, "a skinned mesh", where});
                 if (values.size() != 4 * vertices) {
                     source_.document.fail(where, fmt::format("has {} elements, but POSITION has {}; make them equal",
                                                              values.size() / 4, vertices));
                 }
                 return values;
             };
-            sets.push_back({read(*joints, Components::quantised, "JOINTS"),
-                            read(*weights, Components::normalised, "WEIGHTS")});
+            sets.push_back(
+                {read(*joints, Components::quantised, "JOINTS"), read(*weights, Components::normalised, "WEIGHTS")});
         }
     }
 
@@ -209,7 +209,7 @@ class Poser {
     Scene& scene_;
     ImportReport& report_;
     Budget budget_;
-    std::vector<Transform> world_from_node_;  ///< at rest
+    std::vector<Transform> world_from_node_;                                               ///< at rest
     std::map<std::pair<std::uint32_t, std::size_t>, std::optional<std::uint32_t>> posed_;  ///< by mesh and skin
 };
 

@@ -39,8 +39,7 @@ class TriangleReader {
         if (!sets.empty()) mesh.texcoords.resize(sets.back() + 1);
         for (const std::uint32_t set : sets) {
             const std::string name = fmt::format("TEXCOORD_{}", set);
-            mesh.texcoords[set] =
-                vectors<Vec2f>(name.c_str(), "VEC2", Components::normalised, Components::quantised);
+            mesh.texcoords[set] = vectors<Vec2f>(name.c_str(), "VEC2", Components::normalised, Components::quantised);
         }
         mesh.colours = colours();
         mesh.triangles = triangles(corners());
@@ -84,8 +83,8 @@ class TriangleReader {
         budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
         std::vector<float> values;
         try {
-            values = read_accessor(source_, accessor, {width == 4 ? "VEC4" : "VEC3", Components::normalised,
-                                                       "vertex colours", where});
+            values = read_accessor(source_, accessor,
+                                   {width == 4 ? "VEC4" : "VEC3", Components::normalised, "vertex colours", where});
         } catch (const InputError& error) {
             report_.add(Treatment::ignored, "vertex colours", where, error.what());
             return {};
@@ -100,8 +99,9 @@ class TriangleReader {
             value = std::clamp(value, 0.0F, 1.0F);
         }
         report_.add(in_range ? Treatment::rendered : Treatment::approximated, "vertex colours", where,
-                    in_range ? "linear; multiply the base colour" : "linear; multiply the base colour; some lie outside "
-                                                                    "of 0 to 1 and count as the nearer end");
+                    in_range ? "linear; multiply the base colour"
+                             : "linear; multiply the base colour; some lie outside "
+                               "of 0 to 1 and count as the nearer end");
         if (std::all_of(values.begin(), values.end(), [](float value) { return value == 1; })) return {};
         std::vector<VertexColour> result(vertices_);
         for (std::size_t i = 0; i < vertices_; ++i) {

@@ -89,8 +89,7 @@ std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttribu
         if (inner(sum, sum) > 0x1p-40L) normal = unit(sum);
     }
     if (is_double_sided(attributes) && inner(own, line.direction) > 0) normal = normal * -1;
-    return SurfaceHit{t,      normal,
-                      own,    {corners.number[0], corners.number[1], corners.number[2]},
+    return SurfaceHit{t,      normal,          own, {corners.number[0], corners.number[1], corners.number[2]},
                       weight, attributes.sides};
 }
 

@@ -68,9 +68,10 @@ TexturePoint on_face(const SceneView& scene, const FaceAttributes& attributes, c
                      const SurfaceHit& hit, std::uint32_t slot) {
     static constexpr Vec2f square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     static constexpr Vec2f half[] = {{0, 0}, {1, 0}, {0, 1}};
-    const Vec2f* uv = attributes.texcoords != no_attributes ? scene.texcoords + attributes.texcoords + slot * (is_quad ? 4U : 3U)
-                      : is_quad                             ? square
-                                                            : half;
+    const Vec2f* uv = attributes.texcoords != no_attributes
+                          ? scene.texcoords + attributes.texcoords + slot * (is_quad ? 4U : 3U)
+                      : is_quad ? square
+                                : half;
     const Vec2f a = uv[hit.corner[0]], b = uv[hit.corner[1]], c = uv[hit.corner[2]];
     TexturePoint at{};
     at.u = Real{a.x} * hit.weight.x + Real{b.x} * hit.weight.y + Real{c.x} * hit.weight.z;
@@ -167,7 +168,9 @@ Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& poi
     const MaterialTextures& textures = scene.textures.materials[scene.material_of[id]];
     Texel colour = sample_texture(scene, textures.diffuse, texture_point(scene, id, point, hit, textures.diffuse.slot));
     bool on_face = false;
-    visit_primitive(scene, id, [&](const auto& body) { on_face = requires { body.attributes; }; });
+    visit_primitive(scene, id, [&](const auto& body) {
+        on_face = requires { body.attributes; };
+    });
     if (!on_face || textures.colour_slot == no_slot) return colour;
     const TexturePoint rg = texture_point(scene, id, point, hit, textures.colour_slot);
     const TexturePoint ba = texture_point(scene, id, point, hit, textures.colour_slot + 1);

@@ -9,8 +9,8 @@
 
 namespace tandem {
 
-/// The slots of a material's faces (FaceAttributes): one for each set of texture coordinates that it uses, in order, then
-/// two for colours, if any mesh under the material has them.
+/// The slots of a material's faces (FaceAttributes): one for each set of texture coordinates that it uses, in order,
+/// then two for colours, if any mesh under the material has them.
 struct CornerSlots {
     std::vector<std::uint32_t> texcoords;  ///< numbers of the sets, ascending
     bool has_colours = false;

@@ -9,15 +9,15 @@
 
 namespace tandem {
 
-/// Estimates for choosing among lights: a light's chance changes the noise of a picture and not its mean, as long as what
-/// emits anything has a chance.
+/// Estimates for choosing among lights: a light's chance changes the noise of a picture and not its mean, as long as
+/// what emits anything has a chance.
 class EmissiveTextures {
   public:
     /// `scene` must outlive it.
     explicit EmissiveTextures(const SceneView& scene) : scene_(scene) {}
 
-    /// About the mean over a primitive of what multiplies its emission (the mean of red, green and blue); 0 only where all
-    /// of it is black. 1 without a texture.
+    /// About the mean over a primitive of what multiplies its emission (the mean of red, green and blue); 0 only where
+    /// all of it is black. 1 without a texture.
     [[nodiscard]] double brightness(std::uint32_t primitive);
 
   private:

@@ -99,7 +99,8 @@ class Placer {
 
     static std::uint32_t next_index(std::size_t size) {
         if (size > no_attributes - 4) {
-            throw InputError("the meshes of the scene have more than 4 billion values at corners of faces; split the scene");
+            throw InputError(
+                "the meshes of the scene have more than 4 billion values at corners of faces; split the scene");
         }
         return static_cast<std::uint32_t>(size);
     }

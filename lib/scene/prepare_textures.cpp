@@ -53,9 +53,8 @@ class Preparer {
 
     PreparedTextures run() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
-        const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(), [](const auto& m) {
-            return has_picture(m) || m.alpha_cutoff > 0;
-        });
+        const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(),
+                                        [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; });
         return needed ? std::move(result_) : PreparedTextures{};
     }
 
@@ -87,7 +86,8 @@ class Preparer {
             }
         }
         // beyond the rounding of the kernels' product
-        if (!slots.has_colours && double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
+        if (!slots.has_colours &&
+            double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
             prepared.alpha = 1;
             prepared.alpha_cutoff = 0;
         }
@@ -157,7 +157,7 @@ class Preparer {
     const Scene& scene_;
     std::vector<PhongMaterial>& phong_;
     std::vector<Optics>& optics_;
-    std::vector<CornerSlots> slots_;  ///< by material
+    std::vector<CornerSlots> slots_;                                                 ///< by material
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
     std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;         ///< by image, and whether whitened
     PreparedTextures result_;

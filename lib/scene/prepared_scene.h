@@ -29,7 +29,7 @@ struct PreparedScene {
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     std::vector<Vec3f> normals;  ///< shading normals of the corners of faces (FaceAttributes): unit, world space, or 0
-    std::vector<Vec2f> texcoords;  ///< values of the corners of faces, by slot: texture coordinates, colours
+    std::vector<Vec2f> texcoords;            ///< values of the corners of faces, by slot: texture coordinates, colours
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PhongMaterial> materials;

@@ -53,7 +53,7 @@ struct VertexColour {
 struct Mesh {
     std::string name{};
     std::vector<Vec3f> positions{};
-    std::vector<Vec3f> normals{};            ///< for shading, per vertex, unit; empty: each face has its own
+    std::vector<Vec3f> normals{};  ///< for shading, per vertex, unit; empty: each face has its own
     /// Sets of texture coordinates, each per vertex. A texture needs the set that it names.
     std::vector<std::vector<Vec2f>> texcoords{};
     std::vector<VertexColour> colours{};     ///< per vertex; multiply the base colour; may be empty
@@ -126,7 +126,7 @@ struct Material {
     /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
     /// gives any (KHR_materials_unlit).
     bool unlit = false;
-    float normal_scale = 1;                             ///< of the normals' parts along the surface
+    float normal_scale = 1;  ///< of the normals' parts along the surface
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1
     float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask

@@ -85,9 +85,9 @@ class Finder {
             const auto lacking = std::find_if(sets.begin(), sets.end(), lacks);
             if (lacking == sets.end() || mesh.positions.empty()) continue;
             if (!reported_.insert({shape->mesh, geometry.material}).second) continue;
-            found_.push_back(fmt::format("{} shows a mesh without set {} of texture coordinates under the textures of {}",
-                                         label("node", node.name, index), *lacking,
-                                         label("material", material.name, geometry.material)));
+            found_.push_back(fmt::format(
+                "{} shows a mesh without set {} of texture coordinates under the textures of {}",
+                label("node", node.name, index), *lacking, label("material", material.name, geometry.material)));
         }
     }
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "gltf/files.h"
+#include "tandem/film/image_codecs.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
@@ -15,6 +16,12 @@ using test::Json;
 using test::mesh_file;
 using test::sentences;
 using test::TestFile;
+
+/// Of one pixel.
+std::string grey_png() {
+    const Bytes bytes = encode_png({1, 1, {128, 128, 255}}, {}, 1);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 class GltfMesh : public test::GltfFiles {
   protected:
@@ -59,6 +66,10 @@ TEST_F(GltfMesh, NormalsAndTextureCoordinates) {
     const std::size_t places =
         file.add_bytes("VEC2", 5121, 6, bytes_of(std::vector<std::uint8_t>{0, 255, 51, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
     primitive(file)["attributes"]["TEXCOORD_0"] = places;
+    EXPECT_TRUE(mesh_of(file).texcoords.empty()) << "no texture uses them";
+    file.json["images"] = {{{"uri", "data:image/png;base64," + test::base64(grey_png())}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"][0]["normalTexture"] = {{"index", 0}};
     const Mesh mesh = mesh_of(file);
     EXPECT_EQ(mesh.normals, std::vector<Vec3f>(6, Vec3f(0.5F, 0.5F, 0.5F)));
     EXPECT_EQ(mesh.texcoords.at(0)[0], Vec2f(0, 1));

@@ -182,7 +182,12 @@ TEST(PrepareMesh, AttributesStandByCorner) {
     mesh.quads = {3, 2, 1, 0};
     mesh.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
     mesh.texcoords = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-    const auto prepared = prepare(mesh_scene(mesh));
+    Scene scene = mesh_scene(mesh);
+    EXPECT_TRUE(prepare(scene).texcoords.empty()) << "no texture uses them";
+    scene.images = {{"picture", 2, 1, {0xFF000000U, 0xFFFFFFFFU}}};
+    scene.textures = {Texture{}};
+    scene.materials[0].diffuse_texture = TextureReference{};
+    const auto prepared = prepare(scene);
     ASSERT_EQ(prepared.normals.size(), 10U);
     ASSERT_EQ(prepared.texcoords.size(), 10U);
     EXPECT_EQ(prepared.triangles[1].attributes.normals, 3U);

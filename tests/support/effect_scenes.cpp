@@ -181,7 +181,8 @@ Scene with_pictured_lamps() {
     scene.meshes.back().texcoords = {{}, {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}}};
     return scene;
 }
-/// The sheet of textured() with colours at its vertices, whose alpha cuts, and its normals at a second set of coordinates.
+/// The sheet of textured() with colours at its vertices, whose alpha cuts, and its normals at a second set of
+/// coordinates.
 Scene with_vertex_colours() {
     Scene scene = textured(true, true, false);
     Mesh& sheet = scene.meshes[0];
