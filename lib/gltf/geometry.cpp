@@ -51,6 +51,7 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
         }
         return {};
     }
+    is_skinned_ = find(node, "skin") != nullptr;
     std::vector<Trs> instances;
     if (instancing != nullptr) instances = read_instances(*instancing, instancing_path);
 
@@ -117,7 +118,7 @@ std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t ind
     const Json* material = find(primitive, "material");
     std::vector<std::uint32_t> sets;
     if (material != nullptr) sets = texcoord_sets(scene_.materials[material->get<std::size_t>()]);
-    if (!has_triangles(primitive, sets, path, report_)) return std::nullopt;
+    if (!has_triangles(primitive, sets, is_skinned_, path, report_)) return std::nullopt;
     const auto [known, is_new] =
         mesh_of_.try_emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size()));
     if (is_new) {

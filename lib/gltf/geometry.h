@@ -52,6 +52,7 @@ class GeometryReader {
     Scene& scene_;
     ImportReport& report_;
     Budget budget_;
+    bool is_skinned_ = false;  ///< the node that is read
     std::optional<std::uint32_t> default_material_;
     std::map<Primitive, std::uint32_t> mesh_of_;
     std::vector<Primitive> primitives_;  ///< by mesh of the scene

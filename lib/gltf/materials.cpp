@@ -31,7 +31,9 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         const std::string path = fmt::format("materials[{}]", i);
         Material material{read.name, {}};
         material.optics = read_optics((*described)[i], path, report);
-        if (const Json* phong = find_extension((*described)[i], "TANDEM_materials_phong")) {
+        const Json* phong = find_extension((*described)[i], "TANDEM_materials_phong");
+        material.unlit = find_extension((*described)[i], unlit_name) != nullptr;
+        if (phong != nullptr && !material.unlit) {
             const PhongMaterial absent;
             material.phong = {
                 read_colour(*phong, "ambient", absent.ambient), read_colour(*phong, "diffuse", absent.diffuse),
@@ -41,14 +43,15 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         } else {
             const std::vector<double>& c = read.pbrMetallicRoughness.baseColorFactor;
             material.phong = phong_from_base_colour(narrow(Vec3d{c[0], c[1], c[2]}));
-            report.add(Treatment::approximated, "metallic-roughness material", path,
-                       "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
-                       "shininess 32");
+            if (!material.unlit)
+                report.add(
+                    Treatment::approximated, "metallic-roughness material", path,
+                    "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
+                    "shininess 32");
         }
-        // the far side of a body of glass has to be there
-        if (!(material.optics.transmission > 0)) material.sides = FaceSides::culled;
-        if (find_extension((*described)[i], unlit_name) != nullptr) {
-            material.unlit = true;
+        // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
+        if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
+        if (material.unlit) {
             report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),
                        "the base colour is what is seen; no light changes it, and it lights nothing");
         }

@@ -82,6 +82,9 @@ class Poser {
         if (is_new) {
             try {
                 known->second = pose_mesh(shape->mesh, skin);
+                if (!known->second) {
+                    report_.add(Treatment::ignored, "skin", path, "the mesh has no JOINTS_0 and WEIGHTS_0");
+                }
             } catch (const InputError& error) {
                 report_.add(Treatment::ignored, "skin", path, error.what());
             }

@@ -167,11 +167,13 @@ class TriangleReader {
 namespace {
 
 /// Why an attribute is not in the picture; null if it is, or if another reader says so.
-const char* why_ignored_attribute(const std::string& name, const std::vector<std::uint32_t>& sets) {
+const char* why_ignored_attribute(const std::string& name, const std::vector<std::uint32_t>& sets, bool is_skinned) {
     for (const char* known : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"}) {
         if (name == known) return nullptr;
     }
-    if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) return nullptr;  // skins.h
+    if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
+        return is_skinned ? nullptr : "no node with a skin shows the mesh here";
+    }
     const auto is_used = [&](std::uint32_t set) { return name == fmt::format("TEXCOORD_{}", set); };
     if (std::any_of(sets.begin(), sets.end(), is_used)) return nullptr;
     if (name.starts_with("TEXCOORD_")) return "no texture that Tandem renders uses it";
@@ -182,8 +184,8 @@ const char* why_ignored_attribute(const std::string& name, const std::vector<std
 
 }  // namespace
 
-bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, const std::string& path,
-                   ImportReport& report) {
+bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, bool is_skinned,
+                   const std::string& path, ImportReport& report) {
     const std::uint64_t mode = mode_of(primitive);
     if (mode < triangle_list || mode > triangle_fan) {
         report.add(Treatment::ignored, mode_name(mode), path, "Tandem renders surfaces only");
@@ -196,7 +198,7 @@ bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets
     }
     report.add(Treatment::rendered, mode_name(mode), path, "its triangles, without gaps between them");
     for (const auto& [name, index] : attributes->items()) {
-        const char* reason = why_ignored_attribute(name, sets);
+        const char* reason = why_ignored_attribute(name, sets, is_skinned);
         if (reason == nullptr) continue;
         report.add(Treatment::ignored, fmt::format("attribute {}", name), fmt::format("{}.attributes.{}", path, name),
                    reason);

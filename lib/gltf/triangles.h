@@ -19,9 +19,10 @@ inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
 inline constexpr std::uint32_t last_texcoord = 15;
 
 /// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
-/// which attributes are ignored. `sets`: of texture coordinates, those that its material uses.
-[[nodiscard]] bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, const std::string& path,
-                                 ImportReport& report);
+/// which attributes are ignored. `sets`: of texture coordinates, those that its material uses. `is_skinned`: the node
+/// has a skin.
+[[nodiscard]] bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, bool is_skinned,
+                                 const std::string& path, ImportReport& report);
 
 /// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and where there are
 /// some, normals, the texture coordinates of `sets`, and colours.

@@ -56,9 +56,9 @@ struct Mesh {
     std::vector<Vec3f> normals{};  ///< for shading, per vertex, unit; empty: each face has its own
     /// Sets of texture coordinates, each per vertex. A texture needs the set that it names.
     std::vector<std::vector<Vec2f>> texcoords{};
-    std::vector<VertexColour> colours{};     ///< per vertex; multiply the base colour; may be empty
     std::vector<std::uint32_t> triangles{};  ///< three vertices each
     std::vector<std::uint32_t> quads{};      ///< four vertices each
+    std::vector<VertexColour> colours{};     ///< per vertex; multiply the base colour; may be empty
     bool is_closed = false;  ///< its faces enclose a volume, and their fronts look outward (mesh_topology.h)
 };
 

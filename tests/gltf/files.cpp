@@ -36,7 +36,8 @@ std::size_t TestFile::add_bytes(const std::string& type, int component_type, std
 }
 
 std::size_t TestFile::add_floats(const std::string& type, const std::vector<float>& values) {
-    const std::size_t width = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    const std::size_t size = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    const std::size_t width = type.starts_with("MAT") ? size * size : size;
     return add_bytes(type, 5126, values.size() / width, bytes_of(values));
 }
 

@@ -120,7 +120,7 @@ TEST_F(GltfMesh, InstancesRepeatIt) {
 TEST_F(GltfMesh, ReportsWhatItLeavesOut) {
     TestFile file = mesh_file();
     const Json positions = primitive(file)["attributes"]["POSITION"];
-    for (const char* name : {"COLOR_0", "TANGENT", "JOINTS_0", "WEIGHTS_0", "TEXCOORD_1"}) {
+    for (const char* name : {"COLOR_1", "TANGENT", "JOINTS_0", "WEIGHTS_0", "TEXCOORD_1"}) {
         primitive(file)["attributes"][name] = positions;
     }
     Json lines = primitive(file);
@@ -135,9 +135,9 @@ TEST_F(GltfMesh, ReportsWhatItLeavesOut) {
     for (const char* sentence :
          {"rendered: triangle mesh at meshes[0].primitives[0]: ", "ignored: line strip at meshes[0].primitives[1]: ",
           "ignored: triangle mesh at meshes[0].primitives[2]: it has no positions",
-          "ignored: attribute COLOR_0 at meshes[0].primitives[0].attributes.COLOR_0: ",
+          "ignored: attribute COLOR_1 at meshes[0].primitives[0].attributes.COLOR_1: ",
           "ignored: attribute TANGENT at meshes[0].primitives[0].attributes.TANGENT: ",
-          "ignored: attribute JOINTS_0 at meshes[0].primitives[0].attributes.JOINTS_0: Tandem does not render skins",
+          "ignored: attribute JOINTS_0 at meshes[0].primitives[0].attributes.JOINTS_0: no node with a skin",
           "ignored: attribute WEIGHTS_0 at ", "ignored: attribute TEXCOORD_1 at "}) {
         EXPECT_TRUE(contains(report, sentence));
     }
@@ -212,6 +212,9 @@ INSTANTIATE_TEST_SUITE_P(
         MeshFlaw{"texcoord_count",
                  [](TestFile& f, Json& p) {
                      p["attributes"]["TEXCOORD_0"] = f.add_floats("VEC2", {0, 0});
+                     f.json["images"] = {{{"uri", "data:image/png;base64," + test::base64(grey_png())}}};
+                     f.json["textures"] = {{{"source", 0}}};
+                     f.json["materials"][0]["normalTexture"] = {{"index", 0}};
                  },
                  "attributes.TEXCOORD_0: has 1 elements, but POSITION has 6"},
         MeshFlaw{"no_accessor", [](TestFile&, Json& p) { p["attributes"]["POSITION"] = 77; },

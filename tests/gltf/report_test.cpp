@@ -85,8 +85,8 @@ TEST_F(Report, NamesTexturesSkinsAndMorphTargets) {
     for (const char* sentence :
          {"rendered: triangle mesh at meshes[1].primitives[0]: ", "ignored: lines at meshes[1].primitives[1]: ",
           "ignored: morph targets at meshes[1].primitives[0].targets: ",
-          "ignored: morph weights at meshes[1].weights: ", "ignored: node skin at nodes[1].skin: ",
-          "ignored: skin at skins[0]: ", "ignored: image at images[0]: ", "ignored: texture sampler at samplers[0]: ",
+          "ignored: morph weights at meshes[1].weights: ", "ignored: skin at nodes[1].skin: the mesh has no JOINTS_0",
+          "ignored: image at images[0]: ", "ignored: texture sampler at samplers[0]: ",
           "ignored: texture at textures[0]: ",
           "ignored: metallic-roughness texture at materials[0].pbrMetallicRoughness.metallicRoughnessTexture: ",
           "ignored: occlusion texture at materials[0].occlusionTexture: ",

@@ -38,7 +38,7 @@ bool shines(const PreparedScene& scene, const std::vector<Vec2f>& uv) {
     constexpr int steps = 96;
     for (int i = 0; i <= steps; ++i) {
         for (int k = 0; k <= steps - i; ++k) {
-            const double b = double{i} / steps, c = double{k} / steps, a = 1 - b - c;
+            const double b = 1.0 * i / steps, c = 1.0 * k / steps, a = 1 - b - c;
             const auto along = [&](auto member) { return a * member(uv[0]) + b * member(uv[1]) + c * member(uv[2]); };
             const double u = along([](const Vec2f& p) { return double{p.x}; });
             const double v = along([](const Vec2f& p) { return double{p.y}; });

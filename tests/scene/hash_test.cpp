@@ -18,8 +18,8 @@ PreparedScene one_of_each() {
          {static_cast<Placement*>(&scene.ellipsoids[0]), static_cast<Placement*>(&scene.parallelepipeds[0])}) {
         *placement = {{}, {1, 2, 3}, {{1, 2, 3}, 2}, {1, 1, 1}};
     }
-    scene.triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}}};
-    scene.quads = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 3, 0}}};
+    scene.triangles = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, FaceSides::single_sided}}};
+    scene.quads = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 3, FaceSides::single_sided}}};
     scene.normals.assign(7, Vec3f{0, 0, 1});
     scene.texcoords.assign(7, Vec2f{0, 1});
     scene.material_of = {0, 0, 0, 0, 0, 0};

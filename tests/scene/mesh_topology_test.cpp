@@ -57,7 +57,7 @@ TEST(MeshTopology, QuadsAndTrianglesCloseTogether) {
     EXPECT_FALSE(is_closed(prism));
 }
 
-/// A ball of radius 0.5 around the origin under a culled material, seen from `eye`.
+/// A ball of radius 1 around the origin under a culled material, seen from `eye`.
 Scene seen_from(const Vec3d& eye, const Camera& camera, bool closed) {
     Scene scene;
     scene.meshes = {ball()};
@@ -81,8 +81,8 @@ TEST(Culling, CostsNothingWhereNoBackCanBeSeen) {
     EXPECT_FALSE(culls({0, 0, 3}, PerspectiveCamera{}, true));
     EXPECT_TRUE(culls({0, 0, 3}, PerspectiveCamera{}, false)) << "an open mesh";
     EXPECT_TRUE(culls({0.1, 0, 0}, PerspectiveCamera{}, true)) << "the camera stands inside";
-    EXPECT_FALSE(culls({0, 0, 0.7}, PerspectiveCamera{.lens = {0.1, 3}}, true));
-    EXPECT_TRUE(culls({0, 0, 0.55}, PerspectiveCamera{.lens = {0.1, 3}}, true)) << "the lens reaches inside";
+    EXPECT_FALSE(culls({0, 0, 1.3}, PerspectiveCamera{.lens = {0.1, 3}}, true));
+    EXPECT_TRUE(culls({0, 0, 1.05}, PerspectiveCamera{.lens = {0.1, 3}}, true)) << "the lens reaches inside";
     EXPECT_FALSE(culls({5, 0, 3}, OrthographicCamera{1}, true));
     EXPECT_TRUE(culls({5, 0, 0.2}, OrthographicCamera{1}, true)) << "its plane crosses the ball";
 }

@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
                  s.meshes = {{"sheet", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {0, 1, 2}, {}}};
                  s.nodes[1].geometry = {{MeshShape{0}, 0, {}}, {MeshShape{0}, 0, {}}};
              },
-             "node 'body' shows a mesh without texture coordinates under the textures of material 'plain'"}),
+             "node 'body' shows a mesh without set 0 of texture coordinates under the textures of material 'plain'"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -96,14 +96,24 @@ INSTANTIATE_TEST_SUITE_P(
              "mesh 'cup' has a normal"},
         Flaw{"texcoord_count",
              [](Scene& s) {
-                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{0, 0}, {0, 1}}}};
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{{0, 0}, {0, 1}}}}};
              },
              "mesh 'cup' has a number of texture coordinates"},
         Flaw{"texcoord",
              [](Scene& s) {
-                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{0, nan_f}}}};
+                 s.meshes = {{"cup", {{0, 0, 0}}, {}, {{{0, nan_f}}}}};
              },
              "mesh 'cup' has a texture coordinate"},
+        Flaw{"colour_count",
+             [](Scene& s) {
+                 s.meshes = {{.name = "cup", .positions = {{0, 0, 0}}, .colours = {{}, {}}}};
+             },
+             "mesh 'cup' has a number of colours"},
+        Flaw{"colour",
+             [](Scene& s) {
+                 s.meshes = {{.name = "cup", .positions = {{0, 0, 0}}, .colours = {{{0, 2, 0}, 1}}}};
+             },
+             "mesh 'cup' has a vertex colour outside [0, 1]"},
         Flaw{"triangle_count",
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {0, 0, 0, 0}}};
