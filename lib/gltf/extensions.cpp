@@ -7,7 +7,7 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 16> rendered = {
+constexpr std::array<std::string_view, 17> rendered = {
     "EXT_implicit_geometry",
     "EXT_mesh_gpu_instancing",
     "KHR_implicit_shapes",
@@ -20,6 +20,7 @@ constexpr std::array<std::string_view, 16> rendered = {
     "KHR_texture_transform",
     "TANDEM_camera_lens",
     "TANDEM_camera_shutter",
+    "TANDEM_display",
     "TANDEM_environment",
     "TANDEM_lights_phong",
     "TANDEM_materials_dielectric",
