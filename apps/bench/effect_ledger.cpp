@@ -21,7 +21,8 @@ constexpr int picture_width = 480;
 /// The films of one ledger's first frames, compared with the whole set's as they come.
 class FirstFrames {
   public:
-    FirstFrames(Ledger& ledger, bool with_pictures) : ledger_(ledger), with_pictures_(with_pictures) {}
+    FirstFrames(Ledger& ledger, const Display& display, bool with_pictures)
+        : ledger_(ledger), display_(display), with_pictures_(with_pictures) {}
 
     void add(LedgerRow row, TimedFrame first) {
         row.hash = film_hash(first.film);
@@ -33,30 +34,30 @@ class FirstFrames {
             whole_film_ = std::move(first.film);
             whole_image_ = std::move(image);
         } else {
-            const FlipDifference difference = flip(whole_image_, image);
+            const FlipDifference difference = flip(whole_image_, image, {.display = display_});
             row.rmse = compare(whole_film_, first.film).rms;
             row.flip = difference.mean;
             row.row.figures = {{"RMSE", row.rmse}, {"mean FLIP", row.flip}};
-            if (with_pictures_ && row.arm.effect) add_pictures(row, first.film, difference);
+            if (with_pictures_ && row.arm.effect) add_pictures(row, image, difference);
         }
         ledger_.rows.push_back(std::move(row));
     }
 
   private:
-    void add_pictures(const LedgerRow& row, const Film& film, const FlipDifference& difference) {
-        const auto small = [](const Film& of, const std::string& caption) {
-            return small_picture(of, picture_width, caption);
+    void add_pictures(const LedgerRow& row, const FloatImage& image, const FlipDifference& difference) {
+        const auto small = [](const FloatImage& of, const std::string& caption, const Display& display) {
+            return small_picture(of, picture_width, caption, display);
         };
-        const FloatImage map = flip_map(difference);
-        Film map_film(map.width, map.height, 1);
-        for (std::size_t i = 0; i < map.pixels.size(); ++i) map_film.sums()[i] = widen(map.pixels[i]);
-        ledger_.pictures.push_back(PictureGrid{
-            {small(whole_film_, "The whole set"),
-             small(film, fmt::format("{}: RMSE {}", row.arm.name(), format_number(row.rmse))),
-             small(map_film, fmt::format("FLIP between the two: mean {}; black 0, pale 1", format_number(row.flip)))}});
+        ledger_.pictures.push_back(
+            PictureGrid{{small(whole_image_, "The whole set", display_),
+                         small(image, fmt::format("{}: RMSE {}", row.arm.name(), format_number(row.rmse)), display_),
+                         small(flip_map(difference),
+                               fmt::format("FLIP between the two: mean {}; black 0, pale 1", format_number(row.flip)),
+                               {TransferFunction::linear})}});
     }
 
     Ledger& ledger_;
+    const Display& display_;
     bool with_pictures_;
     Film whole_film_;
     FloatImage whole_image_;
@@ -159,7 +160,7 @@ std::vector<Ledger> measure_ledgers(const EffectsOptions& options, const std::st
             const bool exact = backend.exact->capabilities().exact && tier != Tier::fast;
             Ledger& ledger = ledgers.emplace_back(Ledger{name, backend.name, tier, exact, {}, {}});
             const RenderJob job{options.size.width, options.size.height, options.samples, options.seed, 0, tier};
-            FirstFrames first(ledger, &backend == &backends.front());
+            FirstFrames first(ledger, scene.display, &backend == &backends.front());
             for (const LedgerArm& arm : plan.arms) {
                 Backend& runs = backend.of(arm.kind);
                 entries.push_back({&runs, job, ledgers.size() - 1, ledger.rows.size()});

@@ -61,7 +61,8 @@ class PaperRun {
             compare_films(frame);
             result_.film_hashes.push_back(film_hash(output_film()));
             if (std::binary_search(shown.begin(), shown.end(), frame)) {
-                result_.pictures.push_back(small_picture(output_film(), picture_width, fmt::format("Frame {}", frame)));
+                result_.pictures.push_back(small_picture(film_to_image(output_film()), picture_width,
+                                                         fmt::format("Frame {}", frame), scene_.display));
             }
         }
         std::filesystem::remove(text_path_);
@@ -219,7 +220,7 @@ class PaperRun {
         record(result_.rows.whole, frame, timed.everything, timed);
         const auto write = [&](BenchmarkRow& row, const std::string& path) {
             const Stopwatch watch;
-            write_picture(path, timed.film, metadata);
+            write_picture(path, timed.film, metadata, scene_.display);
             const double seconds = watch.seconds();
             record(row, frame, timed.everything + seconds, timed);
             phase(row, "encode and write").seconds.push_back(seconds);

@@ -41,8 +41,9 @@ ImageMetadata describe_picture(const RenderJob& job, const std::string& backend)
     return metadata;
 }
 
-void write_picture(const std::string& path, Film film, const ImageMetadata& metadata) {
-    write_image(path, std::move(film), metadata, {.ppm_text = true, .durability = Durability::written});
+void write_picture(const std::string& path, Film film, const ImageMetadata& metadata, const Display& display) {
+    write_image(path, std::move(film), metadata,
+                {.ppm_text = true, .durability = Durability::written, .display = display});
 }
 
 Film film_of(std::span<const float> rgb, int width, int height) {
@@ -53,9 +54,9 @@ Film film_of(std::span<const float> rgb, int width, int height) {
     return film;
 }
 
-Picture small_picture(const Film& film, int most_width, const std::string& caption) {
-    const FloatImage image = shrunk(film_to_image(film), (film.width() + most_width - 1) / most_width);
-    const EncodedImage png = encode_image(image, ImageFormat::png, {}, {.png_level = 9});
+Picture small_picture(const FloatImage& image, int most_width, const std::string& caption, const Display& display) {
+    const FloatImage small = shrunk(image, (image.width + most_width - 1) / most_width);
+    const EncodedImage png = encode_image(small, ImageFormat::png, {}, {.png_level = 9, .display = display});
     return {caption, {reinterpret_cast<const char*>(png.bytes.data()), png.bytes.size()}};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tandem/film/film.h"
+#include "tandem/film/image.h"
 #include "tandem/film/image_metadata.h"
 #include "tandem/render/render_job.h"
 #include "tandem/report/report.h"
@@ -14,14 +15,15 @@ namespace tandem::bench {
 /// What a file says about itself, without the hashes: they cost more than the encoding and are in the report.
 [[nodiscard]] ImageMetadata describe_picture(const RenderJob& job, const std::string& backend);
 
-/// By the extension; .ppm becomes P3 text, as the paper wrote it.
-void write_picture(const std::string& path, Film film, const ImageMetadata& metadata);
+/// By the extension; .ppm becomes P3 text, as the paper wrote it. `display`: Scene::display.
+void write_picture(const std::string& path, Film film, const ImageMetadata& metadata, const Display& display);
 
 /// A film of colours that something else than Tandem made: 3 * width * height floats from the top left.
 [[nodiscard]] Film film_of(std::span<const float> rgb, int width, int height);
 
 /// For a page: shrunk by whole steps until it is at most `most_width` pixels wide, each pixel the mean of those it
-/// covers.
-[[nodiscard]] Picture small_picture(const Film& film, int most_width, const std::string& caption);
+/// covers. `display`: Scene::display.
+[[nodiscard]] Picture small_picture(const FloatImage& image, int most_width, const std::string& caption,
+                                    const Display& display);
 
 }  // namespace tandem::bench

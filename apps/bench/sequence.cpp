@@ -120,10 +120,10 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
         if (options.output == SequenceOutput::none) return;
         RenderJob done = job;
         done.frame = static_cast<std::uint32_t>(oldest.frame);
-        times.blocked += encoders.add([film = std::move(result.film), done, &options, &backend]() mutable {
+        times.blocked += encoders.add([film = std::move(result.film), done, &options, &scene, &backend]() mutable {
             const bool png = options.output == SequenceOutput::png;
             write_picture(fmt::format("{}/frame-{:04}.{}", options.folder, done.frame, png ? "png" : "ppm"),
-                          std::move(film), describe_picture(done, backend.name()));
+                          std::move(film), describe_picture(done, backend.name()), scene.display);
         });
     };
 

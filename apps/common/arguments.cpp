@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tandem/error/error.h"
+#include "tandem/film/display.h"
 
 namespace tandem {
 
@@ -42,6 +43,19 @@ FrameRange parse_frames(const std::string& text) {
         throw InputError(fmt::format("--frames is '{}', but must be a frame or a range, like 7 or 0-119", text));
     }
     return {*first, *last};
+}
+
+ExposureChoice parse_exposure(const std::string& text) {
+    if (text == "auto") return {.automatic = true};
+    double stops = 0;
+    // from_chars() takes no plus sign
+    const char* const start = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
+    const auto [end, error] = std::from_chars(start, text.data() + text.size(), stops);
+    if (error != std::errc() || end != text.data() + text.size() || !is_exposure(stops)) {
+        throw InputError(fmt::format("--exposure is '{}', but must be stops from {} to {}, like -2.5, or auto", text,
+                                     -most_exposure_stops, most_exposure_stops));
+    }
+    return {.stops = stops};
 }
 
 }  // namespace tandem

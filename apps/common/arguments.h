@@ -25,4 +25,15 @@ struct FrameRange {
 /// "0-119" or "7". Throws InputError that shows the form.
 [[nodiscard]] FrameRange parse_frames(const std::string& text);
 
+/// How 8-bit pictures are exposed.
+struct ExposureChoice {
+    bool automatic = false;  ///< as the first frame calls for
+    double stops = 0;        ///< if not
+
+    bool operator==(const ExposureChoice&) const = default;
+};
+
+/// "-2.5" or "auto". Throws InputError that shows the form.
+[[nodiscard]] ExposureChoice parse_exposure(const std::string& text);
+
 }  // namespace tandem

@@ -235,6 +235,8 @@ Json describe(const std::string& specification, const Scene& scene, const Import
                                   {"ambient", colour(environment.ambient)},
                                   {"illuminates", environment.illuminates != 0},
                                   {"indirect", environment.indirect != 0}};
+    description["display"] = {{"transfer", to_string(scene.display.transfer)},
+                              {"exposure_stops", scene.display.exposure_stops}};
     description["animation"] = describe_animation(scene);
     description["report"] = std::move(notes);
     return description;
@@ -272,6 +274,9 @@ std::string to_text(const Json& description) {
                         components(environment["ambient"]),
                         environment["illuminates"].get<bool>() ? ", lights surfaces" : "",
                         environment["indirect"].get<bool>() ? ", indirect light" : "");
+    const Json& display = description["display"];
+    text += fmt::format("8-bit pictures: {}\n", in_words({parse_transfer(display["transfer"].get<std::string>()),
+                                                          display["exposure_stops"].get<double>()}));
     const Json& animation = description["animation"];
     text += fmt::format("animation: {} channels, {} keys, {} frames at {:g} a second\n",
                         animation["channels"].get<std::size_t>(), animation["keys"].get<std::size_t>(),

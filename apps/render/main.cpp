@@ -1,6 +1,7 @@
 /// tandem-render: frames of a scene as image files. docs/images.md has the formats, names and resumption.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <optional>
 
 #include "common/arguments.h"
 #include "common/run_main.h"
@@ -26,7 +27,8 @@ struct Words {
     std::string limits = to_string(PathLimits{});
     std::string backend = "cpu";
     std::string specialise = "always";
-    int instants = 0;  // 0: as the cameras say
+    int instants = 0;                               // 0: as the cameras say
+    std::optional<std::string> exposure, transfer;  // as the scene says if not given
 };
 
 void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
@@ -69,6 +71,16 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     app.add_option("--specialise", words.specialise, "GPU: make a kernel for the scene always, or never")
         ->capture_default_str();
+    app.add_option(
+           "--exposure", words.exposure,
+           "of .png and .ppm: stops by which the picture is made brighter, or auto: the first frame decides for "
+           "all; what the scene says if not given")
+        ->type_name("STOPS|auto");
+    app.add_option(
+           "--transfer", words.transfer,
+           "of .png and .ppm: the function from light to the values of the file, srgb or linear; what the scene "
+           "says if not given")
+        ->type_name("srgb|linear");
     app.add_option("--json", command.json, "write times, hashes and counts there; - is standard output");
     app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as P3 text instead of P6");
     app.add_option("--png-level", sequence.write.png_level, "compression of .png, 0 to 9")
@@ -92,6 +104,13 @@ void say_what_is_not_rendered(const ImportReport& report) {
     }
 }
 
+void say_what_the_format_leaves_out(const SequenceOptions& options) {
+    if (!holds_floats(format_of(options.output, options.write)) || (!options.exposure && !options.transfer)) return;
+    std::fprintf(stderr,
+                 "tandem-render: --exposure and --transfer do not change '%s': .pfm and .exr hold the linear film\n",
+                 options.output.c_str());
+}
+
 int render(int argc, char** argv) {
     CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
     RenderCommand command;
@@ -110,6 +129,8 @@ int render(int argc, char** argv) {
     sequence.job.tier = parse_tier(words.tier);
     sequence.job.limits = parse_limits(words.limits);
     sequence.effects = parse_effects(words.effects);
+    if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);
+    if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
     check(sequence.job);
 
     const std::atomic<bool>& interrupted = watch_interrupts();
@@ -119,6 +140,7 @@ int render(int argc, char** argv) {
     if (!command.quiet) say_what_is_not_rendered(import);
     sequence.frames = frames_of(words, scene);
     check_output(sequence);
+    if (!command.quiet) say_what_the_format_leaves_out(sequence);
     backend_options.specialise = parse_specialise(words.specialise);
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     return run_render(command, scene, *backend, interrupted);

@@ -1,8 +1,11 @@
 #include "render/render_command.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "render/progress.h"
 #include "render/render_report.h"
@@ -30,6 +33,17 @@ void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_
     std::fputc('\n', stderr);
 }
 
+/// What the first frame decided; nothing for files of floats.
+void say_exposure(const FrameRecord& first) {
+    const ImageMetadata& metadata = first.metadata;
+    if (metadata.exposure_rule.empty()) return;
+    const std::string source =
+        first.skipped ? fmt::format("that of '{}'", first.file) : fmt::format("found from frame {}", metadata.frame);
+    const std::string sentence =
+        fmt::format("the exposure is {0} stops, {1}; --exposure {0} gives the same", metadata.exposure_stops, source);
+    std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
+}
+
 }  // namespace
 
 int run_render(const RenderCommand& command, const Scene& scene, Backend& backend,
@@ -41,10 +55,14 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     if (keeps_records && command.json != "-") check_can_write(command.json);
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    const auto& exposure = command.sequence.exposure;
+    const bool finds_exposure = exposure && exposure->automatic && !command.quiet;
+    bool exposure_is_said = false;
     ProgressBar progress(total, !command.quiet && stderr_is_terminal());
     const auto on_frame = [&](const FrameRecord& record) {
         progress.advance(!record.skipped);
         progress.clear();
+        if (finds_exposure && !std::exchange(exposure_is_said, true)) say_exposure(record);
         if (prints_lines) {
             std::puts(frame_line(record).c_str());
             std::fflush(stdout);

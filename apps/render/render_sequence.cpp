@@ -13,6 +13,8 @@
 
 #include "render/frame_pattern.h"
 #include "tandem/error/error.h"
+#include "tandem/film/exposure.h"
+#include "tandem/render/foreground.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/version/version.h"
@@ -22,6 +24,9 @@ namespace tandem {
 namespace {
 
 constexpr std::size_t most_with_backend = 2;
+
+/// ImageMetadata::exposure_rule.
+constexpr const char* automatic_exposure = "auto";
 
 /// Seconds from one call to the next.
 class Stopwatch {
@@ -44,8 +49,10 @@ std::size_t writer_count(const SequenceOptions& options) {
     return std::clamp<std::size_t>((std::size_t{1} << 32) / film_bytes, 1, wanted);
 }
 
-/// What the file at `path` says about itself, if it is what rendering `wanted` would give.
-std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat format, ImageMetadata wanted) {
+/// What the file at `path` says about itself, if it is what rendering `wanted` would give. `any_exposure`: with
+/// whatever exposure, as long as it was found automatically.
+std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat format, ImageMetadata wanted,
+                                            bool any_exposure) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return std::nullopt;
     try {
@@ -54,6 +61,11 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
         if (file.image.width != wanted.width || file.image.height != wanted.height) return std::nullopt;
         wanted.film_sha256 = file.metadata->film_sha256;
         wanted.backend = file.metadata->backend;
+        if (any_exposure) {
+            if (wanted.exposure_rule != file.metadata->exposure_rule) return std::nullopt;
+            wanted.exposure_stops = file.metadata->exposure_stops;
+        }
+        wanted.exposure_rule = file.metadata->exposure_rule;
         return wanted == *file.metadata ? file.metadata : std::nullopt;
     } catch (const InputError&) {
         return std::nullopt;  // damaged, or of another program
@@ -83,7 +95,14 @@ class Sequence {
           on_frame_(on_frame),
           pattern_(options.output),
           format_(format_of(options.output, options.write)),
-          most_writing_(writer_count(options)) {}
+          write_(options.write),
+          exposure_is_open_(options.exposure && options.exposure->automatic && !holds_floats(format_)),
+          exposure_rule_(exposure_is_open_ ? automatic_exposure : ""),
+          most_writing_(writer_count(options)) {
+        write_.display = scene.display;
+        if (options.transfer) write_.display.transfer = *options.transfer;
+        if (options.exposure) write_.display.exposure_stops = options.exposure->stops;
+    }
 
     ~Sequence() {
         // only after an exception: a backend is not left with frames that nobody waits for
@@ -113,10 +132,12 @@ class Sequence {
     struct Started {
         FrameRecord record;
         std::unique_ptr<PendingFrame> pending;
-        EffectMask on_host;  ///< FramePlan::effects
+        EffectMask on_host;                  ///< FramePlan::effects
+        std::optional<Backdrop> backdrop{};  ///< if the film is to decide about the exposure
     };
 
     void start(std::int32_t frame) {
+        while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame has to decide
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
         const FramePlan plan =
@@ -140,7 +161,7 @@ class Sequence {
         make_resident(prepared, job.tier, record);
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
-        started_.push_back({std::move(record), std::move(pending), plan.effects});
+        started_.push_back({std::move(record), std::move(pending), plan.effects, backdrop(prepared, job)});
     }
 
     /// At once: two instants are with the backend at a time, and no other frame.
@@ -158,33 +179,48 @@ class Sequence {
         record.seconds.prepare = frame.prepare;
         record.seconds.backend = frame.load;
         ++with_backend_;
-        started_.push_back({std::move(record), std::make_unique<ReadyFrame>(std::move(frame.result)), plan.effects});
+        started_.push_back({std::move(record), std::make_unique<ReadyFrame>(std::move(frame.result)), plan.effects,
+                            backdrop(prepare(scene_, plan.instants.front().prepare), job)});
         while (with_backend_ > 0) pass_to_writer();
     }
 
     /// Is the file there already? Then nothing is to be done for it.
     bool is_finished(FrameRecord& record) {
         if (options_.force) return false;
-        auto finished = finished_frame(record.file, format_, record.metadata);
+        auto finished = finished_frame(record.file, format_, record.metadata, exposure_is_open_);
         if (!finished) return false;
         record.metadata = std::move(*finished);
+        if (exposure_is_open_) close_exposure(record.metadata.exposure_stops);
         record.skipped = true;
         started_.push_back({std::move(record), nullptr, {}});
         return true;
     }
 
     ImageMetadata describe(const RenderJob& job, std::string scene_hash) const {
-        return {.film_sha256 = {},
-                .scene_hash = std::move(scene_hash),
-                .frame = job.frame,
-                .width = job.width,
-                .height = job.height,
-                .samples = job.samples,
-                .seed = job.seed,
-                .limits = to_string(job.limits),
-                .tier = to_string(job.tier),
-                .backend = backend_.name(),
-                .version = version()};
+        ImageMetadata metadata{.film_sha256 = {},
+                               .scene_hash = std::move(scene_hash),
+                               .frame = job.frame,
+                               .width = job.width,
+                               .height = job.height,
+                               .samples = job.samples,
+                               .seed = job.seed,
+                               .limits = to_string(job.limits),
+                               .tier = to_string(job.tier),
+                               .backend = backend_.name(),
+                               .version = version(),
+                               .exposure_rule = exposure_rule_};
+        return as_written(std::move(metadata), job.width, job.height, format_, write_);
+    }
+
+    /// Nothing if the exposure is known.
+    std::optional<Backdrop> backdrop(const PreparedScene& prepared, const RenderJob& job) const {
+        if (!exposure_is_open_) return std::nullopt;
+        return Backdrop(prepared, job.width, job.height);
+    }
+
+    void close_exposure(double stops) {
+        write_.display.exposure_stops = stops;
+        exposure_is_open_ = false;
     }
 
     /// Loads the scene unless it is the one that is there: in a still scene only the random numbers change.
@@ -220,9 +256,13 @@ class Sequence {
         record.registers = result.stats.registers;
         record.occupancy = result.stats.occupancy;
         record.warning = result.stats.warning;
+        if (frame.backdrop) {
+            close_exposure(auto_exposure(frame.backdrop->foreground(result.film)));
+            record.metadata = with_display(std::move(record.metadata), write_.display);
+        }
         while (writing_.size() >= most_writing_) report_first();
-        writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),
-                                      format_, options_.write));
+        writing_.push_back(
+            std::async(std::launch::async, write_frame, std::move(result.film), std::move(record), format_, write_));
     }
 
     void report_first() {
@@ -247,6 +287,9 @@ class Sequence {
     const std::function<void(const FrameRecord&)>& on_frame_;
     FramePattern pattern_;
     ImageFormat format_;
+    WriteOptions write_;
+    bool exposure_is_open_;  ///< until the first frame is there
+    std::string exposure_rule_;
     std::size_t most_writing_;
 
     std::shared_ptr<ResidentScene> resident_;

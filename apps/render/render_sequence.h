@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct SequenceOptions {
     RenderJob job;       ///< its frame is set for each frame
     std::string camera;  ///< empty: the first of the scene
     ForcedEffects effects{};
-    WriteOptions write;
+    WriteOptions write;  ///< its display is the scene's, but for these two:
+    std::optional<TransferFunction> transfer;
+    std::optional<ExposureChoice> exposure;
     bool force = false;  ///< render frames again whose files are there
     int writers = 0;     ///< threads that hash, encode and write; 0: one per core
 };
@@ -30,7 +33,7 @@ struct FrameSeconds {
     double prepare = 0;  ///< scene to flat arrays, and their hash; for all instants of a frame with motion blur
     PhaseTimes backend;  ///< zero build and upload where the scene is that of the frame before
     double hash = 0;     ///< SHA-256 of the film
-    double encode = 0;   ///< means, tone curve, compression
+    double encode = 0;   ///< means, exposure, transfer function, compression
     double write = 0;
 };
 
@@ -54,8 +57,11 @@ struct FrameRecord {
 /// Two frames are with the backend at a time, or two instants of a frame with motion blur; hashing, encoding and
 /// writing run in other threads meanwhile, as many at a time as there are writers (fewer where films are large). A
 /// frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
-/// same scene hash, frame, size, samples, seed, limits, tier and version. The backend may differ: films are equal.
-/// Once `interrupted` is set no frame is started; those in flight are finished and written.
+/// same scene hash, frame, size, samples, seed, limits, tier, version, transfer function and exposure. The backend may
+/// differ: films are equal. Once `interrupted` is set no frame is started; those in flight are finished and written.
+///
+/// With an automatic exposure the first frame decides for all, so that nothing flickers: auto_exposure() of its
+/// foreground. If its file is there already and says that its exposure was found so, it is taken from the file.
 ///
 /// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible
 /// before the first frame; errors of backends and writers come out as they are. Then files that were written stay,

@@ -5,6 +5,7 @@ reflection is to be seen. Usage: glass.py [FILE]"""
 from scene_file import SceneFile, turned
 
 scene = SceneFile("glass", __file__, bottom=(0.5, 0.45, 0.4), top=(0.5, 0.7, 1), ambient=(1, 1, 1))
+scene.expose(-0.5)
 scene.camera((0.2, 1.5, 4.6), (0, 0.45, 0), 36)
 light_tile = scene.material("light tile", (0.75, 0.72, 0.66), ambient=(0.25, 0.24, 0.22))
 dark_tile = scene.material("dark tile", (0.2, 0.12, 0.1), ambient=(0.07, 0.04, 0.04))

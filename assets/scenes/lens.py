@@ -4,6 +4,7 @@
 from scene_file import SceneFile
 
 scene = SceneFile("lens", __file__, bottom=(0.02, 0.02, 0.03), top=(0.05, 0.06, 0.1), ambient=(0.6, 0.6, 0.7))
+scene.expose(-1)
 camera = scene.camera((0.9, 0.75, 2.4), (-0.25, 0.25, -0.6), 34)
 scene.lens(camera, aperture_radius=0.05, focus_distance=2.62, blades=6, rotation=0.2)
 floor = scene.material("floor", (0.25, 0.22, 0.2))

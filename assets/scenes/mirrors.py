@@ -4,6 +4,7 @@
 from scene_file import SceneFile
 
 scene = SceneFile("mirrors", __file__, bottom=(0.35, 0.35, 0.4), top=(0.5, 0.65, 0.9), ambient=(0.8, 0.8, 0.8))
+scene.expose(-0.5)
 scene.camera((1.2, 1.2, 1.0), (-1.5, 0.75, -0.75), 50)
 floor = scene.material("floor", (0.55, 0.5, 0.45))
 tile = scene.material("tile", (0.25, 0.22, 0.2))

@@ -6,6 +6,7 @@ from scene_file import SceneFile, turned
 
 scene = SceneFile("motion", __file__, bottom=(0.5, 0.5, 0.55), top=(0.2, 0.3, 0.5), ambient=(1.6, 1.6, 1.8))
 scene.frame_rate(8)
+scene.expose(-0.5)
 camera = scene.camera((0, 1.5, 4.6), (0, 0.72, 0), 34)
 scene.shutter(camera, 0, 1 / 16, instants=36)
 floor = scene.material("floor", (0.6, 0.57, 0.52))

@@ -86,6 +86,7 @@ def paper():
         "extensionsUsed": [
             "EXT_implicit_geometry",
             "KHR_lights_punctual",
+            "TANDEM_display",
             "TANDEM_environment",
             "TANDEM_lights_phong",
             "TANDEM_materials_phong",
@@ -97,6 +98,7 @@ def paper():
                 "name": "paper",
                 "nodes": [0, 1, 2, 3, 4, 5],
                 "extensions": {
+                    "TANDEM_display": {"transfer": "linear"},
                     "TANDEM_environment": {
                         "gradient": {"bottom": [1, 1, 1], "top": floats([0.5, 0.7, 1])},
                         "ambient": [1, 1, 1],

@@ -113,6 +113,10 @@ class SceneFile:
         animation["channels"].append({"sampler": len(animation["samplers"]), "target": target})
         animation["samplers"].append(sampler)
 
+    def expose(self, stops):
+        """How much brighter 8-bit pictures of the scene are."""
+        self.extend(self.json["scenes"][0], "TANDEM_display", {"exposure": stops})
+
     def frame_rate(self, frames_per_second):
         self.json["scenes"][0]["extras"] = {"frames_per_second": frames_per_second}
 

@@ -4,6 +4,7 @@
 from scene_file import SceneFile
 
 scene = SceneFile("soft shadows", __file__, bottom=(0.02, 0.02, 0.02), top=(0.03, 0.04, 0.06), ambient=(0.15, 0.15, 0.18))
+scene.expose(-0.5)
 scene.camera((0, 2.1, 5.2), (0, 0.4, 0), 38)
 grey = scene.material("grey", (0.7, 0.7, 0.7))
 red = scene.material("red", (0.75, 0.25, 0.2))

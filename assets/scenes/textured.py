@@ -36,6 +36,7 @@ def picture(size, colour, width=1.0, height=1.0):
 
 
 scene = SceneFile("textured", __file__, ambient=(1, 1, 1))
+scene.expose(-0.5)
 scene.camera((0.3, 1.5, 4.3), (0, 0.45, 0), 36)
 plain = {"specular": (0.25, 0.25, 0.25), "shininess": 40}
 earth = scene.material("earth", (1, 1, 1), texture=picture(256, globe, 2 * math.pi, math.pi), **plain)

@@ -27,6 +27,7 @@ def net(i):
 scene = SceneFile(
     "whitted", __file__, bottom=(0.55, 0.5, 0.45), top=(0.45, 0.65, 1.0), illuminates=True, indirect=True, ambient=(0, 0, 0)
 )
+scene.expose(-0.5)
 camera = scene.camera((0.1, 1.45, 5.4), (0.05, 0.75, 0), 36)
 scene.lens(camera, aperture_radius=0.02, focus_distance=5.1, blades=7)
 floor = scene.material("floor", (0.8, 0.8, 0.8), texture=png(64, 64, map(checker, range(64 * 64))))

@@ -12,17 +12,13 @@
 #include "tandem/error/error.h"
 #include "tandem/film/separable_filter.h"
 #include "tandem/film/tone_curve.h"
+#include "tandem/math/srgb.h"
 
 namespace tandem {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-// XYZ of linear sRGB: the primaries and the white (D65) of ITU-R BT.709, rounded far below what float shows.
-const Vec3d x_of_rgb{0.4123907992659593, 0.3575843393838780, 0.1804807884018343};
-const Vec3d y_of_rgb{0.2126390058715103, 0.7151686787677559, 0.0721923153607337};
-const Vec3d z_of_rgb{0.0193308187155918, 0.1191947797946259, 0.9505321522496605};
 
 double sum(const Vec3d& v) { return v.x + v.y + v.z; }
 
@@ -35,11 +31,6 @@ Vec3d rgb_of(const Vec3d& relative) {
     const Vec3d xyz{relative.x * sum(x_of_rgb), relative.y * sum(y_of_rgb), relative.z * sum(z_of_rgb)};
     const Vec3d yz = cross(y_of_rgb, z_of_rgb), zx = cross(z_of_rgb, x_of_rgb), xy = cross(x_of_rgb, y_of_rgb);
     return (yz * xyz.x + zx * xyz.y + xy * xyz.z) / dot(x_of_rgb, yz);
-}
-
-/// The curve of IEC 61966-2-1, from what a file says to light.
-double linear_of_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 /// CIELAB, and a and b scaled by lightness: colours matter less in the dark (the paper, section 4.1.2).
@@ -135,13 +126,19 @@ struct Seen {
     Features features;
 };
 
-Seen seen(const FloatImage& image, double pixels_per_degree) {
+Seen seen(const FloatImage& image, const FlipOptions& options) {
+    const double pixels_per_degree = options.pixels_per_degree;
+    const double factor = exposure_factor(options.display);
+    // what leaves a screen that takes the values of the file for sRGB
+    const auto light = [&](float linear) {
+        const double value = widen(clamp_to_unit(narrow(widen(linear) * factor)));
+        return options.display.transfer == TransferFunction::srgb ? value : linear_of_srgb(value);
+    };
     const auto plane = [&] { return Plane{image.width, image.height, std::vector<double>(image.pixels.size())}; };
     // lightness, red against green, blue against yellow (YCxCz), without the offset of Y, which a blur keeps
     Plane luminance = plane(), red_green = plane(), blue_yellow = plane();
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const Vec3f& p = image.pixels[i];
-        const auto light = [](float value) { return linear_of_srgb(double{clamp_to_unit(value)}); };
         const Vec3d xyz = relative_xyz({light(p.x), light(p.y), light(p.z)});
         luminance.values[i] = xyz.y;
         red_green.values[i] = xyz.x - xyz.y;
@@ -176,7 +173,7 @@ void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options)
 
 FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
     check(a, b, options);
-    const Seen p = seen(a, options.pixels_per_degree), q = seen(b, options.pixels_per_degree);
+    const Seen p = seen(a, options), q = seen(b, options);
     const double largest = largest_colour_error();
     FlipDifference result{a.width, a.height, {}, 0};
     result.errors.reserve(p.lab.size());

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "tandem/film/display.h"
 #include "tandem/film/image.h"
 
 namespace tandem {
@@ -16,6 +17,7 @@ namespace tandem {
 struct FlipOptions {
     double pixels_per_degree =
         67;  ///< of the visual angle: a 4K screen of 0.7 m width at 0.7 m distance, as the paper's
+    Display display{};
 };
 
 struct FlipDifference {
@@ -25,12 +27,13 @@ struct FlipDifference {
     double mean = 0;
 };
 
-/// Of the pictures as PNG and PPM files show them: clamped to [0, 1] without a gamma (tone_curve.h), which a screen
-/// takes for sRGB. A NaN is black. Symmetric. Throws InputError if the sizes differ or are zero, or if there are not
-/// more than 0 and at most 1000 pixels to the degree.
+/// Of linear pictures as PNG and PPM files with this display show them on a screen, which takes every file for sRGB:
+/// what is compared is the light that leaves it. Clamped, but not rounded to levels. A NaN is black. Symmetric. Throws
+/// InputError if the sizes differ or are zero, or if there are not more than 0 and at most 1000 pixels to the degree.
 [[nodiscard]] FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options = {});
 
-/// The errors as colours, from black (0) over violet and orange to pale yellow (1).
+/// The errors as colours, from black (0) over violet and orange to pale yellow (1). They are what a screen is given:
+/// write them with TransferFunction::linear.
 [[nodiscard]] FloatImage flip_map(const FlipDifference& difference);
 
 }  // namespace tandem

@@ -18,14 +18,4 @@ FloatImage film_to_image(const Film& film) {
     return image;
 }
 
-FloatImage to_float(const ByteImage& image) {
-    FloatImage result{image.width, image.height, {}};
-    result.pixels.resize(pixel_count(image));
-    const auto level = [&](std::size_t i) { return static_cast<float>(image.values[i]) / 255.0F; };
-    for (std::size_t i = 0; i < result.pixels.size(); ++i) {
-        result.pixels[i] = {level(3 * i), level(3 * i + 1), level(3 * i + 2)};
-    }
-    return result;
-}
-
 }  // namespace tandem

@@ -31,7 +31,4 @@ struct ByteImage {
 /// The means of all pixels (Film::mean()).
 [[nodiscard]] FloatImage film_to_image(const Film& film);
 
-/// The linear values that 8 bits stand for: level / 255. tone_map() gives the same levels back.
-[[nodiscard]] FloatImage to_float(const ByteImage& image);
-
 }  // namespace tandem

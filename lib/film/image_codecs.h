@@ -15,17 +15,24 @@ namespace tandem {
 
 enum class ImageFormat { ppm_text, ppm, pfm, png, exr };
 
+/// PFM and EXR: the linear values themselves, without exposure and transfer function.
+[[nodiscard]] constexpr bool holds_floats(ImageFormat format) {
+    return format == ImageFormat::pfm || format == ImageFormat::exr;
+}
+
 struct DecodedImage {
-    FloatImage image;  ///< formats of integers: value / largest value, no gamma
+    FloatImage image;  ///< linear: the display is taken out of formats of integers
     std::optional<ImageMetadata> metadata;
     ImageFormat format = ImageFormat::ppm;
+    Display display{TransferFunction::linear};  ///< what the values went through, as far as the file says
 };
 
 /// PPM "P3": decimal text, one pixel a line, as the paper wrote its pictures. Metadata are comments.
 [[nodiscard]] Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata);
 /// PPM "P6": three bytes a pixel. Metadata are comments.
 [[nodiscard]] Bytes encode_ppm(const ByteImage& image, const ImageMetadata& metadata);
-/// P3 and P6 with a largest value of up to 65535.
+/// P3 and P6 with a largest value of up to 65535. The display is that of the metadata; without, value / largest value
+/// is taken for linear.
 [[nodiscard]] DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& name);
 
 /// PFM "PF": float, little endian, rows from the bottom up. The format has no place for metadata (image_io.h keeps them
@@ -34,7 +41,8 @@ struct DecodedImage {
 /// PF and Pf (one channel, given to all three), either byte order; the magnitude of the scale is passed over.
 [[nodiscard]] DecodedImage decode_pfm(std::span<const std::byte> bytes, const std::string& name);
 
-/// 8-bit RGB PNG without gamma or colour space chunks. Metadata are tEXt chunks. `level` is zlib's, 0 to 9; level 1
+/// 8-bit RGB PNG. Metadata are tEXt chunks; if their transfer function is sRGB, the file is tagged as such (the chunk
+/// sRGB, and gAMA and cHRM for readers that do not know it), else it has no tag. `level` is zlib's, 0 to 9; level 1
 /// looks for runs only. Rows are filtered by their left neighbour.
 /// Measured with libpng 1.6.39 on one core of a shared AMD EPYC, three spheres before a gradient, 1000 x 900, smooth
 /// and with noise of half a level (standard deviation); best of 15:
@@ -44,7 +52,8 @@ struct DecodedImage {
 ///   level 6                   37 ms  64 kB   270 ms 684 kB
 /// Choosing the filter row by row costs some 20 ms more and saves at most a sixth.
 [[nodiscard]] Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level);
-/// Every PNG; grey and palettes become RGB, alpha is dropped.
+/// Every PNG; grey and palettes become RGB, alpha is dropped. The display is that of the metadata; without, a file with
+/// the chunk sRGB is sRGB, and in any other value / largest value is taken for linear, whatever its other tags say.
 [[nodiscard]] DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& name);
 
 /// 32-bit float EXR, lossless: NaN payloads and signed zeros survive. Metadata are string attributes. Throws

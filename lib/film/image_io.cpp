@@ -50,22 +50,15 @@ std::optional<ImageMetadata> read_sidecar(const std::string& path, std::span<con
     return metadata_from_text(text);
 }
 
-ImageMetadata sized(ImageMetadata metadata, int width, int height) {
-    metadata.width = width;
-    metadata.height = height;
-    return metadata;
-}
-
-bool holds_floats(ImageFormat format) { return format == ImageFormat::pfm || format == ImageFormat::exr; }
-
-EncodedImage encode_floats(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata) {
+EncodedImage encode_floats(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
+                           const WriteOptions& options) {
     if (format == ImageFormat::pfm) return {encode_pfm(image), 0};
-    return {encode_exr(image, sized(metadata, image.width, image.height)), 0};
+    return {encode_exr(image, as_written(metadata, image.width, image.height, format, options)), 0};
 }
 
 EncodedImage encode_levels(const ToneMapped& mapped, ImageFormat format, const ImageMetadata& metadata,
                            const WriteOptions& options) {
-    const ImageMetadata complete = sized(metadata, mapped.image.width, mapped.image.height);
+    const ImageMetadata complete = as_written(metadata, mapped.image.width, mapped.image.height, format, options);
     if (format == ImageFormat::png) return {encode_png(mapped.image, complete, options.png_level), mapped.nan_values};
     const auto encode = format == ImageFormat::ppm_text ? encode_ppm_text : encode_ppm;
     return {encode(mapped.image, complete), mapped.nan_values};
@@ -73,11 +66,12 @@ EncodedImage encode_levels(const ToneMapped& mapped, ImageFormat format, const I
 
 /// Both kinds of picture are encoded and written alike; a film is handed on whole, and let go of early.
 template <class Picture>
-void write_picture(const std::string& path, Picture&& picture, const ImageMetadata& metadata,
+void write_picture(const std::string& path, Picture&& picture, int width, int height, const ImageMetadata& metadata,
                    const WriteOptions& options) {
     const ImageFormat format = format_of(path, options);
-    const EncodedImage encoded = encode_image(std::forward<Picture>(picture), format, metadata, options);
-    write_encoded(path, encoded, format, metadata, options);
+    const ImageMetadata complete = as_written(metadata, width, height, format, options);
+    const EncodedImage encoded = encode_image(std::forward<Picture>(picture), format, complete, options);
+    write_encoded(path, encoded, format, complete, options);
 }
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view magic) {
@@ -112,19 +106,28 @@ ImageFormat format_of(const std::string& path, const WriteOptions& options) {
         fmt::format("cannot tell the image format of '{}': the name must end in .ppm, .pfm, .png or .exr", path));
 }
 
+ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFormat format,
+                         const WriteOptions& options) {
+    metadata.width = width;
+    metadata.height = height;
+    if (!holds_floats(format)) return with_display(std::move(metadata), options.display);
+    metadata.exposure_rule.clear();
+    return with_display(std::move(metadata), {TransferFunction::linear});
+}
+
 EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                           const WriteOptions& options) {
-    if (holds_floats(format)) return encode_floats(image, format, metadata);
-    return encode_levels(tone_map(image), format, metadata, options);
+    if (holds_floats(format)) return encode_floats(image, format, metadata, options);
+    return encode_levels(tone_map(image, options.display), format, metadata, options);
 }
 
 EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata, const WriteOptions& options) {
     if (holds_floats(format)) {
         const FloatImage image = film_to_image(film);
         film = {};
-        return encode_floats(image, format, metadata);
+        return encode_floats(image, format, metadata, options);
     }
-    const ToneMapped mapped = tone_map(film);
+    const ToneMapped mapped = tone_map(film, options.display);
     film = {};
     return encode_levels(mapped, format, metadata, options);
 }
@@ -139,12 +142,12 @@ void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFo
 
 void write_image(const std::string& path, const FloatImage& image, const ImageMetadata& metadata,
                  const WriteOptions& options) {
-    write_picture(path, image, sized(metadata, image.width, image.height), options);
+    write_picture(path, image, image.width, image.height, metadata, options);
 }
 
 void write_image(const std::string& path, Film film, const ImageMetadata& metadata, const WriteOptions& options) {
-    const ImageMetadata complete = sized(metadata, film.width(), film.height());
-    write_picture(path, std::move(film), complete, options);
+    const int width = film.width(), height = film.height();
+    write_picture(path, std::move(film), width, height, metadata, options);
 }
 
 DecodedImage read_image(const std::string& path) {

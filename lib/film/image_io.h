@@ -12,6 +12,7 @@ struct WriteOptions {
     bool ppm_text = false;  ///< .ppm files are P3 text instead of P6
     int png_level = 1;      ///< zlib's, 0 to 9; encode_png() has the measurement
     Durability durability = Durability::synced;
+    Display display{};  ///< of PNG and PPM; PFM and EXR are linear
 };
 
 /// By the extension of a path: .ppm, .pfm, .png or .exr, in either case. Throws InputError that lists them, and
@@ -23,8 +24,12 @@ struct EncodedImage {
     std::size_t nan_values = 0;  ///< NaN that the tone curve made 0; float formats keep them
 };
 
-/// The bytes of a file. Width and height of the metadata are those of the image, whatever was given. PPM and PNG go
-/// through the tone curve; PFM and EXR hold the floats, bit for bit.
+/// What a file of that format says of a picture: with the size, and the display that the format takes part in.
+[[nodiscard]] ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFormat format,
+                                       const WriteOptions& options);
+
+/// The bytes of a file. The metadata are those of as_written(), whatever was given. PPM and PNG go through exposure and
+/// transfer function of the display; PFM and EXR hold the floats, bit for bit.
 [[nodiscard]] EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                                         const WriteOptions& options = {});
 /// Of the means of the film, whose memory it lets go of before the slow part: a backend that owns the memory can render

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <concepts>
+#include <type_traits>
 
 #include "tandem/error/error.h"
 
@@ -23,22 +24,40 @@ void add(MetadataText& text, std::string_view name, const std::string& value) {
     text.emplace_back(fmt::format("{}{}", prefix, name), value);
 }
 
-void add(MetadataText& text, std::string_view name, std::integral auto value) {
-    add(text, name, fmt::format("{}", value));
-}
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void add(MetadataText& text, std::string_view name, Number value) { add(text, name, fmt::format("{}", value)); }
 
 void parse(const std::string& value, std::string_view, std::string& field) { field = value; }
 
-template <std::integral Integer>
-void parse(const std::string& value, std::string_view name, Integer& field) {
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void parse(const std::string& value, std::string_view name, Number& field) {
     const char* const end = value.data() + value.size();
     const auto [stop, error] = std::from_chars(value.data(), end, field);
     if (error != std::errc() || stop != end) {
-        throw InputError(fmt::format("the image metadata '{}{}' is '{}', not a whole number", prefix, name, value));
+        throw InputError(fmt::format("the image metadata '{}{}' is '{}', not a {}number", prefix, name, value,
+                                     std::integral<Number> ? "whole " : ""));
     }
 }
 
 }  // namespace
+
+ImageMetadata with_display(ImageMetadata metadata, const Display& display) {
+    metadata.transfer = to_string(display.transfer);
+    metadata.exposure_stops = display.exposure_stops;
+    return metadata;
+}
+
+Display display_of(const ImageMetadata& metadata) {
+    Display display{TransferFunction::linear, metadata.exposure_stops};
+    if (!metadata.transfer.empty()) display.transfer = parse_transfer(metadata.transfer);
+    if (!is_exposure(display.exposure_stops)) {
+        throw InputError(fmt::format("the image metadata '{}exposure_stops' is {}, not from {} to {}", prefix,
+                                     display.exposure_stops, -most_exposure_stops, most_exposure_stops));
+    }
+    return display;
+}
 
 MetadataText to_text(const ImageMetadata& metadata) {
     MetadataText text;

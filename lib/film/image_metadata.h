@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "tandem/film/display.h"
+
 namespace tandem {
 
 /// The fields of metadata_fields.def.
@@ -18,6 +20,13 @@ struct ImageMetadata {
 
     bool operator==(const ImageMetadata&) const = default;
 };
+
+/// With `transfer` and `exposure_stops` of a display.
+[[nodiscard]] ImageMetadata with_display(ImageMetadata metadata, const Display& display);
+
+/// What the values of a file with these metadata went through. A file that says nothing is linear: older versions of
+/// Tandem wrote it. Throws InputError for what no display has.
+[[nodiscard]] Display display_of(const ImageMetadata& metadata);
 
 /// A key as it stands in files ("tandem:seed") and its value.
 using MetadataText = std::vector<std::pair<std::string, std::string>>;

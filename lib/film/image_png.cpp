@@ -9,6 +9,7 @@
 #include "tandem/film/decode_checks.h"
 #include "tandem/film/image_codecs.h"
 #include "tandem/film/texels.h"
+#include "tandem/film/tone_curve.h"
 
 namespace tandem {
 
@@ -69,13 +70,14 @@ struct PngWriter : PngFile {
     PngWriter& operator=(const PngWriter&) = delete;
 
     bool write(const ByteImage& image, const std::vector<png_text>& texts, const std::vector<png_bytep>& rows,
-               int level) {
+               bool is_srgb, int level) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                      PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         png_set_compression_level(png, level);
         png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
         if (level == 1) png_set_compression_strategy(png, Z_RLE);
+        if (is_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
         if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
         png_write_info(png, info);
         png_write_image(png, const_cast<png_bytepp>(rows.data()));
@@ -126,6 +128,8 @@ struct PngReader : PngFile {
     [[nodiscard]] std::size_t width() const { return png_get_image_width(png, info); }
     [[nodiscard]] std::size_t height() const { return png_get_image_height(png, info); }
     [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png, info); }
+
+    [[nodiscard]] bool is_tagged_srgb() const { return png_get_valid(png, info, PNG_INFO_sRGB) != 0; }
 
     [[nodiscard]] MetadataText texts() const {
         png_textp texts = nullptr;
@@ -180,7 +184,8 @@ Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int leve
     const auto rows =
         rows_of(image.values.data(), 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
     PngWriter writer;
-    if (!writer.write(image, texts, rows, level)) {
+    const bool is_srgb = metadata.transfer == to_string(TransferFunction::srgb);
+    if (!writer.write(image, texts, rows, is_srgb, level)) {
         throw std::runtime_error(std::string("libpng cannot encode the image: ") + writer.error.data());
     }
     return std::move(writer.written);
@@ -201,14 +206,20 @@ DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& nam
     DecodedImage result;
     result.format = ImageFormat::png;
     result.metadata = metadata_from_text(reader.texts());
+    if (result.metadata) {
+        result.display = display_of(*result.metadata);
+    } else if (reader.is_tagged_srgb()) {
+        result.display.transfer = TransferFunction::srgb;
+    }
     const bool deep = png_get_bit_depth(reader.png, reader.info) == 16;
     result.image = {static_cast<int>(width), static_cast<int>(height), {}};
     if (!deep) {
-        result.image = to_float({result.image.width, result.image.height, std::move(raw)});
+        result.image = to_float({result.image.width, result.image.height, std::move(raw)}, result.display);
         return result;
     }
     result.image.pixels.resize(width * height);
-    const auto level = [&](std::size_t i) { return static_cast<float>(raw[2 * i] << 8 | raw[2 * i + 1]) / 65535.0F; };
+    const std::vector<float> values = values_of_levels(65535, result.display);
+    const auto level = [&](std::size_t i) { return values[std::size_t{raw[2 * i]} << 8 | raw[2 * i + 1]]; };
     for (std::size_t i = 0; i < width * height; ++i) {
         result.image.pixels[i] = {level(3 * i), level(3 * i + 1), level(3 * i + 2)};
     }

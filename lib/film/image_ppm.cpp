@@ -6,6 +6,7 @@
 #include "tandem/film/decode_checks.h"
 #include "tandem/film/image_codecs.h"
 #include "tandem/film/portable_map.h"
+#include "tandem/film/tone_curve.h"
 
 namespace tandem {
 
@@ -60,8 +61,9 @@ class DecimalReader {
 
 /// Calls `next(value)` for every value of the image, which is false if there is none.
 template <class Next>
-void fill(FloatImage& image, std::uint32_t most, const std::string& name, Next next) {
-    const auto divisor = static_cast<float>(most);
+void fill(DecodedImage& decoded, std::uint32_t most, const std::string& name, Next next) {
+    const std::vector<float> values = values_of_levels(most, decoded.display);
+    FloatImage& image = decoded.image;
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         std::uint32_t rgb[3];
         for (std::uint32_t& value : rgb) {
@@ -69,8 +71,7 @@ void fill(FloatImage& image, std::uint32_t most, const std::string& name, Next n
                 fail_decoding(name, "PPM", fmt::format("pixel {} is not three numbers from 0 to {}", i, most));
             }
         }
-        const auto level = [&](int c) { return static_cast<float>(rgb[c]) / divisor; };
-        image.pixels[i] = {level(0), level(1), level(2)};
+        image.pixels[i] = {values[rgb[0]], values[rgb[1]], values[rgb[2]]};
     }
 }
 
@@ -119,6 +120,7 @@ DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& nam
 
     DecodedImage result;
     result.metadata = header.metadata();
+    if (result.metadata) result.display = display_of(*result.metadata);
     result.image.width = static_cast<int>(width);
     result.image.height = static_cast<int>(height);
     const std::size_t count = pixel_count(result.image);
@@ -127,14 +129,14 @@ DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& nam
         check_data(name, "PPM", pixels.size(), 6 * count - 1);  // a digit and a blank for each value
         result.image.pixels.resize(count);
         DecimalReader decimal(pixels);
-        fill(result.image, most, name, [&](std::uint32_t& value) { return decimal.next(most, value); });
+        fill(result, most, name, [&](std::uint32_t& value) { return decimal.next(most, value); });
         return result;
     }
     const std::size_t value_bytes = most < 256 ? 1 : 2;
     check_data(name, "PPM", pixels.size(), 3 * value_bytes * count);
     result.image.pixels.resize(count);
     const auto* at = reinterpret_cast<const std::uint8_t*>(pixels.data());
-    fill(result.image, most, name, [&](std::uint32_t& value) {
+    fill(result, most, name, [&](std::uint32_t& value) {
         value = *at++;
         if (value_bytes == 2) value = value << 8 | *at++;
         return value <= most;

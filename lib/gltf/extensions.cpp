@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, 17> rendered = {
     "KHR_texture_transform",
     "TANDEM_camera_lens",
     "TANDEM_camera_shutter",
+    "TANDEM_display",
     "TANDEM_environment",
     "TANDEM_lights_phong",
     "TANDEM_materials_dielectric",

@@ -8,6 +8,7 @@
 #include "tandem/error/error.h"
 #include "tandem/gltf/animation.h"
 #include "tandem/gltf/buffers.h"
+#include "tandem/gltf/display.h"
 #include "tandem/gltf/features.h"
 #include "tandem/gltf/geometry.h"
 #include "tandem/gltf/lights.h"
@@ -68,6 +69,7 @@ class SceneBuilder {
         scene_.materials = gltf::read_materials(source_, report_);
         gltf::read_textures(source_, scene_, report_);
         scene_.environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
+        scene_.display = gltf::read_display(document_, chosen_, chosen_path_, report_);
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
         }

@@ -1,6 +1,7 @@
 #include "tandem/gltf/materials.h"
 
 #include "tandem/gltf/optics.h"
+#include "tandem/gltf/scene_extension.h"
 
 #include <fmt/format.h>
 
@@ -70,17 +71,10 @@ Material default_material() { return {"default", phong_from_base_colour({1, 1, 1
 Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
                              ImportReport& report) {
     constexpr const char* name = "TANDEM_environment";
-    const Json* of_scene = scene == nullptr ? nullptr : find_extension(*scene, name);
-    const Json* of_root = find_extension(document.json, name);
-    const Json* found = of_scene != nullptr ? of_scene : of_root;
+    const auto [found, path] = find_scene_extension(document, scene, scene_path, name, report);
     Environment environment;
     if (found == nullptr) return environment;
-    const std::string root_path = fmt::format("extensions.{}", name);
-    report.add(Treatment::rendered, name, of_scene != nullptr ? scene_path + "." + root_path : root_path,
-               "background and ambient light");
-    if (of_scene != nullptr && of_root != nullptr) {
-        report.add(Treatment::ignored, fmt::format("{} of the file", name), root_path, "the scene has its own");
-    }
+    report.add(Treatment::rendered, name, path, "background and ambient light");
     if (const Json* gradient = find(*found, "gradient")) {
         environment.bottom = read_colour(*gradient, "bottom", environment.bottom);
         environment.top = read_colour(*gradient, "top", environment.top);

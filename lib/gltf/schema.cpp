@@ -9,6 +9,8 @@
 #include <set>
 #include <vector>
 
+#include "tandem/film/display.h"
+
 namespace tandem::gltf {
 
 namespace {
@@ -288,6 +290,10 @@ constexpr Property properties[] = {
     numbers("environment", "ambient", 3).not_negative(),
     truth("environment", "illuminates"),
     truth("environment", "indirect"),
+    object("root extensions", "TANDEM_display", "display"),
+    object("scene extensions", "TANDEM_display", "display"),
+    text("display", "transfer", "srgb linear"),
+    number("display", "exposure").between(-most_exposure_stops, most_exposure_stops),
     object("camera extensions", "TANDEM_camera_lens", "lens"),
     number("lens", "apertureRadius").not_negative().required(),
     number("lens", "focusDistance").positive().required(),

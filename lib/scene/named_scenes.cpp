@@ -65,6 +65,7 @@ AnimationChannel circling(std::uint32_t node, double frames_per_second, Position
 Scene paper() {
     Scene scene;
     scene.name = "paper";
+    scene.display.transfer = TransferFunction::linear;  // as the paper wrote its pictures
     scene.materials = {phong("red", {0.8F, 0.2F, 0.2F}), phong("green", {0.2F, 0.8F, 0.2F}),
                        phong("blue", {0.2F, 0.2F, 0.8F}), phong("yellow", {0.8F, 0.8F, 0.2F})};
     scene.nodes = {camera_node({0, 0, 0}),

@@ -272,6 +272,8 @@ std::vector<std::string> validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) problems.check_mesh(i);
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();
+    problems.require(is_exposure(scene.display.exposure_stops), "the display",
+                     "has an exposure that is not from -100 to 100 stops");
     std::vector<std::string> found = problems.take();
     for (std::string& problem : find_texture_problems(scene)) found.push_back(std::move(problem));
     return found;

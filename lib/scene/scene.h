@@ -11,6 +11,7 @@
 
 #include "tandem/camera/lens.h"
 #include "tandem/camera/shutter.h"
+#include "tandem/film/display.h"
 #include "tandem/geometry/face_sides.h"
 #include "tandem/light/environment.h"
 #include "tandem/material/optics.h"
@@ -169,6 +170,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
+    Display display{};  ///< of 8-bit pictures; no part of what is rendered
     double frames_per_second = 24;
     bool area_lights = true;         ///< draw points of surfaces that glow; without it only paths find them
     bool area_light_shadows = true;  ///< also of the background

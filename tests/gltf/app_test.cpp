@@ -43,7 +43,7 @@ TEST_F(App, InfoSaysWhatAFileHolds) {
           "primitives: 4 (1 spheres, 3 boxes, 0 ellipsoids, 0 parallelepipeds, 0 triangles, 0 quads)",
           "\"crowd\", 3 boxes, animated", "\"eye\", perspective, 45.84 degrees high",
           "\"lamp\", point, colour (1, 1, 1), intensity 0.63662, falls off with distance, casts shadows",
-          "shadows: light 'lamp' casts shadows", "\"clay\", ambient (0.08, 0.08, 0.08)",
+          "shadows: light 'lamp' casts shadows", "\"clay\", ambient (0.08, 0.08, 0.08)", "8-bit pictures: sRGB\n",
           "animation: 2 channels, 6 keys, 48 frames at 24 a second",
           "  rendered: EXT_mesh_gpu_instancing at nodes[2]"}) {
         EXPECT_TRUE(contains(info.out, line));
@@ -61,6 +61,7 @@ TEST_F(App, JsonGoesToAFileOrToStandardOutput) {
     const Json described = Json::parse(info.out);
     EXPECT_EQ(described["animation"]["frames"], 120);
     EXPECT_EQ(described["primitives"]["spheres"], 3);
+    EXPECT_EQ(described["display"], Json::parse(R"({"transfer": "linear", "exposure_stops": 0.0})"));
     const std::string target = (folder_ / "check.json").string();
     EXPECT_EQ(run("check " + rich() + " --json " + target).status, 0);
     EXPECT_EQ(Json::parse(test::read_bytes(target))["fine"], true);

@@ -234,6 +234,31 @@ TEST_F(Import, TheEnvironmentOfTheSceneGoesBeforeTheFiles) {
     EXPECT_EQ(of_scene.ambient, Vec3f(2, 2, 2));
 }
 
+TEST_F(Import, ReadsHowPicturesAreMeant) {
+    TestFile file = small_file();
+    EXPECT_EQ(import(file).scene.display, Display{});
+    file.json["extensions"]["TANDEM_display"] = {{"transfer", "linear"}, {"exposure", -2.5}};
+    EXPECT_EQ(import(file).scene.display, (Display{TransferFunction::linear, -2.5}));
+    file.json["scenes"][0]["extensions"]["TANDEM_display"] = {{"exposure", 1}};
+    const ImportResult of_scene = import(file);
+    EXPECT_EQ(of_scene.scene.display, (Display{TransferFunction::srgb, 1})) << "the scene's goes before the file's";
+    const std::string report = test::sentences(of_scene.report);
+    for (const char* sentence :
+         {"rendered: TANDEM_display at scenes[0].extensions.TANDEM_display: 8-bit pictures are sRGB, exposed by +1 "
+          "stops",
+          "ignored: TANDEM_display of the file at extensions.TANDEM_display: the scene has its own"}) {
+        EXPECT_NE(report.find(sentence), std::string::npos) << report;
+    }
+    file.json["scenes"][0]["extensions"]["TANDEM_display"] = {{"transfer", "gamma"}};
+    EXPECT_NE(error_of(file).find("scenes[0].extensions.TANDEM_display.transfer: must be one of srgb linear"),
+              std::string::npos)
+        << error_of(file);
+    file.json["scenes"][0]["extensions"]["TANDEM_display"] = {{"exposure", 101}};
+    EXPECT_NE(error_of(file).find("scenes[0].extensions.TANDEM_display.exposure: must be a number from -100 to 100"),
+              std::string::npos)
+        << error_of(file);
+}
+
 TEST_F(Import, ReadsImplicitShapes) {
     TestFile file = small_file();
     file.json["extensions"]["KHR_implicit_shapes"]["shapes"] = Json::parse(

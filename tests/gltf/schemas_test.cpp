@@ -25,6 +25,8 @@ bool accepts(const Json& schema, const Json& value) {
         bool good = true;
         if (keyword == "type") {
             good = rule == value.type_name() || (rule == "integer" && value.is_number_integer());
+        } else if (keyword == "enum") {
+            good = std::find(rule.begin(), rule.end(), value) != rule.end();
         } else if (keyword == "minimum") {
             good = !value.is_number() || value.get<double>() >= rule.get<double>();
         } else if (keyword == "maximum") {
@@ -97,6 +99,14 @@ TEST_F(Schemas, Environment) {
             [](Json& d, const Json& v) { d["scenes"][0]["extensions"]["TANDEM_environment"] = v; });
 }
 
+TEST_F(Schemas, Displays) {
+    compare(schema("scene.TANDEM_display.schema.json"),
+            {"{}", "[]", R"({"transfer": "srgb"})", R"({"transfer": "linear", "exposure": -2.5})",
+             R"({"transfer": "sRGB"})", R"({"transfer": 1})", R"({"exposure": 100})", R"({"exposure": 100.5})",
+             R"({"exposure": -101})", R"({"exposure": "auto"})", R"({"extras": 7})"},
+            [](Json& d, const Json& v) { d["scenes"][0]["extensions"]["TANDEM_display"] = v; });
+}
+
 TEST_F(Schemas, LightsOfPhong) {
     compare(schema("light.TANDEM_lights_phong.schema.json"),
             {"{}", "[]", R"({"falloff": false})", R"({"falloff": 0})", R"({"shadows": true, "falloff": true})",
@@ -139,6 +149,8 @@ TEST(SchemasOfFiles, AcceptThePapersScene) {
     }
     EXPECT_TRUE(accepts(schema("scene.TANDEM_environment.schema.json"),
                         paper["scenes"][0]["extensions"]["TANDEM_environment"]));
+    EXPECT_TRUE(
+        accepts(schema("scene.TANDEM_display.schema.json"), paper["scenes"][0]["extensions"]["TANDEM_display"]));
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ TEST(PaperFile, HoldsTheSceneOfTheSameName) {
         EXPECT_EQ(file.materials[i].name, named.materials[i].name);
     }
     EXPECT_EQ(frame_count(file), 120);
+    EXPECT_EQ(file.display, named.display);
+    EXPECT_EQ(named.display, (Display{TransferFunction::linear})) << "the paper's mapping: clamped, no gamma";
     for (int frame = 0; frame < 120; ++frame) {
         ASSERT_EQ(scene_hash(prepare(file, {frame, ""})), scene_hash(prepare(named, {frame, ""}))) << "frame " << frame;
     }
@@ -63,6 +65,7 @@ TEST_P(SceneScript, WritesTheStoredScene) {
     const PreparedScene prepared = prepare(stored);
     EXPECT_EQ(scene_hash(prepare(written)), scene_hash(prepared))
         << "run assets/scenes/" << name << ".py and commit what it writes";
+    EXPECT_EQ(written.display, stored.display);
     EXPECT_EQ(to_string(mask_of(derive_effects(stored, prepared))), to_string(GetParam().effects));
 }
 

@@ -10,6 +10,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/film/separable_filter.h"
+#include "tandem/math/srgb.h"
 
 namespace tandem {
 namespace {
@@ -54,6 +55,9 @@ FloatImage disc(int centre) {
     });
 }
 
+/// The pictures hold what a screen is given.
+const Display as_levels{TransferFunction::linear};
+
 struct Pair {
     const char* name;
     FloatImage a, b;
@@ -86,7 +90,7 @@ TEST(Flip, AgreesWithTheProgramOfThePapersAuthors) {
         for (const Pair& pair : pairs()) {
             if (pair.name != reference.name) continue;
             SCOPED_TRACE(pair.name);
-            const FlipDifference difference = flip(pair.a, pair.b, {reference.pixels_per_degree});
+            const FlipDifference difference = flip(pair.a, pair.b, {reference.pixels_per_degree, as_levels});
             EXPECT_NEAR(difference.mean, reference.mean, tolerance);
             worst = std::max(worst, std::abs(difference.mean - reference.mean));
             for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -101,7 +105,7 @@ TEST(Flip, AgreesWithTheProgramOfThePapersAuthors) {
 
 TEST(Flip, EqualPicturesDifferInNothing) {
     for (const Pair& pair : pairs()) {
-        const FlipDifference difference = flip(pair.a, pair.a);
+        const FlipDifference difference = flip(pair.a, pair.a, {.display = as_levels});
         EXPECT_EQ(difference.mean, 0.0) << pair.name;
         EXPECT_EQ(*std::max_element(difference.errors.begin(), difference.errors.end()), 0.0) << pair.name;
     }
@@ -118,7 +122,8 @@ TEST(Flip, IsSymmetricAndWithinZeroAndOne) {
                          return Levels{0, 0, 255};
                      })});
     for (const Pair& pair : tried) {
-        const FlipDifference there = flip(pair.a, pair.b), back = flip(pair.b, pair.a);
+        const FlipDifference there = flip(pair.a, pair.b, {.display = as_levels}),
+                             back = flip(pair.b, pair.a, {.display = as_levels});
         EXPECT_EQ(there.errors, back.errors) << pair.name;
         EXPECT_GT(there.mean, 0.0) << pair.name;
         for (const double error : there.errors) {
@@ -135,6 +140,24 @@ TEST(Flip, LooksAtWhatAScreenShows) {
     dark.pixels[7] = {-1, std::numeric_limits<float>::quiet_NaN(), 0};
     EXPECT_EQ(flip(bright, grey(255)).mean, 0.0);
     EXPECT_EQ(flip(dark, grey(0)).mean, 0.0);
+}
+
+TEST(Flip, OfLightIsThatOfTheLevelsThatShowIt) {
+    // the light that a screen sends out for the levels of a picture, two stops darker
+    const auto light = [](const FloatImage& levels) {
+        FloatImage image = levels;
+        for (Vec3f& p : image.pixels) {
+            const auto of_level = [](float level) { return narrow(linear_of_srgb(widen(level)) / 4); };
+            p = {of_level(p.x), of_level(p.y), of_level(p.z)};
+        }
+        return image;
+    };
+    for (const Pair& pair : pairs()) {
+        const double of_levels = flip(pair.a, pair.b, {.display = as_levels}).mean;
+        const FlipOptions exposed{.display = {TransferFunction::srgb, 2}};
+        EXPECT_NEAR(flip(light(pair.a), light(pair.b), exposed).mean, of_levels, 1e-6) << pair.name;
+        EXPECT_GT(std::abs(flip(light(pair.a), light(pair.b)).mean - of_levels), 1e-3) << pair.name << ", not exposed";
+    }
 }
 
 TEST(Flip, SaysWhatItCannotCompare) {

@@ -32,17 +32,38 @@ TEST_P(ImageFile, RoundTripWithMetadata) {
     const std::string path = folder.file(GetParam().name);
     const FloatImage image = sample_floats(21, 13);
     ImageMetadata given = sample_metadata(0, 0);
-    write_image(path, image, given, {.ppm_text = GetParam().ppm_text});
+    given.transfer = "none that there is";
+    given.exposure_stops = 77;
+    write_image(path, image, given, {.ppm_text = GetParam().ppm_text, .display = sample_display});
     const DecodedImage read = read_image(path);
     EXPECT_EQ(read.format, GetParam().format);
+    ImageMetadata expected = sample_metadata(21, 13);
     if (GetParam().keeps_floats) {
         EXPECT_TRUE(same_bits(read.image, image));
+        expected = with_display(expected, {TransferFunction::linear});
+        expected.exposure_rule = "";
     } else {
-        EXPECT_EQ(tone_map(read.image).image.values, tone_map(image).image.values);
+        const ByteImage levels = tone_map(image, sample_display).image;
+        EXPECT_EQ(tone_map(read.image, sample_display).image.values, levels.values);
+        EXPECT_TRUE(same_bits(read.image, to_float(levels, sample_display)));
     }
+    EXPECT_EQ(read.display, display_of(expected));
     ASSERT_TRUE(read.metadata);
-    EXPECT_EQ(*read.metadata, sample_metadata(21, 13)) << "the size is the image's";
+    EXPECT_EQ(*read.metadata, expected) << "the size is the image's, the display that of the options";
     EXPECT_EQ(read_metadata(path), read.metadata);
+}
+
+TEST_P(ImageFile, IsSrgbUnlessToldOtherwise) {
+    const FloatImage image{1, 1, {{0.25F, 0.5F, 1}}};
+    const TemporaryFolder folder;
+    const std::string path = folder.file(GetParam().name);
+    write_image(path, image, {}, {.ppm_text = GetParam().ppm_text});
+    const DecodedImage read = read_image(path);
+    ASSERT_TRUE(read.metadata);
+    EXPECT_EQ(read.metadata->transfer, GetParam().keeps_floats ? "linear" : "srgb");
+    EXPECT_NEAR(read.image.pixels[0].x, 0.25F, 0.004F) << "linear, but for the rounding to a level";
+    EXPECT_NEAR(read.image.pixels[0].y, 0.5F, 0.004F);
+    EXPECT_EQ(read.image.pixels[0].z, 1.0F);
 }
 
 TEST_P(ImageFile, AFilmIsWrittenAsItsMeans) {

@@ -36,6 +36,22 @@ TEST(Metadata, ANumberThatIsNoneIsAnError) {
     }
 }
 
+TEST(Metadata, ExposuresKeepTheirBits) {
+    for (const double stops : {-6.3, 0.1, 1.0 / 3, 0.0, -99.99999999999999}) {
+        const ImageMetadata metadata = with_display({}, {TransferFunction::linear, stops});
+        EXPECT_EQ(metadata_from_text(to_text(metadata)), metadata) << stops;
+        EXPECT_EQ(display_of(metadata), (Display{TransferFunction::linear, stops}));
+    }
+    const auto message = thrown_message<InputError>([] {
+        (void)metadata_from_text({{"tandem:exposure_stops", "-6.3 "}});
+    });
+    EXPECT_NE(message.find("'-6.3 ', not a number"), std::string::npos) << message;
+}
+
+TEST(Metadata, WithoutATransferFunctionAreOfALinearFile) {
+    EXPECT_EQ(display_of({}), (Display{TransferFunction::linear}));
+}
+
 TEST(Metadata, LineBreaksCannotBeSmuggledIn) {
     ImageMetadata metadata;
     metadata.backend = "cpu\ntandem:seed: 9";

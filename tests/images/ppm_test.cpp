@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "images/sample_images.h"
+#include "tandem/error/error.h"
 #include "tandem/film/tone_curve.h"
 
 namespace tandem {
@@ -69,14 +70,16 @@ TEST_P(Ppm, RoundTrip) {
     const ByteImage image = sample_bytes(31, 17);
     const DecodedImage decoded = decode_ppm(encode(image), "memory");
     EXPECT_EQ(decoded.format, GetParam());
-    EXPECT_EQ(tone_map(decoded.image).image.values, image.values);
+    EXPECT_EQ(decoded.display, sample_display);
+    EXPECT_EQ(tone_map(decoded.image, sample_display).image.values, image.values);
     ASSERT_TRUE(decoded.metadata);
     EXPECT_EQ(*decoded.metadata, sample_metadata(31, 17));
 }
 
 TEST_P(Ppm, TheSmallestImage) {
     const ByteImage image{1, 1, {255, 0, 7}};
-    EXPECT_EQ(tone_map(decode_ppm(encode(image), "memory").image).image.values, image.values);
+    const FloatImage decoded = decode_ppm(encode(image), "memory").image;
+    EXPECT_EQ(tone_map(decoded, sample_display).image.values, image.values);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Ppm, testing::Values(ImageFormat::ppm_text, ImageFormat::ppm));
@@ -103,6 +106,22 @@ TEST(PpmReader, TakesForeignFiles) {
     EXPECT_EQ(deep.x, 1.0F / 65535.0F);
     EXPECT_EQ(deep.y, 1.0F);
     EXPECT_EQ(deep.z, 32768.0F / 65535.0F);
+}
+
+TEST(PpmReader, TakesTheDisplayOfItsMetadata) {
+    const auto read = [](const std::string& comments) {
+        return decode_ppm(bytes_of("P3\n" + comments + "1 1\n15\n3 0 15\n"), "memory");
+    };
+    const DecodedImage older = read("# tandem:frame: 7\n");
+    EXPECT_EQ(older.display, (Display{TransferFunction::linear}));
+    EXPECT_EQ(older.image.pixels[0].x, 0.2F);
+    const DecodedImage srgb = read("# tandem:transfer: srgb\n# tandem:exposure_stops: -1\n");
+    EXPECT_EQ(srgb.display, (Display{TransferFunction::srgb, -1}));
+    EXPECT_NEAR(srgb.image.pixels[0].x, 2 * 0.0331048F, 1e-7F);
+    EXPECT_EQ(srgb.image.pixels[0].z, 2.0F);
+    for (const char* comment : {"transfer: pq", "exposure_stops: 1e9", "exposure_stops: nan", "exposure_stops: x"}) {
+        EXPECT_THROW((void)read(std::string("# tandem:") + comment + "\n"), InputError) << comment;
+    }
 }
 
 }  // namespace

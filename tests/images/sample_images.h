@@ -11,6 +11,8 @@
 
 namespace tandem::test {
 
+inline constexpr Display sample_display{TransferFunction::srgb, -6.3};
+
 /// Every field set, the numbers to their largest values.
 inline ImageMetadata sample_metadata(int width, int height) {
     ImageMetadata metadata;
@@ -24,6 +26,9 @@ inline ImageMetadata sample_metadata(int width, int height) {
     metadata.tier = "strict";
     metadata.backend = "cpu";
     metadata.version = "1.2.3";
+    metadata.transfer = to_string(sample_display.transfer);
+    metadata.exposure_stops = sample_display.exposure_stops;
+    metadata.exposure_rule = "auto";
     return metadata;
 }
 

@@ -161,6 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
              },
              "a key with the rotation (0, 0, 0, 0)"},
         Flaw{"environment", [](Scene& s) { s.environment.top.x = -1; }, "the environment has a colour"},
+        Flaw{"exposure", [](Scene& s) { s.display.exposure_stops = 101; }, "the display has an exposure that is not"},
         Flaw{"frame_rate", [](Scene& s) { s.frames_per_second = 0; }, "a frame rate that is not positive"}),
     [](const auto& info) { return std::string(info.param.name); });
 

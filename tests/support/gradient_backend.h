@@ -1,5 +1,5 @@
-/// A backend for tests of what surrounds backends: its films are gradients that depend on the job, its hooks let a test
-/// step in, and it counts what it was asked for.
+/// A backend for tests of what surrounds backends: its films are gradients that depend on the job, unless a test makes
+/// others; its hooks let a test step in, and it counts what it was asked for.
 #pragma once
 
 #include <algorithm>
@@ -33,6 +33,7 @@ class GradientBackend : public Backend {
 
     std::function<void(const RenderJob&)> on_submit = [](const RenderJob&) {};
     std::function<void(const RenderJob&)> on_get = [](const RenderJob&) {};  ///< may throw
+    std::function<Film(const RenderJob&)> film = gradient_film;
     int loads = 0;
     int submitted = 0;
     int in_flight = 0;
@@ -58,7 +59,7 @@ class GradientBackend : public Backend {
             [[nodiscard]] RenderResult get() override {
                 --backend.in_flight;
                 backend.on_get(job);
-                RenderResult result{gradient_film(job), {}};
+                RenderResult result{backend.film(job), {}};
                 result.stats.seconds.render = 0.5;
                 result.stats.counters.invalid_samples = job.frame;
                 result.stats.variant = "gradient";

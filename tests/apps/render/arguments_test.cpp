@@ -35,6 +35,17 @@ TEST(Arguments, Frames) {
     }
 }
 
+TEST(Arguments, Exposure) {
+    EXPECT_EQ(parse_exposure("auto"), (ExposureChoice{true, 0}));
+    EXPECT_EQ(parse_exposure("-6.3"), (ExposureChoice{false, -6.3}));
+    EXPECT_EQ(parse_exposure("+2"), (ExposureChoice{false, 2}));
+    EXPECT_EQ(parse_exposure("100"), (ExposureChoice{false, 100}));
+    for (const char* text : {"", "+", "+-1", "-", "Auto", "1 ", "1,5", "100.1", "-1e3", "nan", "inf"}) {
+        const auto message = thrown_message<InputError>([&] { (void)parse_exposure(text); });
+        EXPECT_NE(message.find("--exposure is '"), std::string::npos) << text;
+    }
+}
+
 TEST(FramePatterns, OnePlaceInTheFileName) {
     const auto path = [](const char* pattern) { return FramePattern(pattern).path(42); };
     EXPECT_EQ(path("a-%d.png"), "a-42.png");

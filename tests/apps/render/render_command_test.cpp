@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "render/interrupt.h"
 #include "support/gradient_backend.h"
@@ -67,6 +68,22 @@ TEST_F(RenderCommandTest, QuietPrintsNothing) {
     const Printed printed = run();
     EXPECT_EQ(printed.out + printed.err, "");
     EXPECT_EQ(folder.names().size(), 3U);
+}
+
+TEST_F(RenderCommandTest, SaysOnceWhichExposureItFound) {
+    command.sequence.exposure = ExposureChoice{.automatic = true};
+    const Printed first = run();
+    std::ostringstream number;  // a tenth of a stop is short enough for it
+    number << read_metadata(folder.file("f0.ppm"))->exposure_stops;
+    const std::string stops = number.str();
+    EXPECT_EQ(first.err, "tandem-render: the exposure is " + stops + " stops, found from frame 0; --exposure " + stops +
+                             " gives the same\n");
+    EXPECT_EQ(first.out, line(0, "") + line(1, "  1 samples were NaN or infinite and left out") +
+                             line(2, "  2 samples were NaN or infinite and left out"));
+    EXPECT_EQ(run().err, "tandem-render: the exposure is " + stops + " stops, that of '" + folder.file("f0.ppm") +
+                             "'; --exposure " + stops + " gives the same\n");
+    command.quiet = true;
+    EXPECT_EQ(run().err, "");
 }
 
 TEST_F(RenderCommandTest, JsonOnStandardOutputStandsAlone) {

@@ -6,6 +6,7 @@
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
 #include "tandem/error/error.h"
+#include "tandem/film/exposure.h"
 #include "tandem/film/tone_curve.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/scene/prepare.h"
@@ -36,8 +37,12 @@ class RenderSequence : public testing::Test {
     /// How many frames a run of its own has rendered.
     int rendered() {
         backend.submitted = 0;
-        EXPECT_EQ(render(), 6U);
+        EXPECT_EQ(render(), static_cast<std::size_t>(options.frames.count()));
         return backend.submitted;
+    }
+    int rendered_of(const FrameRange& frames) {
+        options.frames = frames;
+        return rendered();
     }
 
     TemporaryFolder folder;
@@ -67,7 +72,7 @@ TEST_F(RenderSequence, WritesEveryFrameAndReportsInOrder) {
         EXPECT_EQ(record.seconds.backend.render, 0.5);
         const DecodedImage file = read_image(record.file);
         EXPECT_EQ(file.metadata, record.metadata);
-        EXPECT_EQ(tone_map(file.image).image.values, tone_map(film_to_image(film)).image.values);
+        EXPECT_EQ(tone_map(file.image, scene.display).image.values, tone_map(film, scene.display).image.values);
     }
     EXPECT_EQ(folder.names().size(), 6U);
 }
@@ -122,6 +127,120 @@ TEST_F(RenderSequence, WhatChangesThePictureRendersAgain) {
     EXPECT_EQ(rendered(), 6) << "scene";
     options.frames = {4, 9};
     EXPECT_EQ(rendered(), 1) << "a new frame";
+    EXPECT_EQ(rendered(), 0);
+}
+
+TEST_F(RenderSequence, PicturesAreWhatTheSceneSays) {
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(records[0].metadata.transfer, "linear") << "the paper's scene";
+    scene.display = {TransferFunction::srgb, -1.5};
+    EXPECT_EQ(rendered(), 6) << "another transfer function";
+    EXPECT_EQ(records[0].metadata.transfer, "srgb");
+    EXPECT_EQ(records[0].metadata.exposure_stops, -1.5);
+    RenderJob job = options.job;
+    job.frame = 3;
+    const DecodedImage file = read_image(records[0].file);
+    EXPECT_EQ(file.display, scene.display);
+    EXPECT_EQ(tone_map(file.image, scene.display).image.values,
+              tone_map(gradient_film(job), scene.display).image.values);
+    EXPECT_EQ(rendered(), 0);
+    options.exposure = ExposureChoice{false, 2};
+    EXPECT_EQ(rendered(), 6) << "another exposure";
+    EXPECT_EQ(read_image(records[5].file).display, (Display{TransferFunction::srgb, 2}));
+    options.transfer = TransferFunction::linear;
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(read_image(records[5].file).display, (Display{TransferFunction::linear, 2}));
+    scene.display = {};
+    EXPECT_EQ(rendered(), 0) << "the options go before the scene";
+}
+
+TEST_F(RenderSequence, FilesOfFloatsHaveNeitherExposureNorTransferFunction) {
+    options.output = folder.file("f#.pfm");
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(records[0].metadata.transfer, "linear");
+    scene.display = {TransferFunction::srgb, 3};
+    options.transfer = TransferFunction::srgb;
+    for (const ExposureChoice choice : {ExposureChoice{false, 2}, ExposureChoice{true, 0}}) {
+        options.exposure = choice;
+        EXPECT_EQ(rendered(), 0);
+        EXPECT_EQ(records[0].metadata.exposure_stops, 0);
+        EXPECT_EQ(records[0].metadata.exposure_rule, "");
+    }
+}
+
+class AutomaticExposure : public RenderSequence {
+  protected:
+    AutomaticExposure() {
+        scene.environment.bottom = scene.environment.top = {0, 0, 0};  // the films have no background
+        scene.display = {TransferFunction::srgb, 9};
+        options.exposure = ExposureChoice{.automatic = true};
+    }
+
+    double stops_of(std::uint32_t frame) const {
+        RenderJob job = options.job;
+        job.frame = frame;
+        return auto_exposure(film_to_image(gradient_film(job)));
+    }
+    void expect_all_have(double stops) const {
+        for (const FrameRecord& record : records) {
+            EXPECT_EQ(record.metadata.exposure_stops, stops) << record.file;
+            EXPECT_EQ(record.metadata.exposure_rule, "auto");
+            EXPECT_EQ(read_image(record.file).metadata, record.metadata);
+        }
+    }
+};
+
+TEST_F(AutomaticExposure, IsThatOfTheFirstFrame) {
+    ASSERT_NE(stops_of(3), stops_of(4)) << "or the test shows nothing";
+    EXPECT_EQ(rendered(), 6);
+    expect_all_have(stops_of(3));
+    EXPECT_EQ(backend.most_in_flight, 2) << "the others go on two at a time";
+    EXPECT_EQ(rendered(), 0);
+    expect_all_have(stops_of(3));
+}
+
+TEST_F(AutomaticExposure, IsKeptWhenASequenceGoesOn) {
+    options.frames = {4, 8};
+    (void)render();
+    EXPECT_EQ(rendered_of({4, 9}), 1) << "the first frame is there, and the new one is exposed like it";
+    expect_all_have(stops_of(4));
+    EXPECT_EQ(rendered_of({3, 9}), 7) << "another first frame decides anew";
+    expect_all_have(stops_of(3));
+    std::filesystem::remove(folder.file("f03.png"));
+    EXPECT_EQ(rendered_of({3, 9}), 1) << "it decides the same again";
+}
+
+TEST_F(AutomaticExposure, IsNotTakenFromAFileThatSomebodyElseExposed) {
+    options.exposure = ExposureChoice{false, 2};
+    EXPECT_EQ(rendered(), 6);
+    options.exposure = ExposureChoice{.automatic = true};
+    EXPECT_EQ(rendered(), 6);
+    expect_all_have(stops_of(3));
+    options.exposure = ExposureChoice{false, stops_of(3)};
+    EXPECT_EQ(rendered(), 0) << "the same pictures";
+}
+
+TEST_F(AutomaticExposure, LeavesTheBackgroundOut) {
+    scene.environment.bottom = scene.environment.top = {0.5F, 0.75F, 1};
+    backend.film = [](const RenderJob& job) {
+        Film film(job.width, job.height, job.samples);
+        for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+            film.sums()[i] = (i < 30 ? Vec3d{1.44, 1.44, 1.44} : Vec3d{0.5, 0.75, 1}) * double(job.samples);
+        }
+        return film;
+    };
+    EXPECT_EQ(rendered(), 6);
+    expect_all_have(-3);
+}
+
+TEST_F(AutomaticExposure, WithMotionBlurIsThatOfTheWholeFrame) {
+    for (Node& node : scene.nodes) {
+        if (node.camera) shutter_of(*node.camera) = {0, 0.02, 2};
+    }
+    EXPECT_EQ(rendered(), 2 * 6);
+    EXPECT_EQ(records[0].metadata.exposure_rule, "auto");
+    EXPECT_EQ(records[0].metadata.exposure_stops, records[5].metadata.exposure_stops);
+    EXPECT_NE(records[0].metadata.exposure_stops, 9);
     EXPECT_EQ(rendered(), 0);
 }
 

@@ -1,0 +1,14 @@
+/// TANDEM_display: how the pictures of a scene are meant.
+#pragma once
+
+#include "tandem/film/display.h"
+#include "tandem/gltf/document.h"
+#include "tandem/gltf/report.h"
+
+namespace tandem::gltf {
+
+/// TANDEM_display of the scene, else of the root, else the default. `scene` may be null.
+[[nodiscard]] Display read_display(const Document& document, const Json* scene, const std::string& scene_path,
+                                   ImportReport& report);
+
+}  // namespace tandem::gltf

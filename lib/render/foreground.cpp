@@ -1,0 +1,48 @@
+#include "tandem/render/foreground.h"
+
+#include <algorithm>
+
+namespace tandem {
+
+namespace {
+
+/// The colours from `low` to `high`.
+struct ColourRange {
+    Vec3f low, high;
+
+    void add(const Vec3f& c) {
+        low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+        high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    }
+    /// A hundredth beyond the range is within.
+    [[nodiscard]] bool has(const Vec3f& c) const {
+        const auto within = [](float value, float from, float to) {
+            return value >= 0.99F * from && value <= 1.01F * to;
+        };
+        return within(c.x, low.x, high.x) && within(c.y, low.y, high.y) && within(c.z, low.z, high.z);
+    }
+};
+
+}  // namespace
+
+Backdrop::Backdrop(const PreparedScene& scene, int width, int height)
+    : camera_(camera_view(scene, width, height)), environment_(scene.environment) {}
+
+FloatImage Backdrop::foreground(const Film& film) const {
+    FloatImage image = film_to_image(film);
+    std::size_t i = 0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x, ++i) {
+            const auto behind = [&](float across, float down) {
+                return background(environment_, camera_ray<float>(camera_, x, y, across, down).direction);
+            };
+            const Vec3f corner = behind(0, 0);
+            ColourRange range{corner, corner};
+            for (const Vec3f& other : {behind(1, 0), behind(0, 1), behind(1, 1)}) range.add(other);
+            if (range.has(image.pixels[i])) image.pixels[i] = {0, 0, 0};
+        }
+    }
+    return image;
+}
+
+}  // namespace tandem
