@@ -7,7 +7,7 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 17> rendered = {
+constexpr std::string_view rendered[] = {
     "EXT_implicit_geometry",
     "EXT_mesh_gpu_instancing",
     "KHR_implicit_shapes",
@@ -57,7 +57,7 @@ constexpr std::array<Reason, 14> reasons = {{
 }  // namespace
 
 bool is_rendered_extension(std::string_view name) {
-    return std::find(rendered.begin(), rendered.end(), name) != rendered.end();
+    return std::find(std::begin(rendered), std::end(rendered), name) != std::end(rendered);
 }
 
 std::string why_ignored(std::string_view name) {
