@@ -55,14 +55,14 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
 
 Material default_material() { return {"default", phong_from_base_colour({1, 1, 1})}; }
 
-Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
-                             ImportReport& report) {
+std::optional<Environment> read_environment(const Document& document, const Json* scene, const std::string& scene_path,
+                                            ImportReport& report) {
     constexpr const char* name = "TANDEM_environment";
     const Json* of_scene = scene == nullptr ? nullptr : find_extension(*scene, name);
     const Json* of_root = find_extension(document.json, name);
     const Json* found = of_scene != nullptr ? of_scene : of_root;
+    if (found == nullptr) return std::nullopt;
     Environment environment;
-    if (found == nullptr) return environment;
     const std::string root_path = fmt::format("extensions.{}", name);
     report.add(Treatment::rendered, name, of_scene != nullptr ? scene_path + "." + root_path : root_path,
                "background and ambient light");

@@ -156,4 +156,14 @@ std::vector<Transform> parents_from_nodes(const Scene& scene, double time) {
     return result;
 }
 
+std::vector<Transform> world_from_nodes(const Scene& scene, double time) {
+    const std::vector<Transform> local = parents_from_nodes(scene, time);
+    std::vector<Transform> world(local.size());
+    for (const std::size_t at : parents_first(scene)) {
+        const std::int32_t parent = scene.nodes[at].parent;
+        world[at] = parent == Node::no_parent ? local[at] : world[static_cast<std::size_t>(parent)] * local[at];
+    }
+    return world;
+}
+
 }  // namespace tandem

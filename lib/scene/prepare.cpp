@@ -10,8 +10,8 @@
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/area_lights.h"
+#include "tandem/scene/camera_node.h"
 #include "tandem/scene/media.h"
-#include "tandem/scene/motion.h"
 #include "tandem/scene/place_mesh.h"
 #include "tandem/scene/prepare_textures.h"
 #include "tandem/scene/render_origin.h"
@@ -86,7 +86,7 @@ class Preparer {
 
     PreparedScene run() {
         result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
-        world_from_node_ = world_transforms();
+        world_from_node_ = world_from_nodes(scene_, result_.time);
         for (const Material& material : scene_.materials) {
             result_.materials.push_back(material.phong);
             result_.optics.push_back(material.optics);
@@ -126,16 +126,6 @@ class Preparer {
     /// Shorter paths are not worth the noise.
     static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
-
-    std::vector<Transform> world_transforms() const {
-        const std::vector<Transform> local = parents_from_nodes(scene_, result_.time);
-        std::vector<Transform> world(local.size());
-        for (const std::size_t at : parents_first(scene_)) {
-            const std::int32_t parent = scene_.nodes[at].parent;
-            world[at] = parent == Node::no_parent ? local[at] : world[static_cast<std::size_t>(parent)] * local[at];
-        }
-        return world;
-    }
 
     void add_node(std::size_t index) {
         const Node& node = scene_.nodes[index];
@@ -316,19 +306,13 @@ class Preparer {
 #undef TANDEM_PRIMITIVE
     }
 
-    /// A camera looks along its node; scale does not change what it sees (glTF 2.0, 3.10).
     void set_camera(const Camera& camera, std::size_t node) {
         const Transform& world_from_node = world_from_node_[node];
-        const Matrix3 axes = transpose(world_from_node.linear);
-        const double handedness = determinant(world_from_node.linear);
-        if (handedness == 0 || !std::isfinite(handedness))
-            fail(node, "a camera under a transform that is not invertible");
-        const Vec3d backward = normalize(axes.row[2]);
-        const Vec3d right = normalize(cross(axes.row[1], backward)) * (handedness < 0 ? -1.0 : 1.0);
-        const Vec3d up = normalize(cross(backward, right)) * (handedness < 0 ? -1.0 : 1.0);
+        const std::optional<Matrix3> axes = camera_axes(world_from_node);
+        if (!axes) fail(node, "a camera under a transform that is not invertible");
         check_reach(world_from_node.translation, {0, 0, 0}, node);
         // in world space until the origin is chosen
-        result_.render_from_camera = {transpose({{right, up, backward}}), world_from_node.translation};
+        result_.render_from_camera = {transpose(*axes), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
             result_.half_height = std::tan(perspective->yfov / 2);
             result_.lens = perspective->lens;

@@ -1,0 +1,89 @@
+#include "tandem/scene/default_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tandem/math/frame.h"
+#include "tandem/scene/animation.h"
+#include "tandem/scene/camera_node.h"
+#include "tandem/scene/surface_reach.h"
+
+namespace tandem {
+
+namespace {
+
+/// Mean radiance of the surfaces from which a scene counts as lit by them.
+constexpr double enough_glow = 0.05;
+
+const Environment sky = {{0.16F, 0.17F, 0.19F}, {0.40F, 0.45F, 0.52F}, {0, 0, 0}, 1, 0};
+constexpr float key_intensity = 0.75F;
+/// To the key light, along the camera's right, up and backward.
+constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
+
+double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+/// Square metres, in the world. Of an ellipsoid that of the sphere of its volume.
+double area_of(const Scene& scene, const PlacedShape& placed) {
+    const Matrix3& m = placed.world_from_shape.linear;
+    if (const auto* sphere = std::get_if<SphereShape>(&placed.geometry->shape)) {
+        const double radius = sphere->radius * std::cbrt(std::abs(determinant(m)));
+        return 4 * std::numbers::pi * radius * radius;
+    }
+    if (const auto* box = std::get_if<BoxShape>(&placed.geometry->shape)) {
+        const Matrix3 axes = transpose(m);
+        const Vec3d edge[3] = {axes.row[0] * box->size.x, axes.row[1] * box->size.y, axes.row[2] * box->size.z};
+        return 2 *
+               (length(cross(edge[0], edge[1])) + length(cross(edge[1], edge[2])) + length(cross(edge[2], edge[0])));
+    }
+    const Mesh& mesh = scene.meshes[std::get<MeshShape>(placed.geometry->shape).mesh];
+    double area = 0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const Vec3d start = widen(mesh.positions[a]);
+        area += length(cross(m * (widen(mesh.positions[b]) - start), m * (widen(mesh.positions[c]) - start))) / 2;
+    };
+    const auto& t = mesh.triangles;
+    for (std::size_t i = 0; i < t.size(); i += 3) add(t[i], t[i + 1], t[i + 2]);
+    const auto& q = mesh.quads;
+    for (std::size_t i = 0; i < q.size(); i += 4) {
+        add(q[i], q[i + 1], q[i + 2]);
+        add(q[i], q[i + 2], q[i + 3]);
+    }
+    return area;
+}
+
+double radiance_of(const Material& material) { return norm1(widen(material.optics.emission)) / 3; }
+
+/// The mean radiance over all surfaces.
+double mean_glow(const Scene& scene) {
+    const auto glows = [](const Material& material) { return radiance_of(material) > 0; };
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), glows)) return 0;
+    double total = 0, area = 0;
+    for (const PlacedShape& placed : place_shapes(scene, time_of_frame(scene, 0))) {
+        const double part = area_of(scene, placed);
+        area += part;
+        total += part * radiance_of(scene.materials[placed.geometry->material]);
+    }
+    return area > 0 ? total / area : 0;
+}
+
+}  // namespace
+
+bool has_light(const Scene& scene) {
+    const auto shines = [](const Node& node) { return node.light && is_lit(*node.light); };
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), shines) || mean_glow(scene) > enough_glow;
+}
+
+void add_default_light(Scene& scene, std::size_t camera) {
+    scene.environment = sky;
+    const Transform world_from_camera = world_from_nodes(scene, time_of_frame(scene, 0))[camera];
+    const Matrix3 axes = camera_axes(world_from_camera).value_or(Matrix3{});
+    const Frame<double> frame = frame_around(normalize(transpose(axes) * to_key));
+    Node key;
+    key.name = "key light";
+    key.matrix = {transpose({{frame.tangent, frame.bitangent, frame.normal}}), {0, 0, 0}};
+    key.light = LightSource{.kind = LightKind::directional, .intensity = key_intensity};
+    scene.nodes.push_back(std::move(key));
+}
+
+}  // namespace tandem
