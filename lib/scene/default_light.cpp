@@ -14,10 +14,11 @@ namespace tandem {
 namespace {
 
 /// Mean radiance of the surfaces from which a scene counts as lit by them.
-constexpr double enough_glow = 0.05;
+constexpr double enough_glow = 0.2;
 
-const Environment sky = {{0.16F, 0.17F, 0.19F}, {0.40F, 0.45F, 0.52F}, {0, 0, 0}, 1, 0};
-constexpr float key_intensity = 0.75F;
+const Environment sky = {{0.11F, 0.115F, 0.13F}, {0.30F, 0.335F, 0.39F}, {1, 1, 1}, 1, 0};
+constexpr float key_intensity = 0.52F;
+constexpr float fill_intensity = 0.1F;
 /// To the key light, along the camera's right, up and backward.
 constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
 
@@ -78,12 +79,17 @@ void add_default_light(Scene& scene, std::size_t camera) {
     scene.environment = sky;
     const Transform world_from_camera = world_from_nodes(scene, time_of_frame(scene, 0))[camera];
     const Matrix3 axes = camera_axes(world_from_camera).value_or(Matrix3{});
-    const Frame<double> frame = frame_around(normalize(transpose(axes) * to_key));
-    Node key;
-    key.name = "key light";
-    key.matrix = {transpose({{frame.tangent, frame.bitangent, frame.normal}}), {0, 0, 0}};
-    key.light = LightSource{.kind = LightKind::directional, .intensity = key_intensity};
-    scene.nodes.push_back(std::move(key));
+    const auto add = [&](const char* name, const Vec3d& to_light, float intensity, bool casts_shadows) {
+        const Frame<double> frame = frame_around(normalize(transpose(axes) * to_light));
+        Node node;
+        node.name = name;
+        node.matrix = {transpose({{frame.tangent, frame.bitangent, frame.normal}}), {0, 0, 0}};
+        node.light = LightSource{
+            .kind = LightKind::directional, .intensity = intensity, .casts_shadows = casts_shadows};
+        scene.nodes.push_back(std::move(node));
+    };
+    add("key light", to_key, key_intensity, true);
+    add("fill light", {0, 0, 1}, fill_intensity, false);
 }
 
 }  // namespace tandem

@@ -49,7 +49,7 @@ int rounded(double degrees) { return static_cast<int>(std::lround(degrees)); }
 int elevation_for(const Vec3d& size) {
     const double across = std::sqrt(size.x) * std::sqrt(size.z);
     const double flatness = across > 0 ? size.y / across : 1;
-    return rounded(50 - 35 * ramp(flatness, 0.05, 0.4));
+    return rounded(50 - 30 * ramp(flatness, 0.05, 0.4));
 }
 
 /// A deep and narrow scene shows little from the front: in degrees.
