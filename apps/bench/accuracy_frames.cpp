@@ -24,7 +24,7 @@ struct Outcome {
 
 std::vector<Outcome> measure(const AccuracyOptions& options, const AccuracyStage& stage, const std::string& name) {
     log_progress(fmt::format("{}: {} rounds of {} contenders", name, options.repetitions, stage.entries.size()));
-    const Scene scene = load_scene(name);
+    const Scene scene = load_scene(name, nullptr, {.aspect = aspect_of(options.size)});
     std::vector<Outcome> outcomes;
     const auto job_of = [&](Tier tier) {
         return RenderJob{options.size.width, options.size.height, options.samples, options.seed, 0, tier};

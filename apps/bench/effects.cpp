@@ -202,7 +202,7 @@ void add_ledger(Ledger& ledger, const LedgerPlan& plan, Report& report) {
 
 bool ledger_of_scene(const EffectsOptions& options, const std::string& name, const std::vector<Tier>& tiers,
                      const std::vector<LedgerBackends>& backends, Table& prices, Report& report) {
-    const Scene scene = load_scene(name);
+    const Scene scene = load_scene(name, nullptr, {.aspect = aspect_of(options.size)});
     const LedgerPlan plan = plan_ledger(scene);
     std::vector<Ledger> ledgers = measure_ledgers(options, name, scene, plan, backends, tiers);
     report.blocks.emplace_back(Heading{name});

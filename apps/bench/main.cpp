@@ -90,6 +90,7 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand("versus", "CPU against GPU, phases apart; or rays per second");
     command->add_option("SCENE", all.versus.scene, "A file, or named:NAME")->capture_default_str();
     add_backends_option(*command, all.versus);
+    command->add_option("--tier", all.versus.tier, "fast, strict or precise")->capture_default_str();
     add_picture_options(*command, all.texts, all.versus);
     command->add_option("--frame", all.versus.frame, "Of the animation")
         ->capture_default_str()

@@ -44,7 +44,7 @@ class SceneParity {
                 const BackendSource& source, Report& report)
         : name_(std::move(name)),
           tier_(tier),
-          scene_(load_scene(name_)),
+          scene_(load_scene(name_, nullptr, {.aspect = aspect_of(options.size)})),
           options_(options),
           source_(source),
           report_(report) {

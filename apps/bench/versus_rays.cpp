@@ -20,7 +20,7 @@ namespace {
 struct RayContender {
     BenchmarkRow row;
     std::function<double(std::span<const Ray<float>>, std::span<Hit>, RenderCounters&)> trace;
-    bool exact = false;  ///< all such contenders must give the same bits
+    bool is_compared = false;  ///< by the bits of its hits, with the first contender
     std::vector<Hit> hits;
 };
 
@@ -54,7 +54,7 @@ RayContender make_contender(Backend& backend, const PreparedScene& scene, Tier t
     const auto trace = [&backend, resident](auto rays, auto hits, RenderCounters& counters) {
         return backend.trace(*resident, {.rays = rays, .hits = hits, .counters = &counters});
     };
-    return {std::move(row), trace, tier != Tier::fast, {}};
+    return {std::move(row), trace, true, {}};
 }
 
 /// The measurements of all contenders in rounds that go forth and back; one round before them warms up and gives the
@@ -78,6 +78,7 @@ void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>
 RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>& backends, const BackendSource& source,
                     Report& report) {
     log_progress(fmt::format("{}: {} rays", options.scene, to_string(*options.rays)));
+    const Tier tier = parse_tier(options.tier);
     // the rays are made in world space
     const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}, Vec3d{0, 0, 0}});
     const std::vector<Ray<float>> rays = make_rays(*options.rays, options.ray_edge);
@@ -91,10 +92,11 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
         Backend& backend = *owners.emplace_back(source.make(name, {options.threads, 16, {}}));
         describe_backend(backend, report);
         if (name == "cpu") cpu = &backend;
-        contenders.push_back(make_contender(backend, scene, Tier::strict, ray_row(options, name, name)));
+        contenders.push_back(make_contender(backend, scene, tier, ray_row(options, name, name)));
     }
-    if (cpu != nullptr) {
+    if (cpu != nullptr && tier != Tier::fast) {
         contenders.push_back(make_contender(*cpu, scene, Tier::fast, ray_row(options, "cpu, tier fast", "cpu")));
+        contenders.back().is_compared = false;
     }
     std::unique_ptr<EmbreeNative> native;
     if (cpu != nullptr) native = make_native(scene, options.threads);
@@ -114,7 +116,7 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
     for (const Hit& hit : first) timing.hits += hit.primitive != no_primitive ? 1 : 0;
     for (std::size_t c = 1; c < contenders.size(); ++c) {
         const bool is_native = timing.has_native && c + 1 == contenders.size();
-        if (!is_native && !contenders[c].exact) continue;
+        if (!is_native && !contenders[c].is_compared) continue;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Hit& hit = contenders[c].hits[i];
             if (is_native) {

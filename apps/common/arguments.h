@@ -11,6 +11,9 @@ struct FilmSize {
     int height = 0;
 };
 
+/// Width over height.
+[[nodiscard]] inline double aspect_of(const FilmSize& size) { return static_cast<double>(size.width) / size.height; }
+
 /// "1000x900". Throws InputError that shows the form.
 [[nodiscard]] FilmSize parse_size(const std::string& text);
 

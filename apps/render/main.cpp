@@ -9,6 +9,7 @@
 #include "render/render_command.h"
 #include "tandem/effects/names.h"
 #include "tandem/error/error.h"
+#include "tandem/scene/framing.h"
 #include "tandem/scene/load_scene.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/version/version.h"
@@ -25,6 +26,7 @@ struct Words {
     std::string tier = "strict";
     std::string effects;
     std::string limits = to_string(PathLimits{});
+    std::string light = "default";
     std::string backend = "cpu";
     std::string specialise = "always";
     int instants = 0;                               // 0: as the cameras say
@@ -52,7 +54,15 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_option("--frames", words.frames, "from A to B, both included, or all of the animation")
         ->type_name("A-B|all")
         ->excludes(frame);
-    app.add_option("--camera", sequence.camera, "name of the camera's node; the scene's first if not given");
+    app.add_option("--camera", sequence.camera,
+                   "name of the camera's node, or a view of the whole scene where no camera has that name: " +
+                       view_names() + ". If not given, the scene's first camera, or auto where there is none")
+        ->type_name("NAME");
+    app.add_option("--light", words.light,
+                   "what lights a file in which nothing gives light: default, a sky and a light from the upper left of "
+                   "the camera; or none")
+        ->check(CLI::IsMember({"default", "none"}))
+        ->capture_default_str();
     app.add_option("--effects", words.effects,
                    "force effects on or off, as in -shadows,+refraction; all or none. What the scene calls for if not "
                    "given");
@@ -135,7 +145,9 @@ int render(int argc, char** argv) {
 
     const std::atomic<bool>& interrupted = watch_interrupts();
     ImportReport import;
-    Scene scene = load_scene(command.scene, &import);
+    Scene scene = load_scene(
+        command.scene, &import,
+        {.camera = sequence.camera, .aspect = aspect_of({width, height}), .default_light = words.light == "default"});
     if (words.instants > 0) set_shutter_instants(scene, words.instants);
     if (!command.quiet) say_what_is_not_rendered(import);
     sequence.frames = frames_of(words, scene);

@@ -63,12 +63,14 @@ class SceneBuilder {
     SceneBuilder(const Source& source, ImportReport& report)
         : source_(source), document_(source.document), report_(report), geometry_(source, scene_, report) {}
 
-    Scene run() {
+    /// Everything but the report.
+    ImportResult run() {
         choose_scene();
         number_nodes();
         scene_.materials = gltf::read_materials(source_, report_);
         gltf::read_textures(source_, scene_, report_);
-        scene_.environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
+        const auto environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
+        scene_.environment = environment.value_or(Environment{});
         scene_.display = gltf::read_display(document_, chosen_, chosen_path_, report_);
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
@@ -77,7 +79,7 @@ class SceneBuilder {
         gltf::pose_skins(source_, node_of_, geometry_, scene_, report_);
         gltf::read_animation(source_, node_of_, scene_, report_);
         read_frame_rate();
-        return std::move(scene_);
+        return {std::move(scene_), {}, std::move(chosen_path_), environment.has_value()};
     }
 
   private:
@@ -246,9 +248,10 @@ ImportResult import_gltf(const std::filesystem::path& file) {
     gltf::check_schema(document);
     gltf::check_structure(document);
     const Source source = gltf::load_model(document, gltf::locate_buffers(document));
-    ImportResult result;
-    result.scene = SceneBuilder(source, result.report).run();
-    gltf::note_ignored_features(document, result.report);
+    ImportReport report;
+    ImportResult result = SceneBuilder(source, report).run();
+    gltf::note_ignored_features(document, report);
+    result.report = std::move(report);
     const std::vector<std::string> problems = validate(result.scene);
     if (!problems.empty()) {
         const std::string others = problems.size() == 1 ? "" : fmt::format("; and {} more", problems.size() - 1);

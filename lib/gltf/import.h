@@ -11,6 +11,8 @@ namespace tandem {
 struct ImportResult {
     Scene scene;
     ImportReport report;
+    std::string scene_path;        ///< JSON path of the scene, "scenes[0]"
+    bool has_environment = false;  ///< TANDEM_environment says what the background is
 };
 
 /// Reads a .gltf or .glb file, with the buffers beside it and the images that its materials show. Files outside of its

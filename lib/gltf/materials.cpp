@@ -68,12 +68,12 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
 
 Material default_material() { return {"default", phong_from_base_colour({1, 1, 1}), FaceSides::culled}; }
 
-Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
-                             ImportReport& report) {
+std::optional<Environment> read_environment(const Document& document, const Json* scene, const std::string& scene_path,
+                                            ImportReport& report) {
     constexpr const char* name = "TANDEM_environment";
     const auto [found, path] = find_scene_extension(document, scene, scene_path, name, report);
+    if (found == nullptr) return std::nullopt;
     Environment environment;
-    if (found == nullptr) return environment;
     report.add(Treatment::rendered, name, path, "background and ambient light");
     if (const Json* gradient = find(*found, "gradient")) {
         environment.bottom = read_colour(*gradient, "bottom", environment.bottom);

@@ -1,6 +1,7 @@
 /// Materials and the environment.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tandem/gltf/document.h"
@@ -17,9 +18,9 @@ namespace tandem::gltf {
 /// What glTF gives to primitives that name no material, as far as Phong's model can follow: white.
 [[nodiscard]] Material default_material();
 
-/// TANDEM_environment of the scene, else of the root, else Tandem's default.
-[[nodiscard]] Environment read_environment(const Document& document, const Json* scene, const std::string& scene_path,
-                                           ImportReport& report);
+/// TANDEM_environment of the scene, else of the root, else nothing.
+[[nodiscard]] std::optional<Environment> read_environment(const Document& document, const Json* scene,
+                                                          const std::string& scene_path, ImportReport& report);
 
 /// Three numbers of a member, or `absent`.
 [[nodiscard]] Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent);

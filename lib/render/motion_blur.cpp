@@ -8,6 +8,7 @@
 #include "tandem/effects/derive.h"
 #include "tandem/film/sha256.h"
 #include "tandem/render/seconds.h"
+#include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"
 
 namespace tandem {

@@ -13,7 +13,7 @@ namespace tandem {
 /// arc), cubic Hermite spline (rotations are normalised when they become matrices).
 [[nodiscard]] std::vector<Transform> parents_from_nodes(const Scene& scene, double time);
 
-/// The same in world space.
+/// The same for every node relative to the world.
 [[nodiscard]] std::vector<Transform> world_from_nodes(const Scene& scene, double time);
 
 /// Does the channel take different values at times between `from` and `to`, both excluded? Exact, but for rotations

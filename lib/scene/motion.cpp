@@ -1,10 +1,7 @@
 #include "tandem/scene/motion.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
 
 namespace tandem {
@@ -21,18 +18,6 @@ bool has_primitives(const Scene& scene, const Node& node) {
 }
 
 }  // namespace
-
-std::size_t camera_node(const Scene& scene, const std::string& name) {
-    std::string cameras;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const Node& node = scene.nodes[i];
-        if (!node.camera) continue;
-        if (name.empty() || node.name == name) return i;
-        cameras += (cameras.empty() ? "'" : ", '") + node.name + "'";
-    }
-    if (name.empty()) throw InputError("the scene has no camera; add a node with one");
-    throw InputError(fmt::format("the scene has no camera '{}'; it has {}", name, cameras.empty() ? "none" : cameras));
-}
 
 std::vector<std::size_t> nodes_in_motion(const Scene& scene, std::size_t camera, double time) {
     const Shutter& shutter = shutter_of(*scene.nodes[camera].camera);

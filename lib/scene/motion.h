@@ -2,16 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "tandem/scene/scene.h"
 
 namespace tandem {
-
-/// The node of the camera of that name; of the first one if the name is empty. Throws InputError that names the cameras
-/// if there is none.
-[[nodiscard]] std::size_t camera_node(const Scene& scene, const std::string& name);
 
 /// The nodes whose motion within the shutter's interval a frame at `time`, in seconds, shows: the camera's, first, and
 /// those with primitives or with lights that shine on some. A node moves if a channel that drives it, or an ancestor of

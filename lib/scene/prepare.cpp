@@ -10,8 +10,8 @@
 #include "tandem/error/error.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/area_lights.h"
+#include "tandem/scene/camera_node.h"
 #include "tandem/scene/media.h"
-#include "tandem/scene/motion.h"
 #include "tandem/scene/place_mesh.h"
 #include "tandem/scene/prepare_textures.h"
 #include "tandem/scene/render_origin.h"
@@ -352,19 +352,13 @@ class Preparer {
 #undef TANDEM_PRIMITIVE
     }
 
-    /// A camera looks along its node; scale does not change what it sees (glTF 2.0, 3.10).
     void set_camera(const Camera& camera, std::size_t node) {
         const Transform& world_from_node = world_from_node_[node];
-        const Matrix3 axes = transpose(world_from_node.linear);
-        const double handedness = determinant(world_from_node.linear);
-        if (handedness == 0 || !std::isfinite(handedness))
-            fail(node, "a camera under a transform that is not invertible");
-        const Vec3d backward = normalize(axes.row[2]);
-        const Vec3d right = normalize(cross(axes.row[1], backward)) * (handedness < 0 ? -1.0 : 1.0);
-        const Vec3d up = normalize(cross(backward, right)) * (handedness < 0 ? -1.0 : 1.0);
+        const std::optional<Matrix3> axes = camera_axes(world_from_node);
+        if (!axes) fail(node, "a camera under a transform that is not invertible");
         check_reach(world_from_node.translation, {0, 0, 0}, node);
         // in world space until the origin is chosen
-        result_.render_from_camera = {transpose({{right, up, backward}}), world_from_node.translation};
+        result_.render_from_camera = {transpose(*axes), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
             result_.half_height = std::tan(perspective->yfov / 2);
             result_.lens = perspective->lens;

@@ -9,6 +9,7 @@
 #include "support/effect_scenes.h"
 #include "tandem/film/compare.h"
 #include "tandem/render/motion_blur.h"
+#include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"
 #include "tandem/scene/named_scenes.h"
 

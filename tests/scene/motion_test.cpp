@@ -10,6 +10,7 @@
 #include "tandem/error/error.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/animation.h"
+#include "tandem/scene/camera_node.h"
 
 namespace tandem {
 namespace {

@@ -1,0 +1,120 @@
+#include "tandem/scene/default_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tandem/math/frame.h"
+#include "tandem/scene/animation.h"
+#include "tandem/scene/camera_node.h"
+#include "tandem/scene/surface_reach.h"
+#include "tandem/texture/levels.h"
+
+namespace tandem {
+
+namespace {
+
+/// Mean radiance of the surfaces from which a scene counts as lit by them.
+constexpr double enough_glow = 0.2;
+
+const Environment sky = {{0.11F, 0.115F, 0.13F}, {0.30F, 0.335F, 0.39F}, {1, 1, 1}, 1, 0};
+constexpr float key_intensity = 0.52F;
+constexpr float fill_intensity = 0.1F;
+/// To the key light, along the camera's right, up and backward.
+constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
+
+double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+/// Square metres, in the world. Of an ellipsoid that of the sphere of its volume.
+double area_of(const Scene& scene, const PlacedShape& placed) {
+    const Matrix3& m = placed.world_from_shape.linear;
+    if (const auto* sphere = std::get_if<SphereShape>(&placed.geometry->shape)) {
+        const double radius = sphere->radius * std::cbrt(std::abs(determinant(m)));
+        return 4 * std::numbers::pi * radius * radius;
+    }
+    if (const auto* box = std::get_if<BoxShape>(&placed.geometry->shape)) {
+        const Matrix3 axes = transpose(m);
+        const Vec3d edge[3] = {axes.row[0] * box->size.x, axes.row[1] * box->size.y, axes.row[2] * box->size.z};
+        return 2 *
+               (length(cross(edge[0], edge[1])) + length(cross(edge[1], edge[2])) + length(cross(edge[2], edge[0])));
+    }
+    const Mesh& mesh = scene.meshes[std::get<MeshShape>(placed.geometry->shape).mesh];
+    double area = 0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const Vec3d start = widen(mesh.positions[a]);
+        area += length(cross(m * (widen(mesh.positions[b]) - start), m * (widen(mesh.positions[c]) - start))) / 2;
+    };
+    const auto& t = mesh.triangles;
+    for (std::size_t i = 0; i < t.size(); i += 3) add(t[i], t[i + 1], t[i + 2]);
+    const auto& q = mesh.quads;
+    for (std::size_t i = 0; i < q.size(); i += 4) {
+        add(q[i], q[i + 1], q[i + 2]);
+        add(q[i], q[i + 2], q[i + 3]);
+    }
+    return area;
+}
+
+/// The mean of red, green and blue over a picture, linear.
+double mean_level(const Image& image) {
+    const std::vector<float> levels = texture_levels();
+    double sum = 0;
+    for (const std::uint32_t texel : image.texels) {
+        for (const int shift : {0, 8, 16}) sum += double{levels[texel >> shift & 255U]};
+    }
+    return sum / (3.0 * static_cast<double>(image.texels.size()));
+}
+
+double radiance_of(const Scene& scene, const Material& material) {
+    const double factor = material.unlit ? 0 : norm1(widen(material.optics.emission)) / 3;
+    if (factor == 0 || !material.emissive_texture) return factor;
+    return factor * mean_level(scene.images[scene.textures[material.emissive_texture->texture].image]);
+}
+
+/// The mean radiance over all surfaces.
+double mean_glow(const Scene& scene) {
+    std::vector<double> radiance;
+    for (const Material& material : scene.materials) radiance.push_back(radiance_of(scene, material));
+    if (std::none_of(radiance.begin(), radiance.end(), [](double r) { return r > 0; })) return 0;
+    double total = 0, area = 0;
+    for (const PlacedShape& placed : place_shapes(scene, time_of_frame(scene, 0))) {
+        const double part = area_of(scene, placed);
+        area += part;
+        total += part * radiance[placed.geometry->material];
+    }
+    return area > 0 ? total / area : 0;
+}
+
+/// Is there a surface whose picture depends on light?
+bool needs_light(const Scene& scene) {
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
+        return std::any_of(node.geometry.begin(), node.geometry.end(),
+                           [&](const Geometry& geometry) { return !scene.materials[geometry.material].unlit; });
+    });
+}
+
+}  // namespace
+
+bool has_light(const Scene& scene) {
+    const auto shines = [](const Node& node) { return node.light && is_lit(*node.light); };
+    return !needs_light(scene) || std::any_of(scene.nodes.begin(), scene.nodes.end(), shines) ||
+           mean_glow(scene) > enough_glow;
+}
+
+void add_default_light(Scene& scene, std::size_t camera) {
+    scene.environment = sky;
+    const Transform world_from_camera = world_from_nodes(scene, time_of_frame(scene, 0))[camera];
+    const Matrix3 axes = camera_axes(world_from_camera).value_or(Matrix3{});
+    const auto add = [&](const char* name, const Vec3d& to_light, float intensity, bool casts_shadows) {
+        const Frame<double> frame = frame_around(normalize(transpose(axes) * to_light));
+        Node node;
+        node.name = name;
+        node.matrix = {transpose({{frame.tangent, frame.bitangent, frame.normal}}), {0, 0, 0}};
+        node.light =
+            LightSource{.kind = LightKind::directional, .intensity = intensity, .casts_shadows = casts_shadows};
+        scene.nodes.push_back(std::move(node));
+    };
+    add("key light", to_key, key_intensity, true);
+    add("fill light", {0, 0, 1}, fill_intensity, false);
+}
+
+}  // namespace tandem
