@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "loop_backend.h"
 #include "support/input_error.h"
 #include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
+#include "tandem/film/image_codecs.h"
 #include "tandem/report/html_writer.h"
 #include "tandem/report/json_writer.h"
 #include "tandem/scene/load_scene.h"
@@ -116,6 +118,26 @@ TEST(EffectLedger, JsonAndPageHoldIt) {
     for (std::size_t at = 0; (at = page.find("<img ", at)) != std::string::npos; ++at) ++pictures;
     EXPECT_EQ(pictures, 3 * 6U) << "three for each of four effects left out and two added in";
     EXPECT_NE(page.find("FLIP between the two"), std::string::npos);
+}
+
+TEST(EffectLedger, PicturesAreAsTheSceneSaysAndMapsAsTheyAre) {
+    Report report;
+    ASSERT_TRUE(run_effects(small_options(), BackendSource{}, report));
+    std::size_t grids = 0;
+    for (const Block& block : report.blocks) {
+        const auto* grid = std::get_if<PictureGrid>(&block);
+        if (grid == nullptr) continue;
+        ++grids;
+        ASSERT_EQ(grid->pictures.size(), 3U);
+        std::vector<Display> displays;
+        for (const Picture& picture : grid->pictures) {
+            displays.push_back(decode_png(std::as_bytes(std::span(picture.png)), picture.caption).display);
+        }
+        const Display of_scene = load_scene(glass).display;
+        EXPECT_EQ(of_scene.transfer, TransferFunction::srgb);
+        EXPECT_EQ(displays, (std::vector<Display>{of_scene, of_scene, {TransferFunction::linear}}));
+    }
+    EXPECT_EQ(grids, 6U);
 }
 
 TEST(EffectLedger, AnotherFilmOfAnotherBackendIsAnError) {

@@ -10,6 +10,7 @@
 #include "paper_figures.h"
 #include "support/temporary_folder.h"
 #include "tandem/error/error.h"
+#include "tandem/film/image_io.h"
 #include "tandem/report/html_writer.h"
 #include "tandem/report/json_writer.h"
 #include "tandem/report/text_writer.h"
@@ -80,7 +81,8 @@ TEST_F(Paper, MeasuresEveryRungOfTheLadder) {
     EXPECT_EQ(property_of(report_, "pixels compared"), "12960");
     EXPECT_EQ(property_of(report_, "film frame 8").size(), 64U);
     EXPECT_NE(prose_of(report_).find("12,960 pixels"), std::string::npos) << prose_of(report_);
-    EXPECT_TRUE(std::filesystem::exists(options_.out + "/frames/frame-0008.png"));
+    EXPECT_EQ(read_image(options_.out + "/frames/frame-0008.png").display, (Display{TransferFunction::linear}))
+        << "the paper's own mapping";
     EXPECT_FALSE(std::filesystem::exists(options_.out + "/frame.ppm"));
     EXPECT_FALSE(std::filesystem::exists(options_.out + "/ppm-text"));
 }

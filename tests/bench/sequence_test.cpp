@@ -42,7 +42,8 @@ TEST_F(Sequence, WritesEveryFrameAndEachIsItsOwn) {
         RenderJob job = job_;
         job.frame = static_cast<std::uint32_t>(frame);
         const Film film = backend_.render(backend_.load(prepare(scene_, {frame, {}}), job.tier), job).film;
-        EXPECT_EQ(tone_map(film_to_image(film)).image.values, tone_map(file.image).image.values) << frame;
+        EXPECT_EQ(file.display, (Display{TransferFunction::linear})) << "the paper's mapping";
+        EXPECT_EQ(tone_map(film, file.display).image.values, tone_map(file.image, file.display).image.values) << frame;
     }
 }
 
