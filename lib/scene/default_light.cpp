@@ -84,8 +84,8 @@ void add_default_light(Scene& scene, std::size_t camera) {
         Node node;
         node.name = name;
         node.matrix = {transpose({{frame.tangent, frame.bitangent, frame.normal}}), {0, 0, 0}};
-        node.light = LightSource{
-            .kind = LightKind::directional, .intensity = intensity, .casts_shadows = casts_shadows};
+        node.light =
+            LightSource{.kind = LightKind::directional, .intensity = intensity, .casts_shadows = casts_shadows};
         scene.nodes.push_back(std::move(node));
     };
     add("key light", to_key, key_intensity, true);

@@ -5,8 +5,9 @@
 
 namespace tandem {
 
-/// Does the scene have light of its own? A lamp that shines is enough. Surfaces that glow are, if their mean radiance over
-/// all surfaces at frame 0 is above 0.2, which lights a closed room: eyes, dials and labels that glow leave the rest dark.
+/// Does the scene have light of its own? A lamp that shines is enough. Surfaces that glow are, if their mean radiance
+/// over all surfaces at frame 0 is above 0.2, which lights a closed room: eyes, dials and labels that glow leave the
+/// rest dark.
 [[nodiscard]] bool has_light(const Scene& scene);
 
 /// Adds an even grey-blue sky, which lights surfaces, and a directional light at a new node "key light" that casts
