@@ -83,7 +83,7 @@ Fit fit(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& across, con
 double centre_at(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& across, const Vec3d& backward,
                  double slope, double distance) {
     Fit tight = fit(reach, middle, across, backward, slope);
-    for (int i = 0; i < 3 && tight.distance > 0 && tight.distance < distance; ++i) {
+    for (int i = 0; i < 8 && tight.distance > 0 && tight.distance < 0.99 * distance; ++i) {
         slope *= tight.distance / distance;
         tight = fit(reach, middle, across, backward, slope);
     }
@@ -135,9 +135,9 @@ Vec3d place_camera(const SurfaceReach& reach, const Bounds& bounds, const Matrix
     const double slope_up = fill * std::tan(vertical_angle / 2);
     const double slope_right = slope_up * aspect;
     const Vec3d size = bounds.upper - bounds.lower;
-    // a point, and a line that is seen end-on, fit into every picture: the camera keeps off them
-    const double extent = norm1(size) > 0 ? norm1(size) : norm1(middle) > 0 ? 1e-3 * norm1(middle) : 1;
-    const double closest = reach.along(backward) - dot(backward, middle) + 0.05 * extent;
+    // a line that is seen end-on fits into every picture, and so does a point: the camera keeps off them
+    const double gap = norm1(size) > 0 ? 0.05 * norm1(size) : std::max(1.0, 1e-3 * norm1(middle));
+    const double closest = reach.along(backward) - dot(backward, middle) + gap;
     const double distance = std::max({closest, fit(reach, middle, right, backward, slope_right).distance,
                                       fit(reach, middle, up, backward, slope_up).distance});
     return middle + right * centre_at(reach, middle, right, backward, slope_right, distance) +

@@ -48,6 +48,23 @@ TEST(Versus, UnequalPicturesAreNotCompared) {
         << prose_of(report);
 }
 
+TEST(Versus, TheTierFastPromisesNoEqualPictures) {
+    VersusOptions options = small_frames();
+    options.tier = "fast";
+    Report report;
+    EXPECT_TRUE(run_versus(options, loop_source(the_gpu), report));
+    EXPECT_EQ(report.rows[0].tier, "fast");
+    EXPECT_NE(prose_of(report).find("1 of 360 pixels differ"), std::string::npos) << "but they are compared";
+    options = small_rays();
+    options.tier = "fast";
+    Report rays;
+    EXPECT_TRUE(run_versus(options, loop_source(the_gpu), rays));
+    EXPECT_EQ(rays.rows.size(), 3U) << "there is no second row of the tier fast";
+    EXPECT_EQ(property_of(rays, "differing hits"), "1");
+    options.tier = "best";
+    EXPECT_THROW((void)run_versus(options, loop_source(), rays), InputError);
+}
+
 TEST(Versus, OneBackendStandsAloneAndNoneIsAnError) {
     Report report;
     EXPECT_TRUE(run_versus(small_frames(), loop_source(nothing, "cuda"), report));

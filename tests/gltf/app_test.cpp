@@ -56,6 +56,19 @@ TEST_F(App, InfoKnowsNamedScenes) {
     EXPECT_TRUE(contains(info.out, "primitives: 50 (50 spheres"));
 }
 
+TEST_F(App, AFileWithoutACameraIsFine) {
+    test::TestFile file = test::rich_file();
+    file.json["nodes"][0].erase("camera");
+    const std::string path = write("blind.gltf", file.text()).string();
+    const Run info = run("info " + path);
+    EXPECT_EQ(info.status, 0);
+    EXPECT_TRUE(contains(info.out, "primitives: 4 (1 spheres, 3 boxes"));
+    EXPECT_TRUE(contains(info.out, "\"auto\", perspective, 40 degrees high"));
+    const Run check = run("check " + path);
+    EXPECT_EQ(check.status, 0);
+    EXPECT_TRUE(contains(check.out, "  approximated: no camera at scenes[0]: framed from the front"));
+}
+
 TEST_F(App, JsonGoesToAFileOrToStandardOutput) {
     const Run info = run("info named:paper --json -");
     const Json described = Json::parse(info.out);

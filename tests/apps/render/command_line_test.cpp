@@ -69,6 +69,8 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
                                             Case{"named:paper --exposure -101" + out, "--exposure is '-101'"},
                                             Case{"named:paper --exposure ''" + out, "--exposure"},
                                             Case{"named:paper --transfer gamma" + out, "'gamma'"},
+                                            Case{"named:paper --camera under" + out, "front, back, left"},
+                                            Case{"named:paper --light dim" + out, "--light"},
                                             Case{"named:paper --png-level 10" + out, "--png-level"}}) {
         const Finished run = tandem_render(arguments);
         EXPECT_EQ(run.status, 2) << arguments << "\n" << run.printed;
