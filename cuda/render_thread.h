@@ -53,6 +53,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
             is_open = place < end;
             if (is_open && x < job.width && y < height) walk.take(job, x, y, true);
         }
+        __syncwarp();  // see gather_block()
         if (__syncthreads_or(walk.working()) == 0) return;
         const Closest<Real> hit = walk.find(tracer, tracer.scene, job, pixel.tally);
         if (!walk.leave(tracer, tracer.scene, job, hit, pixel.tally)) continue;
