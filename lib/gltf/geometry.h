@@ -4,35 +4,39 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "tandem/gltf/budget.h"
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem::gltf {
 
+/// On a node, to repeat its mesh.
+inline constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
+
 /// Reads the geometry of nodes. Materials that primitives do not name become one default material at the end.
 class GeometryReader {
   public:
-    GeometryReader(const Source& source, Scene& scene, ImportReport& report)
-        : source_(source), scene_(scene), report_(report), budget_(source) {}
+    GeometryReader(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws)
+        : source_(source), scene_(scene), report_(report), flaws_(flaws), budget_(source) {}
 
-    /// What hangs on node `index` of the file.
+    /// What hangs on node `index` of the file, less the primitives that have a flaw.
     [[nodiscard]] std::vector<Geometry> read(std::size_t index);
 
     /// Notes the shapes of KHR_implicit_shapes that no primitive of the file uses.
     void note_unused_shapes();
 
   private:
+    std::optional<Geometry> read_primitive(std::size_t mesh, std::size_t index, const std::vector<Trs>& instances);
     /// Of primitive `index` of a mesh of the file.
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
     /// A textured mesh needs texture coordinates.
     void complete_texcoords(const Geometry& geometry, const std::string& path);
-    [[nodiscard]] std::size_t primitives_in(const Shape& shape) const;
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);
     std::vector<Trs> read_instances(const Json& instancing, const std::string& path);
@@ -41,9 +45,12 @@ class GeometryReader {
     const Source& source_;
     Scene& scene_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Budget budget_;
     std::optional<std::uint32_t> default_material_;
-    std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> mesh_of_;  ///< by mesh and primitive of the file
+    using PrimitiveIndex = std::pair<std::size_t, std::size_t>;  ///< mesh and primitive of the file
+    std::map<PrimitiveIndex, std::uint32_t> mesh_of_;
+    std::set<PrimitiveIndex> left_out_;
 };
 
 }  // namespace tandem::gltf

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tandem/gltf/document.h"
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 

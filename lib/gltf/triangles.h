@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tandem/gltf/budget.h"
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
@@ -20,9 +20,9 @@ inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
 /// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and normals and
 /// the first texture coordinates where there are some.
 ///
-/// Throws InputError if a count is not that of whole triangles, an index is out of range, the attributes do not have
-/// as many elements as POSITION, or an accessor is of the wrong type. Integers stand for positions only in files that
-/// use KHR_mesh_quantization.
-[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::string& path, Budget& budget);
+/// An attribute that cannot be read, or has not as many elements as POSITION, is left out; what triangles_of() and
+/// mend() say of corners and numbers holds. Throws a Flaw if positions or indices cannot be read, or no triangle is left.
+[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::string& path, Budget& budget,
+                                  FlawLog& flaws);
 
 }  // namespace tandem::gltf

@@ -283,6 +283,7 @@ class Preparer {
         for (const Placed& body : placed_balls_) result_.ellipsoids.push_back({place(body, origin, false)});
         result_.parallelepipeds.reserve(placed_boxes_.size());
         for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
+        reserve_faces();
         for (const PlacedSurface& surface : surfaces_) {
             Transform render_from_object = surface.world_from_object;
             render_from_object.translation -= origin;
@@ -291,6 +292,23 @@ class Preparer {
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);
         }
+    }
+
+    /// Arrays that grow would hold twice of what they need, and more while they move.
+    void reserve_faces() {
+        std::size_t triangles = 0, quads = 0, normals = 0, texcoords = 0;
+        for (const PlacedSurface& surface : surfaces_) {
+            const Mesh& mesh = *surface.mesh;
+            triangles += mesh.triangles.size() / 3;
+            quads += mesh.quads.size() / 4;
+            const std::size_t corners = mesh.triangles.size() + mesh.quads.size();
+            if (!mesh.normals.empty()) normals += corners;
+            if (!mesh.texcoords.empty()) texcoords += corners;
+        }
+        result_.triangles.reserve(triangles);
+        result_.quads.reserve(quads);
+        result_.normals.reserve(normals);
+        result_.texcoords.reserve(texcoords);
     }
 
     Vec3d precise_origin() const {
