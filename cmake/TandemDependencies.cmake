@@ -6,7 +6,6 @@ find_dependency(TBB)
 find_dependency(fmt)
 find_dependency(OpenSSL COMPONENTS Crypto)
 find_dependency(PNG)
-find_dependency(TinyGLTF)
 
 # Embree 4 (Debian 13, Ubuntu 24.04) or 3.13 (Debian 12): the target `embree`.
 find_package(embree 4 QUIET)

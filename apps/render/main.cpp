@@ -1,6 +1,8 @@
 /// tandem-render: frames of a scene as image files. docs/images.md has the formats, names and resumption.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "common/arguments.h"
@@ -102,8 +104,13 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
 
 FrameRange frames_of(const Words& words, const Scene& scene) {
     if (words.frames.empty()) return {words.frame, words.frame};
-    if (words.frames == "all") return {0, frame_count(scene) - 1};
-    return parse_frames(words.frames);
+    if (words.frames != "all") return parse_frames(words.frames);
+    const std::int32_t count = frame_count(scene);
+    if (count == std::numeric_limits<std::int32_t>::max()) {
+        throw InputError(
+            "--frames all: the animation has no last frame that could be numbered; name frames, as in 0-99");
+    }
+    return {0, count - 1};
 }
 
 /// Nothing that a file asks for is left out in silence; tandem-gltf info has the whole report.

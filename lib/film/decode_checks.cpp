@@ -38,4 +38,12 @@ void check_data(const std::string& name, const char* format, std::size_t availab
                               needed, available));
 }
 
+void check_work(const std::string& name, const char* format, std::size_t available, std::size_t work) {
+    const std::size_t limit = decoding_limit(available);
+    if (work <= limit) return;
+    fail_decoding(name, format,
+                  fmt::format("decoding it is the work of {} pixels, and a file of {} bytes may have that of {}", work,
+                              available, limit));
+}
+
 }  // namespace tandem

@@ -20,6 +20,9 @@ void check_texture_size(const std::string& name, const char* format, std::uint64
 /// out before memory is allocated.
 void check_data(const std::string& name, const char* format, std::size_t available, std::size_t needed);
 
+/// Throws if decoding takes more work (TexelSize::work) than decoding_limit() allows.
+void check_work(const std::string& name, const char* format, std::size_t available, std::size_t work);
+
 /// No deflate stream unpacks to more than this many times its size.
 inline constexpr std::size_t most_deflate_ratio = 1032;
 

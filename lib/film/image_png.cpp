@@ -1,6 +1,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstring>
@@ -8,6 +9,7 @@
 
 #include "tandem/film/decode_checks.h"
 #include "tandem/film/image_codecs.h"
+#include "tandem/film/texel_rows.h"
 #include "tandem/film/texels.h"
 #include "tandem/film/tone_curve.h"
 
@@ -107,15 +109,57 @@ struct PngReader : PngFile {
         png_set_strip_alpha(png);
         return finish_header();
     }
-    /// The same for pixels of red, green, blue and alpha, 8 bits each.
+    /// The same for pixels of red, green, blue and alpha, 8 bits each. Texts and profiles, which may unpack to far more
+    /// than the picture, are passed over.
     bool read_texel_header() {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png, info);
+        unpacked_bytes = png_get_rowbytes(png, info) * height();
+        return true;
+    }
+    /// `shrinks`: rows of an interlaced picture come as they are in the file.
+    bool start_texels(bool shrinks) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_expand(png);
         png_set_scale_16(png);
         png_set_gray_to_rgb(png);
         png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
-        return finish_header();
+        if (!shrinks) png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        return true;
+    }
+    bool read_rows(TexelRows& rows, png_bytep row) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        for (std::size_t y = 0; y < height(); ++y) {
+            png_read_row(png, row, nullptr);
+            rows.add(row);
+        }
+        png_read_end(png, info);
+        return true;
+    }
+    /// Of an interlaced picture: every 2^shift-th pixel of every 2^shift-th row.
+    bool read_pixels_apart(Texels& texels, png_bytep row, unsigned shift) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        const auto columns_of = static_cast<png_uint_32>(width()), rows_of = static_cast<png_uint_32>(height());
+        const png_uint_32 mask = (1U << shift) - 1;
+        const int last_pass = shift >= 3 ? 0 : shift == 2 ? 2 : 4;  // those behind it have other pixels
+        for (int pass = 0; pass <= last_pass; ++pass) {
+            const png_uint_32 columns = PNG_PASS_COLS(columns_of, pass);
+            const png_uint_32 rows = columns == 0 ? 0 : PNG_PASS_ROWS(rows_of, pass);
+            for (png_uint_32 i = 0; i < rows; ++i) {
+                png_read_row(png, row, nullptr);
+                const png_uint_32 y = PNG_ROW_FROM_PASS_ROW(i, pass);
+                if ((y & mask) != 0) continue;
+                for (png_uint_32 k = 0; k < columns; ++k) {
+                    const png_uint_32 x = PNG_COL_FROM_PASS_COL(k, pass);
+                    if ((x & mask) != 0) continue;
+                    std::memcpy(&texels.texels[std::size_t{y >> shift} * texels.width + (x >> shift)],
+                                row + std::size_t{k} * TexelRows::channels, TexelRows::channels);
+                }
+            }
+        }
+        return true;
     }
 
     bool read_pixels(const std::vector<png_bytep>& rows) {
@@ -125,6 +169,10 @@ struct PngReader : PngFile {
         return true;
     }
 
+    std::size_t unpacked_bytes = 0;  ///< of all rows as they are in the file
+
+    [[nodiscard]] std::size_t work() const { return std::max(width() * height(), unpacked_bytes / 4); }
+    [[nodiscard]] bool is_interlaced() const { return png_get_interlace_type(png, info) != PNG_INTERLACE_NONE; }
     [[nodiscard]] std::size_t width() const { return png_get_image_width(png, info); }
     [[nodiscard]] std::size_t height() const { return png_get_image_height(png, info); }
     [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png, info); }
@@ -154,6 +202,7 @@ void check_chunk_lengths(std::span<const std::byte> bytes, const std::string& na
     for (std::size_t at = signature; at < bytes.size();) {
         if (bytes.size() - at < around_data) return;  // libpng says what is wrong, if it gets there
         const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(&bytes[at]));
+        if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return;  // what follows is not part of the picture
         if (length > bytes.size() - at - around_data) {
             fail_decoding(name, "PNG", "the file is cut off, or the length of a chunk is wrong");
         }
@@ -226,23 +275,51 @@ DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& nam
     return result;
 }
 
-Texels decode_png_texels(std::span<const std::byte> bytes, const std::string& name) {
+namespace {
+
+/// Reads the header and checks what it claims.
+void open_texels(PngReader& reader, std::span<const std::byte> bytes, const std::string& name) {
     check_chunk_lengths(bytes, name);
-    PngReader reader(bytes);
     if (!reader.read_texel_header()) fail_decoding(name, "PNG", reader.error.data());
     check_texture_size(name, "PNG", reader.width(), reader.height());
+    check_data(name, "PNG", bytes.size(), reader.unpacked_bytes / most_deflate_ratio);
+    check_work(name, "PNG", bytes.size(), reader.work());
+}
+
+}  // namespace
+
+TexelSize png_texel_size(std::span<const std::byte> bytes, const std::string& name) {
+    PngReader reader(bytes);
+    open_texels(reader, bytes, name);
+    return {static_cast<std::uint32_t>(reader.width()), static_cast<std::uint32_t>(reader.height()), reader.work()};
+}
+
+Texels decode_png_texels(std::span<const std::byte> bytes, const std::string& name, unsigned shift) {
+    PngReader reader(bytes);
+    open_texels(reader, bytes, name);
+    const auto width = static_cast<std::uint32_t>(reader.width()), height = static_cast<std::uint32_t>(reader.height());
+    const bool shrinks = shift > 0;
+    if (!reader.start_texels(shrinks)) fail_decoding(name, "PNG", reader.error.data());
     const std::size_t row_bytes = reader.row_bytes();
-    if (row_bytes != 4 * reader.width())
+    if (row_bytes != TexelRows::channels * std::size_t{width}) {
         fail_decoding(name, "PNG", "its pixels are of a kind that libpng cannot expand");
-    // one bit of a palette becomes the four bytes of a texel
-    check_data(name, "PNG", bytes.size(), row_bytes / 32 * reader.height() / most_deflate_ratio);
-    std::vector<std::uint8_t> raw(row_bytes * reader.height());
-    if (!reader.read_pixels(rows_of(raw.data(), row_bytes, reader.height()))) {
-        fail_decoding(name, "PNG", reader.error.data());
     }
-    Texels result{static_cast<std::uint32_t>(reader.width()), static_cast<std::uint32_t>(reader.height()), {}};
-    result.texels.resize(reader.width() * reader.height());
-    std::memcpy(result.texels.data(), raw.data(), raw.size());
+    bool good = false;
+    Texels result;
+    if (reader.is_interlaced()) {
+        result = {shrunk_edge(width, shift), shrunk_edge(height, shift), {}};
+        result.texels.resize(std::size_t{result.width} * result.height);
+        std::vector<std::uint8_t> row(row_bytes);
+        auto* raw = reinterpret_cast<std::uint8_t*>(result.texels.data());
+        good = shrinks ? reader.read_pixels_apart(result, row.data(), shift)
+                       : reader.read_pixels(rows_of(raw, row_bytes, height));
+    } else {
+        TexelRows rows(width, height, shift);
+        std::vector<std::uint8_t> row(row_bytes);
+        good = reader.read_rows(rows, row.data());
+        result = rows.take();
+    }
+    if (!good) fail_decoding(name, "PNG", reader.error.data());
     return result;
 }
 

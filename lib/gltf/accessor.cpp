@@ -18,32 +18,42 @@ namespace {
 /// Elements that an accessor without a buffer view may have: they cost the file nothing, but memory here.
 constexpr std::size_t most_zeros = std::size_t{1} << 24;
 
+/// glTF 2.0, 3.6.2.2.
+enum ComponentType : std::uint64_t {
+    signed_byte = 5120,
+    unsigned_byte = 5121,
+    signed_short = 5122,
+    unsigned_short = 5123,
+    unsigned_int = 5125,
+    float_number = 5126
+};
+
 template <class Number>
-Number number_at(const unsigned char* bytes) {
+Number number_at(const std::byte* bytes) {
     Number value;
     std::memcpy(&value, bytes, sizeof(value));
     return value;
 }
 
 template <class Integer>
-float float_at(const unsigned char* bytes, bool normalised) {
+float float_at(const std::byte* bytes, bool normalised) {
     const auto value = static_cast<float>(number_at<Integer>(bytes));
     const float largest = std::numeric_limits<Integer>::max();
     return normalised ? std::max(value / largest, -1.0F) : value;
 }
 
-void decode(const unsigned char* bytes, int component_type, bool normalised, float& value) {
+void decode(const std::byte* bytes, std::uint64_t component_type, bool normalised, float& value) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case signed_byte:
             value = float_at<std::int8_t>(bytes, normalised);
             return;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case unsigned_byte:
             value = float_at<std::uint8_t>(bytes, normalised);
             return;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
+        case signed_short:
             value = float_at<std::int16_t>(bytes, normalised);
             return;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case unsigned_short:
             value = float_at<std::uint16_t>(bytes, normalised);
             return;
         default:
@@ -51,17 +61,33 @@ void decode(const unsigned char* bytes, int component_type, bool normalised, flo
     }
 }
 
-void decode(const unsigned char* bytes, int component_type, bool, std::uint32_t& value) {
+void decode(const std::byte* bytes, std::uint64_t component_type, bool, std::uint32_t& value) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        case unsigned_byte:
             value = number_at<std::uint8_t>(bytes);
             return;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        case unsigned_short:
             value = number_at<std::uint16_t>(bytes);
             return;
         default:
             value = number_at<std::uint32_t>(bytes);
     }
+}
+
+bool are_of(Components components, std::uint64_t component_type, bool normalised) {
+    const bool is_float = component_type == float_number;
+    const bool is_small = component_bytes(component_type) < 4;
+    switch (components) {
+        case Components::floats:
+            return is_float;
+        case Components::normalised:
+            return is_float || (is_small && normalised);
+        case Components::quantised:
+            return is_float || is_small;
+        case Components::indices:
+            break;
+    }
+    return component_type == unsigned_byte || component_type == unsigned_short || component_type == unsigned_int;
 }
 
 const char* words(Components components) {
@@ -73,7 +99,7 @@ const char* words(Components components) {
         case Components::quantised:
             return "floats (5126), bytes or shorts";
         case Components::indices:
-            return "unsigned integers (5121, 5123 or 5125), not normalised";
+            return "unsigned integers (5121, 5123 or 5125)";
     }
     return "others";
 }
@@ -85,31 +111,35 @@ class Reader {
     Reader(const Source& source, std::size_t index, const AccessorNeed& need)
         : source_(source),
           need_(need),
-          accessor_(source.model.accessors[index]),
           json_(source.document.json["accessors"][index]),
           path_(fmt::format("accessors[{}]", index)),
+          count_(json_["count"].get<std::size_t>()),
+          component_type_(json_["componentType"].get<std::uint64_t>()),
+          normalised_(json_.value("normalized", false)),
           width_(component_count(need.type)),
-          component_(component_bytes(static_cast<std::uint64_t>(accessor_.componentType))) {}
+          component_(component_bytes(component_type_)) {}
 
     std::vector<Value> run() {
         check_type();
-        const bool zeros = accessor_.bufferView < 0;
-        if (zeros && accessor_.count > most_zeros) {
-            fail(fmt::format("has {} elements and no buffer view to hold them; give it one", accessor_.count));
+        const Json* viewed = find(json_, "bufferView");
+        if (viewed == nullptr && count_ > most_zeros) {
+            fail(fmt::format("has {} elements and no buffer view to hold them; give it one", count_));
         }
-        values_.resize(accessor_.count * width_);
-        if (!zeros) {
-            const View from = view(accessor_.bufferView, accessor_.byteOffset, component_ * width_);
-            for (std::size_t i = 0; i < accessor_.count; ++i) read_element(from.bytes + i * from.stride, i);
+        values_.resize(count_ * width_);
+        if (viewed != nullptr) {
+            const View from = view(json_, component_ * width_);
+            for (std::size_t i = 0; i < count_; ++i) read_element(from.bytes + i * from.stride, i);
         }
         if (const Json* sparse = find(json_, "sparse")) replace(*sparse);
-        if constexpr (std::is_floating_point_v<Value>) check_finite();
+        if constexpr (std::is_floating_point_v<Value>) {
+            if (need_.is_finite) check_finite();
+        }
         return std::move(values_);
     }
 
   private:
     struct View {
-        const unsigned char* bytes;
+        const std::byte* bytes;
         std::size_t stride;
     };
 
@@ -120,41 +150,22 @@ class Reader {
         if (type != need_.type) {
             fail(fmt::format("is of type {}, but {} ({}) needs {}", type, need_.for_what, need_.used_at, need_.type));
         }
-        if (accepts_component()) return;
-        fail(fmt::format("has components of type {}{}, but {} ({}) needs {}", accessor_.componentType,
-                         accessor_.normalized ? ", normalised" : "", need_.for_what, need_.used_at,
-                         words(need_.components)));
+        if (are_of(need_.components, component_type_, normalised_)) return;
+        fail(fmt::format("has components of type {}{}, but {} ({}) needs {}", component_type_,
+                         normalised_ ? ", normalised" : "", need_.for_what, need_.used_at, words(need_.components)));
     }
 
-    bool accepts_component() const {
-        const bool is_float = accessor_.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-        const bool is_small = component_ < 4;
-        switch (need_.components) {
-            case Components::floats:
-                return is_float;
-            case Components::normalised:
-                return is_float || (is_small && accessor_.normalized);
-            case Components::quantised:
-                return is_float || is_small;
-            case Components::indices:
-                break;
-        }
-        return !accessor_.normalized && (accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                         accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                                         accessor_.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+    /// Of an object with a bufferView; check_schema() has made sure that all of it lies in the buffer.
+    View view(const Json& object, std::size_t element) const {
+        const Json& view = source_.document.json["bufferViews"][object["bufferView"].get<std::size_t>()];
+        const std::size_t offset =
+            view.value("byteOffset", std::size_t{0}) + object.value("byteOffset", std::size_t{0});
+        return {source_.buffers[view["buffer"].get<std::size_t>()].data() + offset, view.value("byteStride", element)};
     }
 
-    /// check_structure() has made sure that all of it lies in the buffer.
-    View view(int index, std::size_t offset, std::size_t element) const {
-        const tinygltf::BufferView& view = source_.model.bufferViews[static_cast<std::size_t>(index)];
-        const auto& data = source_.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-        return {data.data() + view.byteOffset + offset, view.byteStride == 0 ? element : view.byteStride};
-    }
-
-    void read_element(const unsigned char* bytes, std::size_t element) {
+    void read_element(const std::byte* bytes, std::size_t element) {
         for (std::size_t c = 0; c < width_; ++c) {
-            decode(bytes + c * component_, accessor_.componentType, accessor_.normalized,
-                   values_[element * width_ + c]);
+            decode(bytes + c * component_, component_type_, normalised_, values_[element * width_ + c]);
         }
     }
 
@@ -162,18 +173,16 @@ class Reader {
         const Json& indices = sparse["indices"];
         const Json& values = sparse["values"];
         const std::size_t index_bytes = component_bytes(indices["componentType"].get<std::uint64_t>());
-        const View index_view =
-            view(indices["bufferView"].get<int>(), indices.value("byteOffset", std::size_t{0}), index_bytes);
-        const View value_view =
-            view(values["bufferView"].get<int>(), values.value("byteOffset", std::size_t{0}), component_ * width_);
+        const View index_view = view(indices, index_bytes);
+        const View value_view = view(values, component_ * width_);
         const auto count = sparse["count"].get<std::size_t>();
         for (std::size_t i = 0; i < count; ++i) {
             std::uint32_t at = 0;  // little endian: the lower bytes come first
             std::memcpy(&at, index_view.bytes + i * index_view.stride, index_bytes);
-            if (at >= accessor_.count) {
+            if (at >= count_) {
                 source_.document.fail(path_ + ".sparse.indices", fmt::format("entry {} is {}, but the accessor has {} "
                                                                              "elements",
-                                                                             i, at, accessor_.count));
+                                                                             i, at, count_));
             }
             read_element(value_view.bytes + i * value_view.stride, at);
         }
@@ -188,15 +197,31 @@ class Reader {
 
     const Source& source_;
     const AccessorNeed need_;
-    const tinygltf::Accessor& accessor_;
     const Json& json_;
     std::string path_;
+    std::size_t count_;
+    std::uint64_t component_type_;
+    bool normalised_;
     std::size_t width_;
     std::size_t component_;
     std::vector<Value> values_;
 };
 
 }  // namespace
+
+std::size_t element_count(const Source& source, std::size_t index) {
+    return source.document.json["accessors"][index]["count"].get<std::size_t>();
+}
+
+bool has_components(const Source& source, std::size_t index, Components components) {
+    const Json& accessor = source.document.json["accessors"][index];
+    return are_of(components, accessor["componentType"].get<std::uint64_t>(), accessor.value("normalized", false));
+}
+
+std::uint32_t largest_index(const Source& source, std::size_t index) {
+    const auto type = source.document.json["accessors"][index]["componentType"].get<std::uint64_t>();
+    return type == unsigned_byte ? 0xFF : type == unsigned_short ? 0xFFFF : 0xFFFFFFFF;
+}
 
 std::vector<float> read_accessor(const Source& source, std::size_t index, const AccessorNeed& need) {
     return Reader<float>(source, index, need).run();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 
 namespace tandem::gltf {
 
@@ -21,13 +21,23 @@ enum class Components {
 struct AccessorNeed {
     std::string type;  ///< "SCALAR", "VEC2", "VEC3", "VEC4"
     Components components = Components::normalised;
-    std::string for_what;  ///< "the keys of an animation"
-    std::string used_at;   ///< JSON path of the index that names the accessor
+    std::string for_what;   ///< "the keys of an animation"
+    std::string used_at;    ///< JSON path of the index that names the accessor
+    bool is_finite = true;  ///< whether a number that is not finite is a flaw
 };
+
+/// How many elements an accessor says that it has, without a look at them.
+[[nodiscard]] std::size_t element_count(const Source& source, std::size_t index);
+
+/// Are its components of that kind?
+[[nodiscard]] bool has_components(const Source& source, std::size_t index, Components components);
+
+/// The largest number that indices of its type can be.
+[[nodiscard]] std::uint32_t largest_index(const Source& source, std::size_t index);
 
 /// The elements of an accessor, one number after the other. Floats as they are, normalised integers as glTF 2.0, 3.11
 /// turns them into floats; sparse replacements applied; zeros where there is no buffer view.
-/// Throws InputError if the accessor is of another type, or holds a number that is not finite.
+/// Throws a Flaw if the accessor is of another type, or holds a number that is not finite.
 [[nodiscard]] std::vector<float> read_accessor(const Source& source, std::size_t index, const AccessorNeed& need);
 
 /// The same for the indices of a mesh primitive.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -28,14 +29,22 @@ std::optional<AnimatedPath> animated_path_from(const std::string& name) {
 class AnimationReader {
   public:
     AnimationReader(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of, Scene& scene,
-                    ImportReport& report)
-        : source_(source), node_of_(node_of), scene_(scene), report_(report), budget_(source) {}
+                    ImportReport& report, FlawLog& flaws)
+        : source_(source), node_of_(node_of), scene_(scene), report_(report), flaws_(flaws), budget_(source) {}
 
     void run() {
         const Json* animations = find(source_.document.json, "animations");
         if (animations == nullptr || animations->empty()) return;
+        if ((*animations)[0].is_string()) return;  // left out
         const Json& channels = (*animations)[0]["channels"];
-        for (std::size_t c = 0; c < channels.size(); ++c) read_channel(channels[c], c);
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            if (channels[c].is_string()) continue;  // left out
+            try {
+                read_channel(channels[c], c);
+            } catch (const Flaw& flaw) {
+                flaws_.leave_out("channel of an animation", flaw);
+            }
+        }
         for (std::size_t a = 1; a < animations->size(); ++a) {
             report_.add(Treatment::ignored, "further animation", fmt::format("animations[{}]", a),
                         "Tandem plays the first animation of a file");
@@ -68,26 +77,32 @@ class AnimationReader {
                         "the default scene does not reach the node");
             return;
         }
-        if (!driven_.emplace(index, name).second) {
+        if (driven_.contains({index, name})) {
             source_.document.fail(path, fmt::format("drives the {} of node {} a second time; keep one", name, index));
+        }
+        if (scene_.nodes[*node_of_[index]].matrix) {
+            source_.document.fail(path, fmt::format("drives node {}, which is placed by a matrix; give it translation, "
+                                                    "rotation and scale",
+                                                    index));
         }
         AnimationChannel read = read_keys(channel["sampler"].get<std::size_t>(), *animated, path);
         read.node = *node_of_[index];
+        driven_.emplace(index, name);
         report_.add(Treatment::rendered, fmt::format("animation of {}", name), path,
                     "at the times of the frames, and while a shutter is open");
         scene_.animation.push_back(std::move(read));
     }
 
     AnimationChannel read_keys(std::size_t sampler_index, AnimatedPath animated, const std::string& path) {
-        const tinygltf::AnimationSampler& sampler = source_.model.animations[0].samplers[sampler_index];
+        const Json& sampler = source_.document.json["animations"][0]["samplers"][sampler_index];
+        const auto interpolation = sampler.value("interpolation", std::string("LINEAR"));
         const std::string where = fmt::format("animations[0].samplers[{}]", sampler_index);
         AnimationChannel read;
         read.path = animated;
-        read.interpolation = interpolation_from(sampler.interpolation);
-        const auto input = static_cast<std::size_t>(sampler.input);
-        const auto output = static_cast<std::size_t>(sampler.output);
-        budget_.spend(source_.document, path,
-                      source_.model.accessors[input].count + source_.model.accessors[output].count);
+        read.interpolation = interpolation_from(interpolation);
+        const auto input = sampler["input"].get<std::size_t>();
+        const auto output = sampler["output"].get<std::size_t>();
+        budget_.spend(source_.document, path, element_count(source_, input) + element_count(source_, output));
         read.times = read_accessor(source_, input,
                                    {"SCALAR", Components::floats, "the times of animation keys", where + ".input"});
         const bool is_rotation = animated == AnimatedPath::rotation;
@@ -99,29 +114,52 @@ class AnimationReader {
         if (given != groups * read.times.size()) {
             source_.document.fail(
                 where, fmt::format("has {} keys and {} values; {} interpolation needs {}", read.times.size(), given,
-                                   sampler.interpolation, groups * read.times.size()));
+                                   interpolation, groups * read.times.size()));
         }
         const auto unordered =
             std::adjacent_find(read.times.begin(), read.times.end(), [](float a, float b) { return !(a < b); });
         if (read.times.front() < 0 || unordered != read.times.end()) {
             source_.document.fail(where + ".input", "has key times that do not rise strictly from 0 or more");
         }
+        if (is_rotation) mend_rotations(read, groups, where);
         return read;
+    }
+
+    /// Of the three groups of a cubic key the middle one is the value.
+    void mend_rotations(AnimationChannel& channel, std::size_t groups, const std::string& where) {
+        for (std::size_t at = groups == 3 ? 4 : 0; at < channel.values.size(); at += 4 * groups) {
+            float* q = &channel.values[at];
+            if (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0) continue;
+            q[3] = 1;
+            flaws_.replace("rotation key", where + ".output",
+                           "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+        }
     }
 
     const Source& source_;
     const std::vector<std::optional<std::uint32_t>>& node_of_;
     Scene& scene_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Budget budget_;
     std::set<std::pair<std::size_t, std::string>> driven_;
 };
 
 }  // namespace
 
+void note_length(const Scene& scene, ImportReport& report) {
+    float end = 0;
+    for (const AnimationChannel& channel : scene.animation) end = std::max(end, channel.times.back());
+    constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
+    if (double{end} <= time_of_frame(scene, last)) return;
+    report.add(Treatment::approximated, "length of the animation", "animations[0]",
+               fmt::format("its last key is at {} s; frames have numbers up to {} only, which is at {} s", end, last,
+                           time_of_frame(scene, last)));
+}
+
 void read_animation(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of, Scene& scene,
-                    ImportReport& report) {
-    AnimationReader(source, node_of, scene, report).run();
+                    ImportReport& report, FlawLog& flaws) {
+    AnimationReader(source, node_of, scene, report, flaws).run();
 }
 
 }  // namespace tandem::gltf

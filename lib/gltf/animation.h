@@ -5,15 +5,18 @@
 #include <optional>
 #include <vector>
 
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem::gltf {
 
 /// Adds the channels of the first animation to the scene. `node_of`: by node of the file its number in the scene, or
-/// nothing if the scene does not have it. Throws InputError.
+/// nothing if the scene does not have it. A channel with a flaw is left out.
 void read_animation(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of, Scene& scene,
-                    ImportReport& report);
+                    ImportReport& report, FlawLog& flaws);
+
+/// Notes an animation that goes on beyond the last frame that has a number.
+void note_length(const Scene& scene, ImportReport& report);
 
 }  // namespace tandem::gltf

@@ -1,18 +1,19 @@
 #include "tandem/gltf/budget.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tandem::gltf {
 
-Budget::Budget(const Source& source) : left_(10'000'000) {
-    std::size_t bytes = 0;
-    for (const tinygltf::Buffer& buffer : source.model.buffers) bytes += buffer.data.size();
-    left_ = std::max(left_, bytes);
-}
+Budget::Budget(const Source& source) : whole_(std::max<std::size_t>(5'000'000, data_bytes(source))), left_(whole_) {}
 
 void Budget::spend(const Document& document, const std::string& json_path, std::size_t amount) {
     if (amount > left_) {
-        document.fail(json_path, "repeats the data of the file more than ten million times over; split the file");
+        document.refuse(json_path,
+                        fmt::format("brings what is read of accessors to more than {} elements, the limit for a "
+                                    "file of this size; repeat the data less often",
+                                    whole_));
     }
     left_ -= amount;
 }

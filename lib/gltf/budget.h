@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 
 namespace tandem::gltf {
 
@@ -12,13 +12,14 @@ namespace tandem::gltf {
 /// small file cannot fill the memory.
 class Budget {
   public:
-    /// Ten million, or as many as the file has bytes of data.
+    /// Five million, or as many as the file has bytes of data.
     explicit Budget(const Source& source);
 
-    /// Throws InputError once more than the budget has been spent.
+    /// Refuses the file once more than the budget has been spent.
     void spend(const Document& document, const std::string& json_path, std::size_t amount);
 
   private:
+    std::size_t whole_;
     std::size_t left_;
 };
 

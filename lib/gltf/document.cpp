@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "tandem/error/error.h"
+#include "tandem/file/lfs_pointer.h"
 #include "tandem/file/whole_file.h"
 #include "tandem/gltf/printable.h"
 
@@ -35,42 +37,66 @@ std::uint32_t word_at(ByteView bytes, std::size_t offset) {
 /// Takes the chunks of a .glb apart (glTF 2.0, 4.4).
 class GlbReader {
   public:
-    GlbReader(Document& document, ByteView bytes) : document_(document), bytes_(bytes) {}
+    GlbReader(Document& document, ByteView bytes, FlawLog& flaws) : document_(document), bytes_(bytes), flaws_(flaws) {}
 
     /// The JSON text; the binary chunk goes into the document.
     ByteView run() {
-        if (bytes_.size() < 20) fail("is too short for a .glb file; it may be truncated");
-        if (const auto version = word_at(bytes_, 4); version != 2) {
-            fail(fmt::format("is a .glb file of version {}; Tandem reads version 2", version));
+        check_header();
+        std::size_t at = header_bytes;
+        const ByteView json = take_chunk(at, "first", json_chunk);
+        if (bytes_.size() - at >= chunk_header_bytes && word_at(bytes_, at + 4) == bin_chunk) {
+            document_.chunk = take_chunk(at, "second");
         }
-        if (const auto length = word_at(bytes_, 8); length != bytes_.size()) {
-            fail(fmt::format("says in its header that it has {} bytes, but has {}; it may be truncated", length,
-                             bytes_.size()));
-        }
-        std::size_t at = 12;
-        const ByteView json = take_chunk(at, json_chunk, "first");
-        if (at < bytes_.size() && bytes_.size() - at >= 8 && word_at(bytes_, at + 4) == bin_chunk) {
-            const ByteView chunk = take_chunk(at, bin_chunk, "second");
-            document_.chunk.assign(chunk.begin(), chunk.end());
-            document_.has_chunk = true;
-        }
-        while (at < bytes_.size()) take_chunk(at, 0, "further");  // unknown chunks are to be skipped
+        while (bytes_.size() - at >= chunk_header_bytes) take_chunk(at, "further");  // unknown ones are to be skipped
+        if (at < bytes_.size()) note_rest("the last chunk", bytes_.size() - at);
         return json;
     }
 
   private:
+    static constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
+
     [[noreturn]] void fail(const std::string& what) const {
         throw InputError(fmt::format("{}: {}", document_.file.string(), what));
     }
 
+    void check_header() {
+        const auto require_bytes = [this](std::size_t count) {
+            if (bytes_.size() >= count) return;
+            fail(fmt::format("is too short for a .glb file: it has {} bytes of {} at least; it may be truncated",
+                             bytes_.size(), count));
+        };
+        require_bytes(8);
+        const auto version = word_at(bytes_, 4);
+        if (version == 1) fail(is_gltf_1);
+        if (version != 2) fail(fmt::format("is a .glb file of version {}; Tandem reads version 2", version));
+        require_bytes(header_bytes + chunk_header_bytes);
+        const std::size_t length = word_at(bytes_, 8);
+        if (length < header_bytes + chunk_header_bytes) {
+            fail(
+                fmt::format("says in its header that it has {} bytes, fewer than any .glb file; the header is wrong, "
+                            "so write the file anew",
+                            length));
+        }
+        if (length > bytes_.size()) {
+            fail(fmt::format("says in its header that it has {} bytes, but has {}: {} are missing; it may be truncated",
+                             length, bytes_.size(), length - bytes_.size()));
+        }
+        if (length < bytes_.size()) note_rest("the end that the header gives", bytes_.size() - length);
+        bytes_ = bytes_.first(length);
+    }
+
+    void note_rest(const char* behind, std::size_t count) {
+        flaws_.leave_out("bytes behind the end of the .glb",
+                         Flaw(document_.file, "header", fmt::format("{} bytes follow {}", count, behind)));
+    }
+
     /// `type`: what it must be; 0 for any.
-    ByteView take_chunk(std::size_t& at, std::uint32_t type, const char* which) const {
-        if (bytes_.size() - at < 8) fail(fmt::format("ends within the header of its {} chunk", which));
+    ByteView take_chunk(std::size_t& at, const char* which, std::uint32_t type = 0) const {
         const std::size_t length = word_at(bytes_, at);
         if (type != 0 && word_at(bytes_, at + 4) != type) {
             fail(fmt::format("is a .glb file whose {} chunk is not the JSON; write that chunk first", which));
         }
-        at += 8;
+        at += chunk_header_bytes;
         if (length > bytes_.size() - at) {
             fail(fmt::format("says that its {} chunk has {} bytes, but only {} follow; it may be truncated", which,
                              length, bytes_.size() - at));
@@ -82,6 +108,7 @@ class GlbReader {
 
     Document& document_;
     ByteView bytes_;
+    FlawLog& flaws_;
 };
 
 /// nlohmann's message without its bracketed identifier.
@@ -113,16 +140,49 @@ int nesting_of(std::string_view text) {
     return deepest;
 }
 
-Json parse(const Document& document, ByteView bytes) {
+/// The bytes of a well-formed UTF-8 sequence at the front of `text`, 0 if there is none (RFC 3629, 4).
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char lead = byte(0);
+    if (lead < 0x80) return 1;
+    const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+    if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i) {
+        if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+    }
+    const bool is_overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
+    const bool is_beyond = (lead == 0xED && byte(1) > 0x9F) || (lead == 0xF4 && byte(1) > 0x8F);
+    return is_overlong || is_beyond ? 0 : length;
+}
+
+/// The text with a question mark for every byte that is not UTF-8; nothing if it is all UTF-8.
+std::optional<std::string> as_utf8(std::string_view text) {
+    std::string repaired;
+    std::size_t taken = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = utf8_length(text.substr(at, 4));
+        if (length == 0) {
+            repaired.append(text.substr(taken, at - taken)).append("?");
+            taken = at + 1;
+        }
+        at += std::max<std::size_t>(1, length);
+    }
+    if (taken == 0) return std::nullopt;
+    return repaired.append(text.substr(taken));
+}
+
+Json parse(const Document& document, ByteView bytes, FlawLog& flaws) {
     const auto fail = [&](const std::string& what) {
         throw InputError(fmt::format("{}: {}", document.file.string(), printable(what)));
     };
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.empty()) fail("is empty; a glTF file holds a JSON object");
     if (text.size() > longest_json) {
         fail("has more than 512 MiB of JSON; put the data into buffers of their own");
     }
     if (nesting_of(text) > deepest_nesting) fail(fmt::format("nests its JSON deeper than {} levels", deepest_nesting));
+    const std::optional<std::string> repaired = as_utf8(text);
+    if (repaired) text = *repaired;
     Json json;
     try {
         json = Json::parse(text);
@@ -130,13 +190,22 @@ Json parse(const Document& document, ByteView bytes) {
         fail("is not well-formed JSON: " + plain_message(error));
     }
     if (!json.is_object()) fail("does not hold a JSON object; a glTF file starts with '{'");
+    if (repaired) flaws.replace("text that is not UTF-8", "root", "question marks stand for its bytes");
     return json;
 }
 
 }  // namespace
 
 void Document::fail(std::string_view json_path, std::string_view what) const {
-    throw InputError(fmt::format("{}: {}", file.string(), printable(fmt::format("{}: {}", json_path, what))));
+    throw Flaw(file, std::string(json_path), std::string(what));
+}
+
+void Document::refuse(std::string_view json_path, std::string_view what) const {
+    refuse(Flaw(file, std::string(json_path), std::string(what)));
+}
+
+void Document::refuse(const Flaw& flaw) const {
+    throw InputError(fmt::format("{}: {}", file.string(), printable(flaw.root())));
 }
 
 std::size_t Document::length(const std::string& array) const {
@@ -146,13 +215,15 @@ std::size_t Document::length(const std::string& array) const {
     return found.is_array() ? found.size() : 0;
 }
 
-Document read_document(const std::filesystem::path& file) {
+Document read_document(const std::filesystem::path& file, FlawLog& flaws) {
     Document document;
     document.file = file;
-    const Bytes bytes = read_file(file.string());
+    document.bytes = read_file(file.string());
+    const ByteView bytes = document.bytes;
+    if (is_lfs_pointer(bytes)) throw InputError(fmt::format("{}: {}", file.string(), lfs_advice));
     const bool is_glb = bytes.size() >= 4 && word_at(bytes, 0) == glb_magic;
-    const ByteView text = is_glb ? GlbReader(document, bytes).run() : ByteView(bytes);
-    document.json = parse(document, text);
+    document.json = parse(document, is_glb ? GlbReader(document, bytes, flaws).run() : bytes, flaws);
+    if (!document.chunk) document.bytes = {};
     return document;
 }
 

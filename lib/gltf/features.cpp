@@ -59,11 +59,19 @@ class Walker {
     Walker(const Document& document, ImportReport& report) : document_(document), report_(report) {}
 
     void run() {
+        for (const ImportNote& note : report_.notes()) {  // what had a flaw is not in the document any more
+            if (note.treatment == Treatment::ignored) met_.insert(note.feature);
+        }
         walk(document_.json, "", "");
         const Json* used = find(document_.json, "extensionsUsed");
         for (std::size_t i = 0; used != nullptr && i < used->size(); ++i) {
             const auto name = (*used)[i].get<std::string>();
             if (met_.contains(name)) continue;
+            if (const auto inside = inside_ignored_.find(name); inside != inside_ignored_.end()) {
+                report_.add(Treatment::ignored, name, inside->second.path,
+                            fmt::format("it is inside of {}, which is ignored", inside->second.outer));
+                continue;
+            }
             if (name == mesh_quantization) {
                 report_.add(Treatment::rendered, name, fmt::format("extensionsUsed[{}]", i),
                             "integers stand for positions, normals and texture coordinates");
@@ -92,6 +100,7 @@ class Walker {
         if (name == "extras") return;
         const std::string dot = path.empty() ? "" : ".";
         if (name == "extensions") {
+            if (!member.is_object()) return;
             for (const auto& [extension, content] : member.items()) {
                 met_.insert(extension);
                 const std::string where = fmt::format("{}{}extensions.{}", path, dot, extension);
@@ -99,6 +108,7 @@ class Walker {
                     walk(content, where, fmt::format("{}{}extensions.{}", place, dot, extension));
                 } else {
                     report_.add(Treatment::ignored, extension, where, why_ignored(extension));
+                    find_inside(content, extension, where);
                 }
             }
             return;
@@ -106,9 +116,29 @@ class Walker {
         walk(member, path + dot + name, place + dot + name);
     }
 
+    /// Remembers the extensions that objects inside of an ignored one use.
+    void find_inside(const Json& value, const std::string& outer, const std::string& path) {
+        for (const auto& [name, member] : value.items()) {
+            if (!member.is_structured()) continue;
+            const std::string where = value.is_array() ? fmt::format("{}[{}]", path, name) : path + "." + name;
+            if (value.is_object() && name == "extensions" && member.is_object()) {
+                for (const auto& [extension, content] : member.items()) {
+                    inside_ignored_.try_emplace(extension, Inside{outer, where + "." + extension});
+                }
+            }
+            find_inside(member, outer, where);
+        }
+    }
+
+    struct Inside {
+        std::string outer;  ///< the ignored extension
+        std::string path;
+    };
+
     const Document& document_;
     ImportReport& report_;
-    std::set<std::string> met_;  ///< extensions that some object uses
+    std::set<std::string> met_;                     ///< extensions that some object uses
+    std::map<std::string, Inside> inside_ignored_;  ///< extensions of objects within ignored extensions
 };
 
 }  // namespace

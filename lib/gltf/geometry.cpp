@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* implicit_geometry = "EXT_implicit_geometry";
 constexpr const char* implicit_shapes = "KHR_implicit_shapes";
-constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
 
 SphereShape sphere_from(const Json& sphere) { return {sphere.value("radius", 0.5)}; }
 
@@ -26,6 +25,8 @@ BoxShape box_from(const Json& box) {
     if (size == nullptr) return {};
     return {{(*size)[0].get<double>(), (*size)[1].get<double>(), (*size)[2].get<double>()}};
 }
+
+bool is_none(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
 
 /// The values of one attribute, or none if the file has none.
 struct Attribute {
@@ -59,15 +60,28 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
     const auto mesh_index = mesh->get<std::size_t>();
     const Json& primitives = source_.document.json["meshes"][mesh_index]["primitives"];
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh_index, i);
-        const auto shape = read_shape(mesh_index, i, path);
-        if (!shape) continue;
-        budget_.spend(source_.document, node_path + ".mesh",
-                      primitives_in(*shape) * std::max<std::size_t>(1, instances.size()));
-        result.push_back({*shape, material_of(primitives[i], path), instances});
-        note_sides(result.back(), path);
+        if (primitives[i].is_string() || left_out_.contains({mesh_index, i})) continue;
+        try {
+            if (auto geometry = read_primitive(mesh_index, i, instances)) {
+                result.push_back(std::move(*geometry));
+            }
+        } catch (const Flaw& flaw) {
+            flaws_.leave_out("primitive", flaw);
+            left_out_.insert({mesh_index, i});
+        }
     }
     return result;
+}
+
+std::optional<Geometry> GeometryReader::read_primitive(std::size_t mesh, std::size_t index,
+                                                       const std::vector<Trs>& instances) {
+    const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh, index);
+    const auto shape = read_shape(mesh, index, path);
+    if (!shape) return std::nullopt;
+    const Json& primitive = source_.document.json["meshes"][mesh]["primitives"][index];
+    Geometry geometry{*shape, material_of(primitive, path), instances};
+    note_sides(geometry, path);
+    return geometry;
 }
 
 void GeometryReader::complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path) {
@@ -87,11 +101,6 @@ void GeometryReader::note_sides(const Geometry& geometry, const std::string& pat
     if (mesh.is_closed) return;
     report_.add(Treatment::rendered, "single-sided faces", path,
                 "rays go through them from behind, as the material is not doubleSided");
-}
-
-std::size_t GeometryReader::primitives_in(const Shape& shape) const {
-    const auto* mesh = std::get_if<MeshShape>(&shape);
-    return mesh == nullptr ? 1 : scene_.meshes[mesh->mesh].triangles.size() / 3;
 }
 
 std::optional<Shape> GeometryReader::read_shape(std::size_t mesh, std::size_t index, const std::string& path) {
@@ -118,15 +127,19 @@ std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t ind
     const Json* material = find(primitive, "material");
     std::vector<std::uint32_t> sets;
     if (material != nullptr) sets = texcoord_sets(scene_.materials[material->get<std::size_t>()]);
-    if (!has_triangles(primitive, sets, is_skinned_, path, report_)) return std::nullopt;
-    const auto [known, is_new] =
-        mesh_of_.try_emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size()));
-    if (is_new) {
-        scene_.meshes.push_back(read_triangles(source_, primitive, sets, path, budget_, report_));
+    ImportReport notes;
+    const bool is_drawn = has_triangles(primitive, sets, is_skinned_, path, notes);
+    auto known = mesh_of_.find({mesh, index});
+    if (is_drawn && known == mesh_of_.end()) {
+        Mesh read = read_triangles(source_, primitive, sets, path, budget_, flaws_, notes);
+        read.name = described.value("name", std::string());
+        complete_texcoords(read, sets, path);
+        known = mesh_of_.emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size())).first;
+        scene_.meshes.push_back(std::move(read));
         primitives_.push_back(known->first);
-        complete_texcoords(scene_.meshes.back(), sets, path);
-        scene_.meshes.back().name = described.value("name", std::string());
     }
+    report_.add(notes);  // not before the mesh could be read
+    if (!is_drawn) return std::nullopt;
     return MeshShape{known->second};
 }
 
@@ -181,7 +194,7 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
         if (index == nullptr) return attribute;
         const std::string where = fmt::format("{}.attributes.{}", path, name);
         const auto accessor = index->get<std::size_t>();
-        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
+        budget_.spend(source_.document, where, element_count(source_, accessor));
         attribute = {read_accessor(source_, accessor, {type, Components::normalised, "an instance attribute", where}),
                      width};
         if (!counted.empty() && attribute.count() != count) {
@@ -209,6 +222,11 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
         if (translation.width != 0) instances[i].translation = translation.vec3(i);
         if (rotation.width != 0) {
             instances[i].rotation = {rotation.at(i, 0), rotation.at(i, 1), rotation.at(i, 2), rotation.at(i, 3)};
+            if (is_none(instances[i].rotation)) {
+                instances[i].rotation = {};
+                flaws_.replace("rotation of an instance", path + ".attributes.ROTATION",
+                               "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+            }
         }
         if (scale.width != 0) instances[i].scale = scale.vec3(i);
     }
@@ -230,6 +248,7 @@ void GeometryReader::note_unused_shapes() {
     std::vector<bool> used(source_.document.length(std::string("extensions/") + implicit_shapes + "/shapes"), false);
     const Json* meshes = find(source_.document.json, "meshes");
     for (std::size_t m = 0; meshes != nullptr && m < meshes->size(); ++m) {
+        if ((*meshes)[m].is_string()) continue;  // left out
         for (const Json& primitive : (*meshes)[m]["primitives"]) {
             if (const Json* reference = find_extension(primitive, implicit_shapes)) {
                 used[(*reference)["shape"].get<std::size_t>()] = true;

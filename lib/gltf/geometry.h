@@ -4,23 +4,27 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "tandem/gltf/budget.h"
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem::gltf {
 
+/// On a node, to repeat its mesh.
+inline constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
+
 /// Reads the geometry of nodes. Materials that primitives do not name become one default material at the end.
 class GeometryReader {
   public:
-    GeometryReader(const Source& source, Scene& scene, ImportReport& report)
-        : source_(source), scene_(scene), report_(report), budget_(source) {}
+    GeometryReader(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws)
+        : source_(source), scene_(scene), report_(report), flaws_(flaws), budget_(source) {}
 
-    /// What hangs on node `index` of the file.
+    /// What hangs on node `index` of the file, less the primitives that have a flaw.
     [[nodiscard]] std::vector<Geometry> read(std::size_t index);
 
     /// A primitive of the file: of a mesh, by its number there.
@@ -35,6 +39,7 @@ class GeometryReader {
     void note_unused_shapes();
 
   private:
+    std::optional<Geometry> read_primitive(std::size_t mesh, std::size_t index, const std::vector<Trs>& instances);
     /// Of primitive `index` of a mesh of the file.
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
@@ -42,7 +47,6 @@ class GeometryReader {
     void complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path);
     /// Notes what becomes of the backs of single-sided faces.
     void note_sides(const Geometry& geometry, const std::string& path);
-    [[nodiscard]] std::size_t primitives_in(const Shape& shape) const;
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);
     std::vector<Trs> read_instances(const Json& instancing, const std::string& path);
@@ -51,11 +55,13 @@ class GeometryReader {
     const Source& source_;
     Scene& scene_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Budget budget_;
     bool is_skinned_ = false;  ///< the node that is read
     std::optional<std::uint32_t> default_material_;
     std::map<Primitive, std::uint32_t> mesh_of_;
     std::vector<Primitive> primitives_;  ///< by mesh of the scene
+    std::set<Primitive> left_out_;
 };
 
 }  // namespace tandem::gltf

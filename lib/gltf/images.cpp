@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+#include <utility>
+
 #include "tandem/error/error.h"
-#include "tandem/film/texels.h"
+#include "tandem/film/texel_rows.h"
 #include "tandem/gltf/uris.h"
 
 namespace tandem::gltf {
@@ -16,76 +19,97 @@ constexpr std::uintmax_t most_bytes = std::uintmax_t{5} << 28;
 class ImageReader {
   public:
     ImageReader(const Source& source, std::size_t index)
-        : document_(source.document),
-          model_(source.model),
+        : source_(source),
+          document_(source.document),
           image_(source.document.json["images"][index]),
           path_(fmt::format("images[{}]", index)) {}
 
-    Image run() {
-        const Json* uri = find(image_, "uri");
-        const Json* view = find(image_, "bufferView");
-        if (uri != nullptr && view != nullptr) document_.fail(path_, "has a uri and a bufferView; keep one");
-        if (uri == nullptr && view == nullptr) document_.fail(path_, "has neither a uri nor a bufferView; add one");
-        if (view != nullptr) return in_view(view->get<std::size_t>());
-        const auto& text = uri->get_ref<const std::string&>();
-        return text.starts_with("data:") ? in_data_uri(text) : in_file(text);
+    EncodedImage run() {
+        find_bytes();
+        as_flaw(document_, result_.json_path, [&] { result_.size = texel_size(result_.bytes, result_.name); });
+        return std::move(result_);
+    }
+
+    /// Runs `call`, whose InputErrors are of what is at `json_path`.
+    template <class Call>
+    static void as_flaw(const Document& document, const std::string& json_path, Call call) {
+        try {
+            call();
+        } catch (const InputError& error) {
+            document.fail(json_path, error.what());
+        }
     }
 
   private:
-    /// `member`: of the image, where the bytes are from. `name`: what messages call them.
-    Image decode(std::span<const std::byte> bytes, const char* member, const std::string& name) const {
-        try {
-            Texels decoded = decode_texels(bytes, name);
-            return {image_.value("name", std::string()), decoded.width, decoded.height, std::move(decoded.texels)};
-        } catch (const InputError& error) {
-            document_.fail(fmt::format("{}.{}", path_, member), error.what());
-        }
+    void find_bytes() {
+        if (const Json* view = find(image_, "bufferView")) return in_view(view->get<std::size_t>());
+        const Json* uri = find(image_, "uri");
+        if (uri == nullptr) document_.fail(path_, "has neither a uri nor a bufferView; add one");
+        result_.json_path = path_ + ".uri";
+        const auto& text = uri->get_ref<const std::string&>();
+        if (text.starts_with("data:")) return in_data_uri(text);
+        in_file(text);
     }
 
-    Image in_view(std::size_t index) const {
+    void in_view(std::size_t index) {
         const Json& view = document_.json["bufferViews"][index];
-        const std::vector<unsigned char>& data = model_.buffers[view["buffer"].get<std::size_t>()].data;
+        const auto buffer = view["buffer"].get<std::size_t>();
         const auto offset = view.value("byteOffset", std::size_t{0});
-        const auto length = view["byteLength"].get<std::size_t>();
-        if (offset > data.size() || length > data.size() - offset) {
-            document_.fail(path_ + ".bufferView", "reaches beyond its buffer");
-        }
-        return decode(std::as_bytes(std::span(data).subspan(offset, length)), "bufferView",
-                      fmt::format("bufferView {}", index));
+        result_.json_path = path_ + ".bufferView";
+        result_.name = fmt::format("bufferView {}", index);
+        result_.place = fmt::format("{} {}", buffer, offset);
+        result_.bytes = source_.buffers[buffer].subspan(offset, view["byteLength"].get<std::size_t>());
     }
 
-    Image in_data_uri(std::string_view uri) const {
-        const std::string where = path_ + ".uri";
-        for (const std::string_view header : {"data:image/png;base64,", "data:image/jpeg;base64,"}) {
-            if (!uri.starts_with(header)) continue;
-            const auto digits = base64_digits(document_, where, uri.substr(header.size()));
-            return decode(decode_base64(digits), "uri", "data URI");
-        }
-        document_.fail(where,
-                       "is a data URI that does not begin with 'data:image/png;base64,' or 'data:image/jpeg;base64,'");
+    void in_data_uri(std::string_view uri) {
+        result_.name = "data URI";
+        result_.storage = decode_base64(base64_digits(document_, result_.json_path, uri));
+        result_.bytes = result_.storage;
     }
 
-    Image in_file(const std::string& uri) const {
-        const std::string where = path_ + ".uri";
-        const LocatedFile located = locate_beside(document_, where, uri);
-        if (located.bytes > most_bytes) document_.fail(where, fmt::format("has {} bytes, too many", located.bytes));
-        Bytes bytes;
-        try {
-            bytes = read_file(located.path.string());
-        } catch (const InputError& error) {
-            document_.fail(where, error.what());
+    void in_file(const std::string& uri) {
+        const LocatedFile located = locate_beside(document_, result_.json_path, uri);
+        if (located.bytes > most_bytes) {
+            document_.fail(result_.json_path, fmt::format("has {} bytes, too many", located.bytes));
         }
-        return decode(bytes, "uri", located.path.filename().string());
+        result_.name = located.path.filename().string();
+        result_.place = located.path.string();
+        result_.storage = read_beside(document_, result_.json_path, located.path);
+        result_.bytes = result_.storage;
     }
 
+    const Source& source_;
     const Document& document_;
-    const tinygltf::Model& model_;
     const Json& image_;
     std::string path_;
+    EncodedImage result_;
 };
 
 }  // namespace
 
-Image read_image(const Source& source, std::size_t index) { return ImageReader(source, index).run(); }
+EncodedImage read_image(const Source& source, std::size_t index) { return ImageReader(source, index).run(); }
+
+Image decode_image(const Source& source, std::size_t index, const EncodedImage& encoded, unsigned shift) {
+    Image image;
+    image.name = source.document.json["images"][index].value("name", std::string());
+    ImageReader::as_flaw(source.document, encoded.json_path, [&] {
+        Texels decoded = decode_texels(encoded.bytes, encoded.name, shift);
+        image.width = decoded.width;
+        image.height = decoded.height;
+        image.texels = std::move(decoded.texels);
+    });
+    return image;
+}
+
+void halve(Image& image) {
+    TexelRows rows(image.width, image.height, 1);
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        rows.add(reinterpret_cast<const std::uint8_t*>(&image.texels[std::size_t{y} * image.width]));
+    }
+    Texels halved = rows.take();
+    image.width = halved.width;
+    image.height = halved.height;
+    image.texels = std::move(halved.texels);
+}
 
 }  // namespace tandem::gltf

@@ -2,18 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "tandem/error/error.h"
 #include "tandem/gltf/animation.h"
 #include "tandem/gltf/buffers.h"
 #include "tandem/gltf/display.h"
+#include "tandem/gltf/face_count.h"
 #include "tandem/gltf/features.h"
 #include "tandem/gltf/geometry.h"
 #include "tandem/gltf/lights.h"
 #include "tandem/gltf/materials.h"
-#include "tandem/gltf/model.h"
 #include "tandem/gltf/printable.h"
 #include "tandem/gltf/schema.h"
 #include "tandem/gltf/skins.h"
@@ -27,23 +29,28 @@ namespace {
 using gltf::Document;
 using gltf::find;
 using gltf::find_extension;
+using gltf::FlawLog;
 using gltf::Json;
 using gltf::Source;
 
-Trs read_trs(const tinygltf::Node& node) {
+Trs read_trs(const Json& node, const std::string& path, FlawLog& flaws) {
     Trs trs;
-    const auto vec3 = [](const std::vector<double>& v) { return Vec3d{v[0], v[1], v[2]}; };
-    if (!node.translation.empty()) trs.translation = vec3(node.translation);
-    if (!node.scale.empty()) trs.scale = vec3(node.scale);
-    if (const auto& q = node.rotation; !q.empty()) trs.rotation = {q[0], q[1], q[2], q[3]};
+    const auto vec3 = [](const Json& v) { return Vec3d{v[0].get<double>(), v[1].get<double>(), v[2].get<double>()}; };
+    if (const Json* translation = find(node, "translation")) trs.translation = vec3(*translation);
+    if (const Json* scale = find(node, "scale")) trs.scale = vec3(*scale);
+    if (const Json* q = find(node, "rotation")) {
+        trs.rotation = {(*q)[0].get<double>(), (*q)[1].get<double>(), (*q)[2].get<double>(), (*q)[3].get<double>()};
+        if (*q == Json{0, 0, 0, 0}) {
+            trs.rotation = {};
+            flaws.replace("rotation", path + ".rotation", "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+        }
+    }
     return trs;
 }
 
 /// glTF stores matrices column by column.
-Transform read_matrix(const Document& document, const std::vector<double>& m, const std::string& node_path) {
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
-        document.fail(node_path + ".matrix", "has a last row other than 0, 0, 0, 1; a node's matrix must be affine");
-    }
+Transform read_matrix(const Json& matrix) {
+    const auto m = matrix.get<std::vector<double>>();
     return {{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
 }
 
@@ -60,15 +67,20 @@ std::string carried_name(const Document& document, const Json& node) {
 
 class SceneBuilder {
   public:
-    SceneBuilder(const Source& source, ImportReport& report)
-        : source_(source), document_(source.document), report_(report), geometry_(source, scene_, report) {}
+    SceneBuilder(const Source& source, ImportReport& report, FlawLog& flaws)
+        : source_(source),
+          document_(source.document),
+          report_(report),
+          flaws_(flaws),
+          geometry_(source, scene_, report, flaws) {}
 
     /// Everything but the report.
     ImportResult run() {
         choose_scene();
         number_nodes();
+        gltf::check_face_count(source_, node_of_);
         scene_.materials = gltf::read_materials(source_, report_);
-        gltf::read_textures(source_, scene_, report_);
+        gltf::read_textures(source_, scene_, report_, flaws_);
         const auto environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
         scene_.environment = environment.value_or(Environment{});
         scene_.display = gltf::read_display(document_, chosen_, chosen_path_, report_);
@@ -76,9 +88,10 @@ class SceneBuilder {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
         }
         geometry_.note_unused_shapes();
-        gltf::pose_skins(source_, node_of_, geometry_, scene_, report_);
-        gltf::read_animation(source_, node_of_, scene_, report_);
+        gltf::pose_skins(source_, node_of_, geometry_, scene_, report_, flaws_);
+        gltf::read_animation(source_, node_of_, scene_, report_, flaws_);
         read_frame_rate();
+        gltf::note_length(scene_, report_);
         return {std::move(scene_), {}, std::move(chosen_path_), environment.has_value()};
     }
 
@@ -109,11 +122,11 @@ class SceneBuilder {
 
     /// Numbers the nodes that the scene reaches, in the order of the file.
     void number_nodes() {
-        const std::size_t count = source_.model.nodes.size();
+        const std::size_t count = document_.length("nodes");
         parent_of_.assign(count, Node::no_parent);
         for (std::size_t i = 0; i < count; ++i) {
-            for (const int child : source_.model.nodes[i].children) {
-                parent_of_[static_cast<std::size_t>(child)] = static_cast<std::int32_t>(i);
+            for (const Json& child : children_of(i)) {
+                parent_of_[child.get<std::size_t>()] = static_cast<std::int32_t>(i);
             }
         }
         std::vector<std::size_t> open;
@@ -128,9 +141,11 @@ class SceneBuilder {
         while (!open.empty()) {
             const std::size_t at = open.back();
             open.pop_back();
+            if (reached[at]) continue;
             reached[at] = true;
-            for (const int child : source_.model.nodes[at].children) open.push_back(static_cast<std::size_t>(child));
+            for (const Json& child : children_of(at)) open.push_back(child.get<std::size_t>());
         }
+        note_listed_children(reached);
         node_of_.assign(count, std::nullopt);
         std::uint32_t next = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -143,19 +158,41 @@ class SceneBuilder {
         }
     }
 
+    const Json& children_of(std::size_t node) const {
+        static const Json none = Json::array();
+        const Json* children = find(document_.json["nodes"][node], "children");
+        return children == nullptr ? none : *children;
+    }
+
+    /// A scene is to list roots only.
+    void note_listed_children(const std::vector<bool>& reached) {
+        const Json* roots = chosen_ == nullptr ? nullptr : find(*chosen_, "nodes");
+        for (std::size_t k = 0; roots != nullptr && k < roots->size(); ++k) {
+            const auto root = (*roots)[k].get<std::size_t>();
+            if (parent_of_[root] == Node::no_parent) continue;
+            const auto parent = static_cast<std::size_t>(parent_of_[root]);
+            flaws_.replace(
+                "child listed by the scene", fmt::format("{}.nodes[{}]", chosen_path_, k),
+                fmt::format("node {} is a child of node {}; {}", root, parent,
+                            reached[parent] ? "Tandem takes it once, below that node"
+                                            : "the scene does not reach that node, so Tandem takes it for a root"));
+            if (!reached[parent]) parent_of_[root] = Node::no_parent;
+        }
+    }
+
     Node read_node(std::size_t index) {
-        const tinygltf::Node& read = source_.model.nodes[index];
         const Json& json = document_.json["nodes"][index];
         const std::string path = fmt::format("nodes[{}]", index);
         Node node;
-        node.name = read.name.empty() ? carried_name(document_, json) : read.name;
+        node.name = json.value("name", std::string());
+        if (node.name.empty()) node.name = carried_name(document_, json);
         if (parent_of_[index] != Node::no_parent) {
             node.parent = static_cast<std::int32_t>(*node_of_[static_cast<std::size_t>(parent_of_[index])]);
         }
-        node.trs = read_trs(read);
-        if (!read.matrix.empty()) node.matrix = read_matrix(document_, read.matrix, path);
+        node.trs = read_trs(json, path, flaws_);
+        if (const Json* matrix = find(json, "matrix")) node.matrix = read_matrix(*matrix);
         node.geometry = geometry_.read(index);
-        if (read.camera >= 0) node.camera = read_camera(static_cast<std::size_t>(read.camera), path);
+        if (const Json* camera = find(json, "camera")) node.camera = read_camera(camera->get<std::size_t>(), path);
         if (const Json* light = find_extension(json, "KHR_lights_punctual")) {
             read_light((*light)["light"].get<std::size_t>(), path, node);
         }
@@ -186,16 +223,17 @@ class SceneBuilder {
     }
 
     Camera read_camera(std::size_t index, const std::string& node_path) {
-        const tinygltf::Camera& camera = source_.model.cameras[index];
-        report_.add(Treatment::rendered, camera.type + " camera", node_path + ".camera",
+        const Json& camera = document_.json["cameras"][index];
+        const auto type = camera["type"].get<std::string>();
+        report_.add(Treatment::rendered, type + " camera", node_path + ".camera",
                     "its height; the width follows the film");
         Shutter shutter;
-        if (const Json* json = find_extension(document_.json["cameras"][index], "TANDEM_camera_shutter")) {
+        if (const Json* json = find_extension(camera, "TANDEM_camera_shutter")) {
             shutter = read_shutter(*json, index);
         }
-        const Json* lens = find_extension(document_.json["cameras"][index], "TANDEM_camera_lens");
-        if (camera.type == "perspective") {
-            PerspectiveCamera perspective{camera.perspective.yfov, {}, shutter};
+        const Json* lens = find_extension(camera, "TANDEM_camera_lens");
+        if (type == "perspective") {
+            PerspectiveCamera perspective{camera["perspective"]["yfov"].get<double>(), {}, shutter};
             if (lens != nullptr) perspective.lens = read_lens(*lens, index);
             return perspective;
         }
@@ -204,13 +242,13 @@ class SceneBuilder {
                         fmt::format("cameras[{}].extensions.TANDEM_camera_lens", index),
                         "an orthographic camera has no lens");
         }
-        return OrthographicCamera{camera.orthographic.ymag, shutter};
+        return OrthographicCamera{camera["orthographic"]["ymag"].get<double>(), shutter};
     }
 
     void read_light(std::size_t index, const std::string& node_path, Node& node) {
         const Json& light = document_.json["extensions"]["KHR_lights_punctual"]["lights"][index];
         if (node.name.empty()) node.name = light.value("name", std::string());
-        node.light = gltf::read_light(document_, light, node_path + ".extensions.KHR_lights_punctual", report_);
+        node.light = gltf::read_light(light, node_path + ".extensions.KHR_lights_punctual", report_);
     }
 
     /// glTF knows seconds only. A scene may say how many frames make one in its extras.
@@ -224,15 +262,18 @@ class SceneBuilder {
             scene_.frames_per_second = value;
             report_.add(Treatment::rendered, "frame rate", path, fmt::format("{} frames a second", value));
         } else if (!scene_.animation.empty()) {
-            report_.add(Treatment::approximated, "frame rate", "animations[0]",
-                        fmt::format("glTF has none; Tandem takes {} frames a second unless {} says otherwise",
-                                    scene_.frames_per_second, path));
+            report_.add(
+                Treatment::approximated, "frame rate", "animations[0]",
+                fmt::format("glTF has none; Tandem takes {} frames a second{}", scene_.frames_per_second,
+                            chosen_ == nullptr ? "; in a file with scenes, extras.frames_per_second of one sets it"
+                                               : fmt::format(" unless {} says otherwise", path)));
         }
     }
 
     const Source& source_;
     const Document& document_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Scene scene_;
     gltf::GeometryReader geometry_;
     const Json* chosen_ = nullptr;  ///< the scene; null if the file has none
@@ -244,14 +285,20 @@ class SceneBuilder {
 }  // namespace
 
 ImportResult import_gltf(const std::filesystem::path& file) {
-    Document document = gltf::read_document(file);
-    gltf::check_schema(document);
-    gltf::check_structure(document);
-    const Source source = gltf::load_model(document, gltf::locate_buffers(document));
     ImportReport report;
-    ImportResult result = SceneBuilder(source, report).run();
-    gltf::note_ignored_features(document, report);
+    FlawLog flaws(report);
+    Document document = gltf::read_document(file, flaws);
+    gltf::check_edition(document);
+    gltf::check_schema(document, flaws);
+    gltf::check_hierarchy(document, flaws);
+    const Source source = gltf::load_buffers(std::move(document));
+    ImportResult result = SceneBuilder(source, report, flaws).run();
+    gltf::note_ignored_features(source.document, report);
     result.report = std::move(report);
+    const std::vector<Node>& nodes = result.scene.nodes;
+    if (std::all_of(nodes.begin(), nodes.end(), [](const Node& node) { return node.geometry.empty(); })) {
+        flaws.refuse_lost_geometry();
+    }
     const std::vector<std::string> problems = validate(result.scene);
     if (!problems.empty()) {
         const std::string others = problems.size() == 1 ? "" : fmt::format("; and {} more", problems.size() - 1);

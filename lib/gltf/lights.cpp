@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tandem/gltf/materials.h"
@@ -17,20 +18,23 @@ std::optional<LightKind> kind_of(const std::string& type) {
     return std::nullopt;
 }
 
-void read_cone(const Document& document, const Json& light, const std::string& path, LightSource& source) {
-    const Json* spot = find(light, "spot");
-    if (spot == nullptr) document.fail(path, "is a spot light without the property 'spot'");
-    source.inner_cone = spot->value("innerConeAngle", 0.0);
-    source.outer_cone = spot->value("outerConeAngle", std::numbers::pi / 4);
-    if (!(source.inner_cone < source.outer_cone)) {
-        document.fail(path, "is a spot light whose innerConeAngle is not below its outerConeAngle");
-    }
+void read_cone(const Json& light, const std::string& path, LightSource& source, ImportReport& report) {
+    const Json none = Json::object();
+    const Json* found = find(light, "spot");
+    const Json& spot = found == nullptr ? none : *found;
+    source.inner_cone = spot.value("innerConeAngle", 0.0);
+    source.outer_cone = spot.value("outerConeAngle", std::numbers::pi / 4);
+    if (source.inner_cone < source.outer_cone) return;
+    constexpr double narrowest = 1e-3;  // of an edge, and of a cone
+    source.outer_cone = std::max(source.outer_cone, narrowest);
+    source.inner_cone = source.outer_cone * (1 - narrowest);
+    report.add(Treatment::approximated, "cone of a spot light", path,
+               "its innerConeAngle is not below its outerConeAngle; Tandem takes a sharp edge at that one");
 }
 
 }  // namespace
 
-std::optional<LightSource> read_light(const Document& document, const Json& light, const std::string& path,
-                                      ImportReport& report) {
+std::optional<LightSource> read_light(const Json& light, const std::string& path, ImportReport& report) {
     const auto type = light["type"].get<std::string>();
     const std::string feature = fmt::format("KHR_lights_punctual {}", type);
     const std::optional<LightKind> kind = kind_of(type);
@@ -42,7 +46,7 @@ std::optional<LightSource> read_light(const Document& document, const Json& ligh
     source.kind = *kind;
     source.colour = read_colour(light, "color", {1, 1, 1});
     source.intensity = light.value("intensity", 1.0F);
-    if (source.kind == LightKind::spot) read_cone(document, light, path, source);
+    if (source.kind == LightKind::spot) read_cone(light, path, source, report);
     const Json* phong = find_extension(light, "TANDEM_lights_phong");
     const bool falls_off = phong == nullptr || phong->value("falloff", true);
     source.casts_shadows = phong == nullptr || phong->value("shadows", true);

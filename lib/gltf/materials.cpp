@@ -27,13 +27,13 @@ Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent) {
 std::vector<Material> read_materials(const Source& source, ImportReport& report) {
     std::vector<Material> materials;
     const Json* described = find(source.document.json, "materials");
-    for (std::size_t i = 0; i < source.model.materials.size(); ++i) {
-        const tinygltf::Material& read = source.model.materials[i];
+    for (std::size_t i = 0; described != nullptr && i < described->size(); ++i) {
+        const Json& read = (*described)[i];
         const std::string path = fmt::format("materials[{}]", i);
-        Material material{read.name, {}};
-        material.optics = read_optics((*described)[i], path, report);
-        const Json* phong = find_extension((*described)[i], "TANDEM_materials_phong");
-        material.unlit = find_extension((*described)[i], unlit_name) != nullptr;
+        Material material{read.value("name", std::string()), {}};
+        material.optics = read_optics(read, path, report);
+        const Json* phong = find_extension(read, "TANDEM_materials_phong");
+        material.unlit = find_extension(read, unlit_name) != nullptr;
         if (phong != nullptr && !material.unlit) {
             const PhongMaterial absent;
             material.phong = {
@@ -42,13 +42,16 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
             report.add(Treatment::rendered, "TANDEM_materials_phong", path + ".extensions.TANDEM_materials_phong",
                        "Phong's model");
         } else {
-            const std::vector<double>& c = read.pbrMetallicRoughness.baseColorFactor;
-            material.phong = phong_from_base_colour(narrow(Vec3d{c[0], c[1], c[2]}));
-            if (!material.unlit)
+            const Json* pbr = find(read, "pbrMetallicRoughness");
+            const Vec3f white = {1, 1, 1};
+            material.phong =
+                phong_from_base_colour(pbr == nullptr ? white : read_colour(*pbr, "baseColorFactor", white));
+            if (!material.unlit) {
                 report.add(
                     Treatment::approximated, "metallic-roughness material", path,
                     "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
                     "shininess 32");
+            }
         }
         // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
@@ -56,7 +59,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
             report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),
                        "the base colour is what is seen; no light changes it, and it lights nothing");
         }
-        if (read.doubleSided) {
+        if (read.value("doubleSided", false)) {
             material.sides = FaceSides::double_sided;
             report.add(Treatment::rendered, "doubleSided", path + ".doubleSided",
                        "faces of meshes turn to the side that a ray comes from; closed shapes have one side");

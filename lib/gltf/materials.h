@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/document.h"
-#include "tandem/gltf/model.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 

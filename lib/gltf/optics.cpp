@@ -42,7 +42,8 @@ Optics read_optics(const Json& material, const std::string& path, ImportReport& 
                    where("KHR_materials_transmission"),
                    is_thin ? "without a thickness in KHR_materials_volume it means a thin wall; Tandem takes the body "
                              "for solid glass"
-                           : "a body of glass");
+                   : optics.transmission > 0 ? "a body of glass"
+                                             : "its factor is 0, so nothing passes through the body");
     }
     if (volume != nullptr) {
         const Vec3f colour = read_colour(*volume, "attenuationColor", {1, 1, 1});
@@ -51,19 +52,26 @@ Optics read_optics(const Json& material, const std::string& path, ImportReport& 
             optics.absorption = {absorption(colour.x, metres), absorption(colour.y, metres),
                                  absorption(colour.z, metres)};
         }
-        report.add(Treatment::rendered, "KHR_materials_volume", where("KHR_materials_volume"),
-                   "absorption along the path; the thickness is that of the shape");
+        const bool is_glass = optics.transmission > 0;
+        report.add(is_glass ? Treatment::rendered : Treatment::ignored, "KHR_materials_volume",
+                   where("KHR_materials_volume"),
+                   is_glass ? "absorption along the path; the thickness is that of the shape"
+                            : "the body transmits no light that could be absorbed");
     }
     if (find(material, "emissiveFactor") != nullptr) {
         const Json* strength = find_extension(material, "KHR_materials_emissive_strength");
         const float factor = strength == nullptr ? 1.0F : strength->value("emissiveStrength", 1.0F);
         optics.emission = read_colour(material, "emissiveFactor", {0, 0, 0}) * factor;
-        report.add(Treatment::rendered, "emission", path + ".emissiveFactor",
-                   "the surface glows, and lights others by its area");
-        if (strength != nullptr) {
-            report.add(Treatment::rendered, "KHR_materials_emissive_strength", where("KHR_materials_emissive_strength"),
-                       "a factor of the emission");
+        if (optics.emission != Vec3f{0, 0, 0}) {
+            report.add(Treatment::rendered, "emission", path + ".emissiveFactor",
+                       "the surface glows, and lights others by its area");
         }
+    }
+    if (find_extension(material, "KHR_materials_emissive_strength") != nullptr) {
+        const bool glows = optics.emission != Vec3f{0, 0, 0};
+        report.add(glows ? Treatment::rendered : Treatment::ignored, "KHR_materials_emissive_strength",
+                   where("KHR_materials_emissive_strength"),
+                   glows ? "a factor of the emission" : "the surface does not glow");
     }
     if (const Json* dielectric = find_extension(material, "TANDEM_materials_dielectric")) {
         optics.priority = dielectric->value("priority", 0U);

@@ -22,13 +22,20 @@ std::string to_string(Treatment treatment) {
 
 void ImportReport::add(Treatment treatment, std::string_view feature, std::string_view json_path,
                        std::string_view reason) {
-    ImportNote note{treatment, gltf::printable(std::string(feature)), gltf::printable(std::string(json_path)), 1,
-                    gltf::printable(std::string(reason))};
-    const auto [known, is_new] = index_.try_emplace({treatment, note.feature, note.reason}, notes_.size());
+    add({treatment, gltf::printable(std::string(feature)), gltf::printable(std::string(json_path)), 1,
+         gltf::printable(std::string(reason))});
+}
+
+void ImportReport::add(const ImportReport& other) {
+    for (const ImportNote& note : other.notes_) add(note);
+}
+
+void ImportReport::add(ImportNote note) {
+    const auto [known, is_new] = index_.try_emplace({note.treatment, note.feature, note.reason}, notes_.size());
     if (is_new) {
         notes_.push_back(std::move(note));
     } else {
-        ++notes_[known->second].uses;
+        notes_[known->second].uses += note.uses;
     }
 }
 

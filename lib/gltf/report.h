@@ -30,9 +30,14 @@ class ImportReport {
     /// Adds a use; uses of one feature with one treatment and reason become one note with the path of the first.
     void add(Treatment treatment, std::string_view feature, std::string_view json_path, std::string_view reason);
 
+    /// Adds all uses of another report.
+    void add(const ImportReport& other);
+
     [[nodiscard]] const std::vector<ImportNote>& notes() const { return notes_; }
 
   private:
+    void add(ImportNote note);
+
     std::vector<ImportNote> notes_;
     std::map<std::tuple<Treatment, std::string, std::string>, std::size_t> index_;  ///< by treatment, feature, reason
 };

@@ -35,13 +35,14 @@ void add(Transform& sum, const Transform& term) {
 class Poser {
   public:
     Poser(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of,
-          const GeometryReader& geometry, Scene& scene, ImportReport& report)
+          const GeometryReader& geometry, Scene& scene, ImportReport& report, FlawLog& flaws)
         : source_(source),
           json_(source.document.json),
           node_of_(node_of),
           geometry_(geometry),
           scene_(scene),
           report_(report),
+          flaws_(flaws),
           budget_(source) {}
 
     void run() {
@@ -85,8 +86,8 @@ class Poser {
                 if (!known->second) {
                     report_.add(Treatment::ignored, "skin", path, "the mesh has no JOINTS_0 and WEIGHTS_0");
                 }
-            } catch (const InputError& error) {
-                report_.add(Treatment::ignored, "skin", path, error.what());
+            } catch (const Flaw& flaw) {
+                flaws_.leave_out("skin", flaw);
             }
         }
         if (!known->second) return false;
@@ -211,6 +212,7 @@ class Poser {
     const GeometryReader& geometry_;
     Scene& scene_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Budget budget_;
     std::vector<Transform> world_from_node_;                                               ///< at rest
     std::map<std::pair<std::uint32_t, std::size_t>, std::optional<std::uint32_t>> posed_;  ///< by mesh and skin
@@ -219,8 +221,8 @@ class Poser {
 }  // namespace
 
 void pose_skins(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of,
-                const GeometryReader& geometry, Scene& scene, ImportReport& report) {
-    Poser(source, node_of, geometry, scene, report).run();
+                const GeometryReader& geometry, Scene& scene, ImportReport& report, FlawLog& flaws) {
+    Poser(source, node_of, geometry, scene, report, flaws).run();
 }
 
 }  // namespace tandem::gltf

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/geometry.h"
-#include "tandem/gltf/model.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
@@ -17,6 +17,6 @@ namespace tandem::gltf {
 /// it. A skin that cannot be used is noted, and its mesh stays at its node. `node_of`: from node of the file to node of
 /// the scene. `geometry`: the reader that made the meshes.
 void pose_skins(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of,
-                const GeometryReader& geometry, Scene& scene, ImportReport& report);
+                const GeometryReader& geometry, Scene& scene, ImportReport& report, FlawLog& flaws);
 
 }  // namespace tandem::gltf

@@ -1,12 +1,13 @@
 #include "tandem/gltf/structure.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
+#include <utility>
+#include <vector>
 
+#include "tandem/error/error.h"
 #include "tandem/gltf/extensions.h"
 
 namespace tandem::gltf {
@@ -23,131 +24,112 @@ std::uint64_t whole(const Json& object, const char* name, std::uint64_t absent =
     return object.value(name, absent);
 }
 
+/// 0 for what is no number.
+int major_version(const Json& version) {
+    if (version.is_number()) return version == 1 ? 1 : 0;
+    if (!version.is_string()) return 0;
+    const auto& text = version.get_ref<const std::string&>();
+    const auto is_major = [&](const char* number) {
+        return text == number || text.starts_with(number + std::string("."));
+    };
+    return is_major("1") ? 1 : is_major("2") ? 2 : 0;
+}
+
 void check_version(const Document& document) {
-    const Json& asset = document.json["asset"];
-    const auto version = asset["version"].get<std::string>();
-    if (!version.starts_with("2.")) {
-        document.fail("asset.version", fmt::format("is '{}'; Tandem reads glTF 2.0, so convert the file", version));
+    const Json* asset = find(document.json, "asset");
+    const Json* version = asset == nullptr ? nullptr : find(*asset, "version");
+    // before 1.0 was final, files had no version; its arrays are objects
+    const Json* meshes = find(document.json, "meshes");
+    const bool has_objects = version == nullptr && meshes != nullptr && meshes->is_object();
+    if (has_objects || (version != nullptr && major_version(*version) == 1)) {
+        throw InputError(fmt::format("{}: {}", document.file.string(), is_gltf_1));
     }
-    const auto least = asset.value("minVersion", std::string("2.0"));
-    if (least != "2.0") {
-        document.fail("asset.minVersion", fmt::format("asks for version {}; Tandem reads glTF 2.0", least));
+    if (version == nullptr || !version->is_string()) return;  // check_schema() says so
+    if (major_version(*version) != 2) {
+        document.refuse("asset.version", fmt::format("is '{}'; Tandem reads glTF 2.0, so convert the file",
+                                                     version->get<std::string>()));
+    }
+    const Json* least = find(*asset, "minVersion");
+    if (least != nullptr && least->is_string() && *least != "2.0" && *least != "2") {
+        document.refuse("asset.minVersion",
+                        fmt::format("asks for version {}; Tandem reads glTF 2.0", least->get<std::string>()));
     }
 }
 
 void check_required_extensions(const Document& document) {
     const Json& required = array_of(document, "extensionsRequired");
     for (std::size_t i = 0; i < required.size(); ++i) {
+        if (!required.is_array() || !required[i].is_string()) return;  // check_schema() says so
         const auto name = required[i].get<std::string>();
         if (is_rendered_extension(name)) continue;
-        document.fail(fmt::format("extensionsRequired[{}]", i),
-                      fmt::format("the file requires {}, which Tandem does not render; export it without, or make the "
-                                  "extension optional",
-                                  name));
+        document.refuse(fmt::format("extensionsRequired[{}]", i),
+                        fmt::format("the file requires {}, which Tandem does not render; export it without, or make "
+                                    "the extension optional",
+                                    name));
     }
 }
 
-/// Every node has at most one parent, and no node is its own ancestor; the nodes of a scene are roots.
-void check_hierarchy(const Document& document) {
-    const Json& nodes = array_of(document, "nodes");
-    constexpr std::size_t none = SIZE_MAX;
-    std::vector<std::size_t> parent_of(nodes.size(), none);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Json* children = find(nodes[i], "children");
-        for (std::size_t k = 0; children != nullptr && k < children->size(); ++k) {
+/// Checks or puts right the parents of nodes.
+class Hierarchy {
+  public:
+    Hierarchy(Document& document, FlawLog& flaws)
+        : document_(document), flaws_(flaws), parent_of_(document.length("nodes"), none) {}
+
+    void run() {
+        for (std::size_t i = 0; i < parent_of_.size(); ++i) take_children(i);
+        // with one parent each, a walk upwards that does not end is a cycle; every node is walked over once
+        std::vector<std::size_t> walk_of(parent_of_.size(), none);
+        for (std::size_t i = 0; i < parent_of_.size(); ++i) {
+            std::size_t at = i;
+            while (at != none && walk_of[at] == none) {
+                walk_of[at] = i;
+                at = parent_of_[at];
+            }
+            if (at != none && walk_of[at] == i) cut(at);
+        }
+    }
+
+  private:
+    static constexpr std::size_t none = SIZE_MAX;
+
+    Json& node(std::size_t index) { return document_.json["nodes"][index]; }
+
+    void take_children(std::size_t index) {
+        const Json* children = find(node(index), "children");
+        if (children == nullptr) return;
+        Json good = Json::array();
+        for (std::size_t k = 0; k < children->size(); ++k) {
             const auto child = (*children)[k].get<std::size_t>();
-            if (parent_of[child] != none) {
-                document.fail(fmt::format("nodes[{}].children[{}]", i, k),
-                              fmt::format("node {} is already a child of node {}; a node has one parent", child,
-                                          parent_of[child]));
+            if (parent_of_[child] == none) {
+                parent_of_[child] = index;
+                good.push_back(child);
+                continue;
             }
-            parent_of[child] = i;
+            flaws_.leave_out("second parent",
+                             Flaw(document_.file, fmt::format("nodes[{}].children[{}]", index, k),
+                                  fmt::format("node {} is already a child of node {}; a node has one parent", child,
+                                              parent_of_[child])));
         }
+        if (good.size() != children->size()) node(index)["children"] = std::move(good);
     }
-    // with one parent each, a walk upwards that does not end is a cycle; every node is walked over once
-    std::vector<std::size_t> walk_of(nodes.size(), none);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        std::size_t at = i;
-        while (at != none && walk_of[at] == none) {
-            walk_of[at] = i;
-            at = parent_of[at];
-        }
-        if (at != none && walk_of[at] == i) {
-            document.fail(fmt::format("nodes[{}]", at), "is its own ancestor; remove it from the children below it");
-        }
-    }
-    const Json& scenes = array_of(document, "scenes");
-    for (std::size_t s = 0; s < scenes.size(); ++s) {
-        const Json* roots = find(scenes[s], "nodes");
-        for (std::size_t k = 0; roots != nullptr && k < roots->size(); ++k) {
-            const auto root = (*roots)[k].get<std::size_t>();
-            if (parent_of[root] == none) continue;
-            document.fail(
-                fmt::format("scenes[{}].nodes[{}]", s, k),
-                fmt::format("node {} is a child of node {}; a scene lists root nodes only", root, parent_of[root]));
-        }
-    }
-}
 
-void check_nodes(const Document& document) {
-    const Json& nodes = array_of(document, "nodes");
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (!nodes[i].contains("matrix")) continue;
-        for (const char* path : {"translation", "rotation", "scale"}) {
-            if (nodes[i].contains(path)) {
-                document.fail(fmt::format("nodes[{}].{}", i, path),
-                              "stands beside a matrix; keep the matrix or translation, rotation and scale");
-            }
-        }
+    /// Makes a node of a cycle a root.
+    void cut(std::size_t index) {
+        const std::size_t parent = parent_of_[index];
+        Json& children = node(parent)["children"];
+        children.erase(std::find(children.begin(), children.end(), Json(index)));
+        parent_of_[index] = none;
+        flaws_.leave_out("cycle of nodes",
+                         Flaw(document_.file, fmt::format("nodes[{}]", index),
+                              fmt::format("is its own ancestor; remove it from the children of node {}", parent)));
     }
-}
 
-void check_cameras(const Document& document) {
-    const Json& cameras = array_of(document, "cameras");
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-        const auto type = cameras[i]["type"].get<std::string>();
-        if (!cameras[i].contains(type)) {
-            document.fail(fmt::format("cameras[{}]", i), fmt::format("lacks the object '{}' of its type", type));
-        }
-    }
-}
+    Document& document_;
+    FlawLog& flaws_;
+    std::vector<std::size_t> parent_of_;
+};
 
-void check_animations(const Document& document) {
-    const Json& animations = array_of(document, "animations");
-    for (std::size_t a = 0; a < animations.size(); ++a) {
-        const Json& channels = animations[a]["channels"];
-        const std::size_t samplers = animations[a]["samplers"].size();
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const std::uint64_t sampler = whole(channels[c], "sampler");
-            if (sampler < samplers) continue;
-            document.fail(fmt::format("animations[{}].channels[{}].sampler", a, c),
-                          fmt::format("is {}, but the animation has {} samplers", sampler, samplers));
-        }
-    }
-}
-
-void check_buffer_views(const Document& document) {
-    const Json& buffers = array_of(document, "buffers");
-    const Json& views = array_of(document, "bufferViews");
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const std::string path = fmt::format("bufferViews[{}]", i);
-        const std::uint64_t buffer = whole(views[i], "buffer");
-        const std::uint64_t bytes = whole(buffers[buffer], "byteLength");
-        const std::uint64_t offset = whole(views[i], "byteOffset");
-        const std::uint64_t length = whole(views[i], "byteLength");
-        if (offset > bytes || length > bytes - offset) {
-            document.fail(path, fmt::format("reaches from byte {} to byte {}, but buffer {} has {} bytes", offset,
-                                            offset + length, buffer, bytes));
-        }
-        if (whole(views[i], "byteStride") % 4 != 0) {
-            document.fail(path + ".byteStride", fmt::format("is {}; it must be a multiple of 4",
-                                                            views[i]["byteStride"].get<std::uint64_t>()));
-        }
-    }
-}
-
-/// `count` elements of `bytes` bytes from `offset` must lie in the view. Fewer than 2^53 elements with strides of at
-/// most 252 bytes do not overflow 64 bits.
+/// `count` elements of `bytes` bytes from `offset` must lie in the view.
 void check_extent(const Document& document, const std::string& path, std::uint64_t view_index, std::uint64_t offset,
                   std::uint64_t count, std::uint64_t bytes) {
     const Json& view = array_of(document, "bufferViews")[view_index];
@@ -157,40 +139,13 @@ void check_extent(const Document& document, const std::string& path, std::uint64
         document.fail(
             path, fmt::format("has elements of {} bytes, but bufferView {} steps by {}", bytes, view_index, stride));
     }
-    const std::uint64_t needed = offset + (count - 1) * stride + bytes;
-    if (needed > length) {
-        document.fail(path, fmt::format("needs {} bytes for its {} elements, but bufferView {} has {}", needed, count,
-                                        view_index, length));
-    }
-}
-
-void check_accessors(const Document& document) {
-    const Json& accessors = array_of(document, "accessors");
-    for (std::size_t i = 0; i < accessors.size(); ++i) {
-        const Json& accessor = accessors[i];
-        const std::string path = fmt::format("accessors[{}]", i);
-        const std::uint64_t count = whole(accessor, "count");
-        const std::string type = accessor["type"];
-        const std::uint64_t component = component_bytes(whole(accessor, "componentType"));
-        const std::uint64_t bytes = component_count(type) * component;
-        // columns of small matrices are padded; of these Tandem reads MAT4 of floats, which are not
-        if (accessor.contains("bufferView") && (!type.starts_with("MAT") || type == "MAT4")) {
-            check_extent(document, path, whole(accessor, "bufferView"), whole(accessor, "byteOffset"), count, bytes);
-        }
-        const Json* sparse = find(accessor, "sparse");
-        if (sparse == nullptr) continue;
-        const std::uint64_t replaced = whole(*sparse, "count");
-        if (replaced > count) {
-            document.fail(path + ".sparse.count",
-                          fmt::format("is {}, more than the accessor's {} elements", replaced, count));
-        }
-        const Json& indices = (*sparse)["indices"];
-        check_extent(document, path + ".sparse.indices", whole(indices, "bufferView"), whole(indices, "byteOffset"),
-                     replaced, component_bytes(whole(indices, "componentType")));
-        const Json& values = (*sparse)["values"];
-        check_extent(document, path + ".sparse.values", whole(values, "bufferView"), whole(values, "byteOffset"),
-                     replaced, bytes);
-    }
+    // no product that could overflow: counts are below 2^53
+    const bool fits = offset <= length && bytes <= length - offset && count - 1 <= (length - offset - bytes) / stride;
+    if (fits) return;
+    const auto needed = static_cast<double>(offset) + static_cast<double>(count - 1) * static_cast<double>(stride) +
+                        static_cast<double>(bytes);
+    document.fail(path, fmt::format("needs {:.0f} bytes for its {} elements, but bufferView {} has {}", needed, count,
+                                    view_index, length));
 }
 
 }  // namespace
@@ -214,15 +169,97 @@ std::size_t component_count(const std::string& type) {
     return type.starts_with("MAT") ? size * size : size;
 }
 
-void check_structure(const Document& document) {
+void check_edition(const Document& document) {
     check_version(document);
     check_required_extensions(document);
-    check_hierarchy(document);
-    check_nodes(document);
-    check_cameras(document);
-    check_animations(document);
-    check_buffer_views(document);
-    check_accessors(document);
 }
+
+void check_buffer_view(const Document& document, FlawLog& flaws, Json& view, const std::string& path) {
+    const std::uint64_t buffer = whole(view, "buffer");
+    const std::uint64_t bytes = whole(array_of(document, "buffers")[buffer], "byteLength");
+    const std::uint64_t offset = whole(view, "byteOffset");
+    const std::uint64_t length = whole(view, "byteLength");
+    if (offset > bytes || length > bytes - offset) {
+        const std::string what = fmt::format("reaches from byte {} to byte {}, but buffer {} has {} bytes", offset,
+                                             offset + length, buffer, bytes);
+        if (offset >= bytes) document.fail(path, what);
+        flaws.replace("buffer view", path, what + "; Tandem takes those that are there");
+        view["byteLength"] = bytes - offset;
+    }
+    const auto stride = view.find("byteStride");
+    if (stride == view.end()) return;
+    const auto step = stride->get<std::uint64_t>();
+    if (step >= 4 && step <= 252 && step % 4 == 0) return;
+    flaws.tolerate("byteStride", path + ".byteStride",
+                   fmt::format("is {}; glTF has multiples of 4 from 4 to 252, and Tandem takes it all the same", step));
+    if (step == 0) view.erase(stride);  // as if there were none
+}
+
+void check_accessor(const Document& document, FlawLog&, Json& accessor, const std::string& path) {
+    const std::uint64_t count = whole(accessor, "count");
+    const std::string type = accessor["type"];
+    const std::uint64_t component = component_bytes(whole(accessor, "componentType"));
+    const std::uint64_t bytes = component_count(type) * component;
+    const bool has_padding = type.starts_with("MAT") && component < 4;  // whose matrices nobody reads
+    if (accessor.contains("bufferView") && !has_padding) {
+        check_extent(document, path, whole(accessor, "bufferView"), whole(accessor, "byteOffset"), count, bytes);
+    }
+    const Json* sparse = find(accessor, "sparse");
+    if (sparse == nullptr) return;
+    const std::uint64_t replaced = whole(*sparse, "count");
+    if (replaced > count) {
+        document.fail(path + ".sparse.count",
+                      fmt::format("is {}, more than the accessor's {} elements", replaced, count));
+    }
+    const Json& indices = (*sparse)["indices"];
+    check_extent(document, path + ".sparse.indices", whole(indices, "bufferView"), whole(indices, "byteOffset"),
+                 replaced, component_bytes(whole(indices, "componentType")));
+    const Json& values = (*sparse)["values"];
+    check_extent(document, path + ".sparse.values", whole(values, "bufferView"), whole(values, "byteOffset"), replaced,
+                 bytes);
+}
+
+void check_camera(const Document& document, FlawLog&, Json& camera, const std::string& path) {
+    const auto type = camera["type"].get<std::string>();
+    if (!camera.contains(type)) document.fail(path, fmt::format("lacks the object '{}' of its type", type));
+}
+
+void check_image(const Document&, FlawLog& flaws, Json& image, const std::string& path) {
+    if (!image.contains("bufferView") || image.erase("uri") == 0) return;
+    flaws.replace("image", path + ".uri", "stands beside a bufferView; Tandem takes the bufferView");
+}
+
+void check_node(const Document&, FlawLog& flaws, Json& node, const std::string& path) {
+    if (!node.contains("matrix")) return;
+    for (const char* other : {"translation", "rotation", "scale"}) {
+        if (node.erase(other) == 0) continue;
+        flaws.replace(other, fmt::format("{}.{}", path, other), "stands beside a matrix; Tandem takes the matrix");
+    }
+    Json& m = node["matrix"];
+    if (m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1) return;
+    flaws.replace(
+        "matrix", path + ".matrix",
+        "has a last row other than 0, 0, 0, 1; Tandem takes that one, since nodes are placed without perspective");
+    m[3] = m[7] = m[11] = 0;
+    m[15] = 1;
+}
+
+void check_animation(const Document& document, FlawLog& flaws, Json& animation, const std::string& path) {
+    Json& channels = animation["channels"];
+    const Json& samplers = animation["samplers"];
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (channels[c].is_string()) continue;
+        const std::uint64_t sampler = whole(channels[c], "sampler");
+        if (sampler < samplers.size() && !samplers[sampler].is_string()) continue;
+        const Flaw flaw(document.file, fmt::format("{}.channels[{}].sampler", path, c),
+                        sampler < samplers.size()
+                            ? fmt::format("names sampler {}, which is left out", sampler)
+                            : fmt::format("is {}, but the animation has {} samplers", sampler, samplers.size()));
+        channels[c] = flaw.root();
+        flaws.leave_out("channel", flaw);
+    }
+}
+
+void check_hierarchy(Document& document, FlawLog& flaws) { Hierarchy(document, flaws).run(); }
 
 }  // namespace tandem::gltf

@@ -5,8 +5,21 @@
 
 namespace tandem::gltf {
 
-/// Needs check_schema(). Throws InputError with the JSON path.
-void check_structure(const Document& document);
+/// Refuses files of another version of glTF, and files that require an extension that Tandem does not render. For a
+/// document that nobody has looked at. Throws InputError.
+void check_edition(const Document& document);
+
+/// Rules of check_schema() for objects whose properties are in order. They put right what can be put right, with a
+/// note, and throw a Flaw for the rest.
+void check_buffer_view(const Document& document, FlawLog& flaws, Json& view, const std::string& path);
+void check_accessor(const Document& document, FlawLog& flaws, Json& accessor, const std::string& path);
+void check_camera(const Document& document, FlawLog& flaws, Json& camera, const std::string& path);
+void check_image(const Document& document, FlawLog& flaws, Json& image, const std::string& path);
+void check_node(const Document& document, FlawLog& flaws, Json& node, const std::string& path);
+void check_animation(const Document& document, FlawLog& flaws, Json& animation, const std::string& path);
+
+/// Gives every node one parent at most, and cuts cycles. Needs check_schema().
+void check_hierarchy(Document& document, FlawLog& flaws);
 
 /// Bytes of one component of an accessor, by its componentType.
 [[nodiscard]] std::size_t component_bytes(std::uint64_t component_type);

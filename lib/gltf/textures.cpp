@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tandem/gltf/images.h"
 #include "tandem/gltf/triangles.h"
@@ -14,8 +18,11 @@ namespace {
 
 constexpr const char* transform_name = "KHR_texture_transform";
 
-/// Of all images of a file: 1 GiB of memory.
-constexpr std::size_t most_texels = std::size_t{1} << 28;
+/// Of all images of a file: 1 GiB of memory. Of those of a small file: 128 MiB, or 16 texels for each of its bytes.
+constexpr std::size_t most_texels = std::size_t{1} << 28, small_file_texels = std::size_t{1} << 25;
+constexpr std::size_t texels_per_byte = 16;
+/// Of an edge, while an image is decoded.
+constexpr unsigned most_halvings = 12;
 
 Wrap wrap_mode(std::uint64_t mode) {
     if (mode == 33071) return Wrap::clamp_to_edge;
@@ -29,15 +36,21 @@ Vec2f read_vec2(const Json& object, const char* member, const Vec2f& absent) {
 
 class TextureReader {
   public:
-    TextureReader(const Source& source, Scene& scene, ImportReport& report)
-        : source_(source), json_(source.document.json), scene_(scene), report_(report) {}
+    TextureReader(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws)
+        : source_(source),
+          json_(source.document.json),
+          scene_(scene),
+          report_(report),
+          flaws_(flaws),
+          bytes_(data_bytes(source)) {}
 
     void run() {
         const std::size_t count = source_.document.length("materials");
         for (std::size_t i = 0; i < count; ++i) read_material(i);
-        note_unused("images", "image", image_of_);
-        note_unused("textures", "texture", texture_of_);
-        note_unused("samplers", "texture sampler", samplers_);
+        note_halved();
+        note_unused("images", "image", image_of_, images_left_out_);
+        note_unused("textures", "texture", texture_of_, textures_left_out_);
+        note_unused("samplers", "texture sampler", samplers_, Indices{});
     }
 
   private:
@@ -106,7 +119,12 @@ class TextureReader {
             return std::nullopt;
         }
         TextureReference use;
-        use.texture = texture(index, image->get<std::size_t>());
+        try {
+            use.texture = texture(index, image->get<std::size_t>());
+        } catch (const Flaw& flaw) {
+            flaws_.leave_out(feature, flaw);
+            return std::nullopt;
+        }
         use.texcoord = static_cast<std::uint32_t>(texcoord);
         report_.add(Treatment::rendered, feature, path, reason);
         if (transform != nullptr) {
@@ -120,16 +138,19 @@ class TextureReader {
     }
 
     std::uint32_t texture(std::size_t index, std::size_t image) {
-        const auto [known, is_new] = texture_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.textures.size()));
-        if (is_new) {
-            Texture texture;
+        if (const auto known = texture_of_.find(index); known != texture_of_.end()) return known->second;
+        Texture texture;
+        try {
             texture.image = this->image(image);
-            if (const Json* sampler = find(json_["textures"][index], "sampler")) {
-                read_sampler(sampler->get<std::size_t>(), texture);
-            }
-            scene_.textures.push_back(texture);
+        } catch (const Flaw&) {
+            textures_left_out_.emplace(index, 0);
+            throw;
         }
-        return known->second;
+        if (const Json* sampler = find(json_["textures"][index], "sampler")) {
+            read_sampler(sampler->get<std::size_t>(), texture);
+        }
+        scene_.textures.push_back(texture);
+        return texture_of_[index] = static_cast<std::uint32_t>(scene_.textures.size() - 1);
     }
 
     void read_sampler(std::size_t index, Texture& texture) {
@@ -146,23 +167,87 @@ class TextureReader {
                     same ? "its filter and wrap modes" : "there are no mipmaps; magFilter counts at any distance");
     }
 
+    /// Throws a Flaw, the same one every time.
     std::uint32_t image(std::size_t index) {
-        const auto [known, is_new] = image_of_.try_emplace(index, static_cast<std::uint32_t>(scene_.images.size()));
-        if (is_new) {
-            const std::string path = fmt::format("images[{}]", index);
-            scene_.images.push_back(read_image(source_, index));
-            texels_ += scene_.images.back().texels.size();
-            if (texels_ > most_texels) {
-                source_.document.fail(path, "brings the images to more than 2^28 texels; make them smaller");
-            }
-            report_.add(Treatment::rendered, "image", path, "as 8 bits a channel");
+        if (const auto known = image_of_.find(index); known != image_of_.end()) return known->second;
+        if (const auto known = images_left_out_.find(index); known != images_left_out_.end()) throw known->second;
+        try {
+            const std::uint32_t number = decode(index);
+            report_.add(Treatment::rendered, "image", fmt::format("images[{}]", index), "as 8 bits a channel");
+            return image_of_[index] = number;
+        } catch (const Flaw& flaw) {
+            images_left_out_.emplace(index, flaw);
+            throw;
         }
-        return known->second;
     }
 
-    void note_unused(const char* array, const char* feature, const Indices& used) {
+    std::uint32_t decode(std::size_t index) {
+        const EncodedImage encoded = read_image(source_, index);
+        const auto known = number_of_place_.find(encoded.place);
+        if (known != number_of_place_.end()) return known->second;
+        bytes_ += encoded.storage.size();
+        work_ += encoded.size.work;
+        if (work_ > decoding_limit(bytes_)) {
+            source_.document.fail(
+                encoded.json_path,
+                fmt::format(
+                    "brings the images to the work of decoding {} pixels, and those of a file of {} bytes may have "
+                    "that of {}; make them smaller",
+                    work_, bytes_, decoding_limit(bytes_)));
+        }
+        const unsigned shift = make_room(encoded.size);
+        Image image = decode_image(source_, index, encoded, shift);
+        texels_ += image.texels.size();
+        scene_.images.push_back(std::move(image));
+        origins_.push_back({index, encoded.size});
+        const auto number = static_cast<std::uint32_t>(scene_.images.size() - 1);
+        if (!encoded.place.empty()) number_of_place_[encoded.place] = number;
+        return number;
+    }
+
+    [[nodiscard]] std::size_t texel_limit() const {
+        return std::clamp(texels_per_byte * bytes_, small_file_texels, most_texels);
+    }
+
+    /// Halves images that are there, always the largest, until one more fits; says how often that has to be halved.
+    unsigned make_room(const TexelSize& size) {
+        unsigned shift = 0;
+        const auto wanted = [&] {
+            return std::size_t{shrunk_edge(size.width, shift)} * shrunk_edge(size.height, shift);
+        };
+        while (texels_ + wanted() > texel_limit()) {
+            const auto largest =
+                std::max_element(scene_.images.begin(), scene_.images.end(),
+                                 [](const Image& a, const Image& b) { return a.texels.size() < b.texels.size(); });
+            if (largest == scene_.images.end() || largest->texels.size() <= wanted()) {
+                if (shift == most_halvings) break;  // a few texels
+                ++shift;
+                continue;
+            }
+            texels_ -= largest->texels.size();
+            halve(*largest);
+            texels_ += largest->texels.size();
+        }
+        return shift;
+    }
+
+    void note_halved() {
+        for (std::size_t i = 0; i < origins_.size(); ++i) {
+            const Image& image = scene_.images[i];
+            const auto& [index, size] = origins_[i];
+            if (image.width == size.width && image.height == size.height) continue;
+            flaws_.replace(
+                "large image", fmt::format("images[{}]", index),
+                fmt::format("has {} x {} texels; Tandem takes {} x {}, since all images of a file of {} bytes "
+                            "may have {} texels",
+                            size.width, size.height, image.width, image.height, bytes_, texel_limit()));
+        }
+    }
+
+    template <class LeftOut>
+    void note_unused(const char* array, const char* feature, const Indices& used, const LeftOut& left_out) {
         for (std::size_t i = 0; i < source_.document.length(array); ++i) {
-            if (used.contains(i)) continue;
+            if (used.contains(i) || left_out.contains(i)) continue;
             report_.add(Treatment::ignored, feature, fmt::format("{}[{}]", array, i),
                         "no texture that Tandem renders uses it");
         }
@@ -172,14 +257,22 @@ class TextureReader {
     const Json& json_;
     Scene& scene_;
     ImportReport& report_;
+    FlawLog& flaws_;
     Indices image_of_, texture_of_, samplers_;
+    Indices textures_left_out_;
+    std::map<std::size_t, Flaw> images_left_out_;
+    std::map<std::string, std::uint32_t> number_of_place_;  ///< by EncodedImage::place
+    /// Of each image of the scene: its first index in the file, and its size there.
+    std::vector<std::pair<std::size_t, TexelSize>> origins_;
     std::size_t texels_ = 0;
+    std::size_t work_ = 0;  ///< of decoding them
+    std::size_t bytes_;     ///< of the buffers, and of the images elsewhere that were read
 };
 
 }  // namespace
 
-void read_textures(const Source& source, Scene& scene, ImportReport& report) {
-    TextureReader(source, scene, report).run();
+void read_textures(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws) {
+    TextureReader(source, scene, report, flaws).run();
 }
 
 }  // namespace tandem::gltf

@@ -1,7 +1,7 @@
 /// Textures of materials, and what is cut out of surfaces.
 #pragma once
 
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
@@ -9,7 +9,8 @@ namespace tandem::gltf {
 
 /// Gives the materials of `scene`, which are those of the file in its order, their base colour and normal textures and
 /// their alpha, and reads the images that these show; others are not opened, and noted. alphaMode BLEND becomes MASK at
-/// 0.5. Throws InputError for an image that cannot be read, and for more than 2^28 texels.
-void read_textures(const Source& source, Scene& scene, ImportReport& report);
+/// 0.5. A material is without a texture whose image cannot be read. Where the images have more texels than a file of
+/// that size may bring, the largest are halved until they fit.
+void read_textures(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws);
 
 }  // namespace tandem::gltf

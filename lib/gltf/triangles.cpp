@@ -4,29 +4,24 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "tandem/error/error.h"
 #include "tandem/gltf/accessor.h"
+#include "tandem/gltf/faces.h"
+#include "tandem/gltf/mend.h"
 
 namespace tandem::gltf {
 
 namespace {
 
-enum Mode : std::uint64_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
-
-const char* mode_name(std::uint64_t mode) {
-    static constexpr const char* names[] = {"points",        "lines",          "line loop",   "line strip",
-                                            "triangle mesh", "triangle strip", "triangle fan"};
-    return mode < std::size(names) ? names[mode] : "mesh of unknown mode";
-}
-
-std::uint64_t mode_of(const Json& primitive) { return primitive.value("mode", std::uint64_t{triangle_list}); }
-
 class TriangleReader {
   public:
-    TriangleReader(const Source& source, const Json& primitive, const std::string& path, Budget& budget,
+    TriangleReader(const Source& source, const Json& primitive, const std::string& path, Budget& budget, FlawLog& flaws,
                    ImportReport& report)
-        : source_(source), primitive_(primitive), path_(path), budget_(budget), report_(report) {
+        : source_(source), primitive_(primitive), path_(path), budget_(budget), flaws_(flaws), report_(report) {
         const Json* used = find(source.document.json, "extensionsUsed");
         is_quantised_ = used != nullptr && std::find(used->begin(), used->end(), mesh_quantization) != used->end();
     }
@@ -35,28 +30,55 @@ class TriangleReader {
         Mesh mesh;
         mesh.positions = vectors<Vec3f>("POSITION", "VEC3", Components::floats, Components::quantised);
         vertices_ = mesh.positions.size();
-        mesh.normals = vectors<Vec3f>("NORMAL", "VEC3", Components::floats, Components::normalised);
+        mesh.normals = optional_vectors<Vec3f>("NORMAL", "VEC3", Components::floats, Components::normalised);
         if (!sets.empty()) mesh.texcoords.resize(sets.back() + 1);
         for (const std::uint32_t set : sets) {
-            const std::string name = fmt::format("TEXCOORD_{}", set);
-            mesh.texcoords[set] = vectors<Vec2f>(name.c_str(), "VEC2", Components::normalised, Components::quantised);
+            mesh.texcoords[set] = optional_vectors<Vec2f>(fmt::format("TEXCOORD_{}", set).c_str(), "VEC2",
+                                                          Components::normalised, Components::quantised);
         }
         mesh.colours = colours();
-        mesh.triangles = triangles(corners());
+        mesh.triangles =
+            triangles_of(source_.document, corners(), static_cast<Mode>(mode_of(primitive_)), path_, flaws_);
+        mend(source_.document, mesh, path_, flaws_);
         return mesh;
     }
 
   private:
-    /// The elements of an attribute, empty if there is none; `quantised`: what KHR_mesh_quantization allows.
+    /// None for an attribute with a flaw: the mesh is drawn without it.
+    template <class Vector>
+    std::vector<Vector> optional_vectors(const char* name, const char* type, Components plain, Components quantised) {
+        try {
+            return vectors<Vector>(name, type, plain, quantised);
+        } catch (const Flaw& flaw) {
+            flaws_.leave_out(fmt::format("attribute {}", name), flaw);
+            return {};
+        }
+    }
+
+    /// Does mend() look after numbers that are not finite?
+    static bool is_mended(std::string_view name) {
+        return name == "POSITION" || name == "NORMAL" || name.starts_with("TEXCOORD_");
+    }
+
+    /// The elements of an attribute, empty if there is none; `quantised`: what KHR_mesh_quantization allows, and what
+    /// is taken, with a note, in files that do not use it.
     template <class Vector>
     std::vector<Vector> vectors(const char* name, const char* type, Components plain, Components quantised) {
         const Json* index = find(primitive_["attributes"], name);
         if (index == nullptr) return {};
         const std::string where = fmt::format("{}.attributes.{}", path_, name);
         const auto accessor = index->get<std::size_t>();
-        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
-        const std::vector<float> values = read_accessor(
-            source_, accessor, {type, is_quantised_ ? quantised : plain, fmt::format("the attribute {}", name), where});
+        budget_.spend(source_.document, where, element_count(source_, accessor));
+        AccessorNeed need = {type, quantised, fmt::format("the attribute {}", name), where};
+        need.is_finite = !is_mended(name);
+        const std::vector<float> values = read_accessor(source_, accessor, need);
+        if (!is_quantised_ && !has_components(source_, accessor, plain)) {
+            flaws_.tolerate(
+                fmt::format("attribute {}", name), where,
+                fmt::format("has integers, which only files that use {} may have; Tandem takes them all the "
+                            "same",
+                            mesh_quantization));
+        }
         constexpr std::size_t width = Vector::length();
         const std::size_t count = values.size() / width;
         if (vertices_ != 0 && count != vertices_) {
@@ -80,13 +102,13 @@ class TriangleReader {
         const auto accessor = index->get<std::size_t>();
         const auto type = source_.document.json["accessors"][accessor].value("type", std::string());
         const std::size_t width = type == "VEC4" ? 4 : 3;
-        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
+        budget_.spend(source_.document, where, element_count(source_, accessor));
         std::vector<float> values;
         try {
             values = read_accessor(source_, accessor,
                                    {width == 4 ? "VEC4" : "VEC3", Components::normalised, "vertex colours", where});
-        } catch (const InputError& error) {
-            report_.add(Treatment::ignored, "vertex colours", where, error.what());
+        } catch (const Flaw& flaw) {
+            flaws_.leave_out("vertex colours", flaw);
             return {};
         }
         if (values.size() != width * vertices_) {
@@ -111,52 +133,24 @@ class TriangleReader {
         return result;
     }
 
-    /// The vertices in the order in which the mode counts them.
-    std::vector<std::uint32_t> corners() {
+    Corners corners() {
         const Json* index = find(primitive_, "indices");
         if (index == nullptr) {
             std::vector<std::uint32_t> all(vertices_);
             std::iota(all.begin(), all.end(), 0U);
-            return all;
+            return {std::move(all), std::nullopt};
         }
         const std::string where = path_ + ".indices";
         const auto accessor = index->get<std::size_t>();
-        budget_.spend(source_.document, where, source_.model.accessors[accessor].count);
-        std::vector<std::uint32_t> indices = read_indices(source_, accessor, where);
-        const auto bad =
-            std::find_if(indices.begin(), indices.end(), [this](std::uint32_t i) { return i >= vertices_; });
-        if (bad != indices.end()) {
-            source_.document.fail(where, fmt::format("entry {} is {}, but POSITION has {} vertices",
-                                                     bad - indices.begin(), *bad, vertices_));
-        }
-        return indices;
-    }
-
-    /// glTF 2.0, 3.7.2.1.
-    std::vector<std::uint32_t> triangles(std::vector<std::uint32_t> corners) const {
-        const std::uint64_t mode = mode_of(primitive_);
-        const bool is_whole = mode == triangle_list ? corners.size() % 3 == 0 : corners.size() >= 3;
-        if (!is_whole) {
-            source_.document.fail(path_, fmt::format("has {} corners; a {} needs {}", corners.size(), mode_name(mode),
-                                                     mode == triangle_list ? "a multiple of 3" : "3 or more"));
-        }
-        if (mode == triangle_list) return corners;
-        std::vector<std::uint32_t> result;
-        result.reserve(3 * (corners.size() - 2));
-        for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-            if (mode == triangle_fan) {
-                result.insert(result.end(), {corners[i + 1], corners[i + 2], corners[0]});
-            } else {  // every other triangle of a strip runs backward
-                result.insert(result.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
-            }
-        }
-        return result;
+        budget_.spend(source_.document, where, element_count(source_, accessor));
+        return {read_indices(source_, accessor, where), largest_index(source_, accessor)};
     }
 
     const Source& source_;
     const Json& primitive_;
     const std::string& path_;
     Budget& budget_;
+    FlawLog& flaws_;
     ImportReport& report_;
     bool is_quantised_ = false;
     std::size_t vertices_ = 0;
@@ -207,8 +201,8 @@ bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets
 }
 
 Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
-                    const std::string& path, Budget& budget, ImportReport& report) {
-    return TriangleReader(source, primitive, path, budget, report).run(sets);
+                    const std::string& path, Budget& budget, FlawLog& flaws, ImportReport& report) {
+    return TriangleReader(source, primitive, path, budget, flaws, report).run(sets);
 }
 
 }  // namespace tandem::gltf

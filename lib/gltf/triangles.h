@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tandem/gltf/budget.h"
-#include "tandem/gltf/model.h"
+#include "tandem/gltf/buffers.h"
 #include "tandem/gltf/report.h"
 #include "tandem/scene/scene.h"
 
@@ -27,10 +27,10 @@ inline constexpr std::uint32_t last_texcoord = 15;
 /// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and where there are
 /// some, normals, the texture coordinates of `sets`, and colours.
 ///
-/// Throws InputError if a count is not that of whole triangles, an index is out of range, the attributes do not have
-/// as many elements as POSITION, or an accessor is of the wrong type. Integers stand for positions only in files that
-/// use KHR_mesh_quantization.
+/// An attribute that cannot be read, or has not as many elements as POSITION, is left out; what triangles_of() and
+/// mend() say of corners and numbers holds. Throws a Flaw if positions or indices cannot be read, or no triangle is
+/// left.
 [[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
-                                  const std::string& path, Budget& budget, ImportReport& report);
+                                  const std::string& path, Budget& budget, FlawLog& flaws, ImportReport& report);
 
 }  // namespace tandem::gltf

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <utility>
+
+#include "tandem/error/error.h"
+#include "tandem/file/lfs_pointer.h"
 
 namespace tandem::gltf {
 
@@ -17,20 +21,14 @@ std::optional<int> hexadecimal(char c) {
     return std::nullopt;
 }
 
-/// Percent-decoding (RFC 3986, 2.1); nothing if an escape is broken.
-std::optional<std::string> percent_decoded(std::string_view uri) {
+/// Percent-decoding (RFC 3986, 2.1); a '%' that is no escape stands for itself.
+std::string percent_decoded(std::string_view uri) {
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] != '%') {
-            decoded += uri[i];
-            continue;
-        }
-        if (i + 2 >= uri.size()) return std::nullopt;
-        const auto high = hexadecimal(uri[i + 1]);
-        const auto low = hexadecimal(uri[i + 2]);
-        if (!high || !low) return std::nullopt;
-        decoded += static_cast<char>(*high * 16 + *low);
-        i += 2;
+        const auto high = uri[i] == '%' && i + 2 < uri.size() ? hexadecimal(uri[i + 1]) : std::nullopt;
+        const auto low = high ? hexadecimal(uri[i + 2]) : std::nullopt;
+        decoded += low ? static_cast<char>(*high * 16 + *low) : uri[i];
+        if (low) i += 2;
     }
     return decoded;
 }
@@ -51,7 +49,6 @@ const char* objection(std::string_view path) {
     if (path.empty()) return "is empty; name a file";
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     if (std::any_of(path.begin(), path.end(), is_control)) return "holds control characters; rename the file";
-    if (path.find('\\') != std::string_view::npos) return "holds a backslash; write folders with '/'";
     if (path[0] == '/') return "is an absolute path; put it into the folder of the glTF file";
     for (std::size_t at = 0; at <= path.size();) {
         const std::size_t end = std::min(path.find('/', at), path.size());
@@ -80,32 +77,47 @@ unsigned digit_value(char c) {
 LocatedFile locate_beside(const Document& document, const std::string& json_path, const std::string& uri) {
     const auto fail = [&](std::string_view what) { document.fail(json_path, what); };
     if (has_scheme(uri)) fail("has a scheme; Tandem opens files beside the glTF file and data URIs only");
-    const auto decoded = percent_decoded(uri);
-    if (!decoded) fail("has a '%' that two hexadecimal digits do not follow");
-    if (const char* problem = objection(*decoded)) fail(problem);
+    std::string name = percent_decoded(uri);
+    std::replace(name.begin(), name.end(), '\\', '/');
+    if (const char* problem = objection(name)) fail(problem);
     const std::filesystem::path parent = document.file.parent_path();
     const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
     std::error_code error;
-    const auto file = std::filesystem::canonical(folder / *decoded, error);
-    if (error) fail(fmt::format("names '{}', which is not there; put it beside the glTF file", *decoded));
+    const auto file = std::filesystem::canonical(folder / name, error);
+    if (error) fail(fmt::format("names '{}', which is not there; put it beside the glTF file", name));
     const auto inside = std::filesystem::canonical(folder, error);
     if (error || !is_within(file, inside)) {
-        fail(fmt::format("names '{}', a link that leads out of the folder of the glTF file", *decoded));
+        fail(fmt::format("names '{}', a link that leads out of the folder of the glTF file", name));
     }
-    if (!std::filesystem::is_regular_file(file, error)) fail(fmt::format("'{}' is not a regular file", *decoded));
+    if (!std::filesystem::is_regular_file(file, error)) fail(fmt::format("'{}' is not a regular file", name));
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (error) fail(fmt::format("'{}' cannot be read; check its permissions", *decoded));
-    return {file, bytes};
+    if (error) fail(fmt::format("'{}' cannot be read; check its permissions", name));
+    const bool is_pointer = bytes < lfs_pointer_bytes && is_lfs_pointer(read_beside(document, json_path, file));
+    return {file, bytes, std::move(name), is_pointer};
 }
 
-std::string_view base64_digits(const Document& document, const std::string& json_path, std::string_view text) {
-    std::string_view digits = text;
+Bytes read_beside(const Document& document, const std::string& json_path, const std::filesystem::path& file) {
+    try {
+        return read_file(file.string());
+    } catch (const InputError& error) {
+        document.fail(json_path, error.what());
+    }
+}
+
+std::string_view base64_digits(const Document& document, const std::string& json_path, std::string_view uri) {
+    const std::size_t comma = std::min(uri.find(','), uri.size());
+    if (!uri.substr(0, comma).ends_with(";base64")) {
+        document.fail(json_path, "is a data URI that does not begin with 'data:', a media type and ';base64,'");
+    }
+    std::string_view digits = uri.substr(std::min(comma + 1, uri.size()));
+    const std::size_t length = digits.size();
     while (!digits.empty() && digits.back() == '=') digits.remove_suffix(1);
     const auto is_digit = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '/';
     };
-    if (text.size() % 4 != 0 || text.size() - digits.size() > 2 ||
-        !std::all_of(digits.begin(), digits.end(), is_digit)) {
+    const std::size_t padding = length - digits.size();
+    const bool has_good_end = padding == 0 ? length % 4 != 1 : length % 4 == 0 && padding <= 2;
+    if (!has_good_end || !std::all_of(digits.begin(), digits.end(), is_digit)) {
         document.fail(json_path, "is a data URI whose base64 is broken; it may be truncated");
     }
     return digits;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct CornerSlots {
     std::vector<std::uint32_t> texcoords;  ///< numbers of the sets, ascending
     bool has_colours = false;
 
-    [[nodiscard]] bool empty() const { return texcoords.empty() && !has_colours; }
+    [[nodiscard]] std::size_t count() const { return texcoords.size() + (has_colours ? 2 : 0); }
+    [[nodiscard]] bool empty() const { return count() == 0; }
     [[nodiscard]] std::uint32_t slot_of(std::uint32_t set) const {
         const auto at = std::lower_bound(texcoords.begin(), texcoords.end(), set);
         return static_cast<std::uint32_t>(at - texcoords.begin());

@@ -291,6 +291,7 @@ class Preparer {
         result_.parallelepipeds.reserve(placed_boxes_.size());
         for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
         const std::vector<CornerSlots> slots = corner_slots(scene_);
+        reserve_faces(slots);
         for (const PlacedSurface& surface : surfaces_) {
             Transform render_from_object = surface.world_from_object;
             render_from_object.translation -= origin;
@@ -304,6 +305,23 @@ class Preparer {
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);
         }
+    }
+
+    /// Arrays that grow would hold twice of what they need, and more while they move.
+    void reserve_faces(const std::vector<CornerSlots>& slots) {
+        std::size_t triangles = 0, quads = 0, normals = 0, texcoords = 0;
+        for (const PlacedSurface& surface : surfaces_) {
+            const Mesh& mesh = *surface.mesh;
+            triangles += mesh.triangles.size() / 3;
+            quads += mesh.quads.size() / 4;
+            const std::size_t corners = mesh.triangles.size() + mesh.quads.size();
+            if (!mesh.normals.empty()) normals += corners;
+            texcoords += corners * slots[surface.material].count();
+        }
+        result_.triangles.reserve(triangles);
+        result_.quads.reserve(quads);
+        result_.normals.reserve(normals);
+        result_.texcoords.reserve(texcoords);
     }
 
     /// Culls no face whose back cannot be seen: of a closed mesh with the camera outside.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
-#include "tandem/film/image_codecs.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
@@ -15,16 +14,6 @@ using test::Json;
 using test::mesh_file;
 using test::sentences;
 using test::TestFile;
-
-/// mesh_file() with a picture of two colours.
-TestFile pictured_file() {
-    TestFile file = mesh_file();
-    const Bytes bytes = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
-    const std::string png(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    file.json["images"] = {{{"uri", "data:image/png;base64," + test::base64(png)}}};
-    file.json["textures"] = {{{"source", 0}}};
-    return file;
-}
 
 class Appearance : public test::GltfFiles {
   protected:
@@ -68,7 +57,7 @@ TEST_F(Appearance, VertexColoursOutOfRangeOrOfAWrongTypeAreNoted) {
 }
 
 TEST_F(Appearance, EachTextureLiesAtItsOwnCoordinates) {
-    TestFile file = pictured_file();
+    TestFile file = test::pictured_mesh_file();
     material(file)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 3}};
     material(file)["normalTexture"] = {{"index", 0}};
     std::vector<float> first(12, 0), third(12, 0);
@@ -97,7 +86,7 @@ TEST_F(Appearance, EachTextureLiesAtItsOwnCoordinates) {
 }
 
 TEST_F(Appearance, ANumberOfCoordinatesBeyondAllIsNoMemory) {
-    TestFile file = pictured_file();
+    TestFile file = test::pictured_mesh_file();
     material(file)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 4000000000U}};
     const ImportResult result = import(file);
     EXPECT_FALSE(result.scene.materials[0].diffuse_texture);
@@ -105,7 +94,7 @@ TEST_F(Appearance, ANumberOfCoordinatesBeyondAllIsNoMemory) {
 }
 
 TEST_F(Appearance, EmissiveTexturesMultiplyTheEmission) {
-    TestFile file = pictured_file();
+    TestFile file = test::pictured_mesh_file();
     material(file)["emissiveTexture"] = {{"index", 0}};
     material(file)["emissiveFactor"] = {1, 0.5, 0.25};
     attributes(file)["TEXCOORD_0"] = file.add_floats("VEC2", {0, 0, 1, 0, 0, 1, 1, 1, 0.2F, 0.8F, 0.4F, 0.1F});

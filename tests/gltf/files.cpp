@@ -116,6 +116,15 @@ TestFile mesh_file() {
     return file;
 }
 
+TestFile pictured_mesh_file() {
+    TestFile file = mesh_file();
+    const Bytes bytes = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    const std::string png(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    file.json["images"] = {{{"uri", "data:image/png;base64," + base64(png)}}};
+    file.json["textures"] = {{{"source", 0}}};
+    return file;
+}
+
 std::string make_glb(std::string json, std::string chunk) {
     std::string chunks = chunk_of(0x4E4F534A, std::move(json), ' ');
     if (!chunk.empty()) chunks += chunk_of(0x004E4942, std::move(chunk), '\0');

@@ -44,6 +44,9 @@ struct TestFile {
 /// A camera "eye" and a node "sheet" with a mesh of six vertices and two triangles.
 [[nodiscard]] TestFile mesh_file();
 
+/// mesh_file() with texture 0, a picture of two colours that no material shows yet.
+[[nodiscard]] TestFile pictured_mesh_file();
+
 /// A .glb of a JSON text and a binary chunk; none if it is empty.
 [[nodiscard]] std::string make_glb(std::string json, std::string chunk);
 

@@ -25,7 +25,7 @@ void* allocate(std::size_t bytes) {
 
 }  // namespace
 
-// The whole program's: tinygltf's allocations come here as well.
+// The whole program's: allocations of the JSON parser come here as well.
 void* operator new(std::size_t bytes) { return allocate(bytes); }
 void* operator new[](std::size_t bytes) { return allocate(bytes); }
 void operator delete(void* memory) noexcept { std::free(memory); }

@@ -104,10 +104,14 @@ TEST_F(Import, ReadsSpotAndDirectionalLights) {
     const LightSource sun = *import(file).scene.nodes[3].light;
     EXPECT_EQ(sun.kind, LightKind::directional);
     EXPECT_FALSE(sun.inverse_square);
-    light = Json::parse(R"({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5}})");
-    EXPECT_THROW((void)import(file), InputError);
+    light = Json::parse(R"({"type": "spot", "spot": {"innerConeAngle": 0.6, "outerConeAngle": 0.5}})");
+    const auto sharp = import(file);
+    EXPECT_EQ(sharp.scene.nodes[3].light->outer_cone, 0.5);
+    EXPECT_NEAR(sharp.scene.nodes[3].light->inner_cone, 0.5, 1e-3);
+    EXPECT_TRUE(
+        contains(sentences(sharp.report), "approximated: cone of a spot light at nodes[3].extensions.KHR_lights"));
     light = Json::parse(R"({"type": "spot"})");
-    EXPECT_THROW((void)import(file), InputError);
+    EXPECT_EQ(import(file).scene.nodes[3].light->outer_cone, std::numbers::pi / 4);
 }
 
 TEST_F(Import, ReadsLightsAsPhongSeesThem) {

@@ -175,6 +175,95 @@ TEST_F(Report, NamesUnknownExtensionsWhereverTheyAre) {
     expect(file, "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: Tandem shades");
 }
 
+/// It is used, though not where it counts.
+TEST_F(Report, SaysOfAnExtensionThatItIsInsideOfAnIgnoredOne) {
+    TestFile file = small_file();
+    file.json["extensionsUsed"] = {"KHR_materials_specular", "KHR_texture_transform"};
+    file.json["materials"][0]["extensions"]["KHR_materials_specular"] =
+        Json::parse(R"({"specularTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}}})");
+    const std::string all = sentences(import(file).report);
+    EXPECT_TRUE(
+        contains(all,
+                 "ignored: KHR_texture_transform at materials[0].extensions.KHR_materials_specular.specularTexture."
+                 "extensions.KHR_texture_transform: it is inside of KHR_materials_specular, which is ignored"));
+    EXPECT_EQ(all.find("uses it nowhere"), std::string::npos) << all;
+}
+
+TEST_F(Report, DoesNotSayOfAnExtensionWithAFlawThatItIsUsedNowhere) {
+    TestFile file = small_file();
+    file.json["extensionsUsed"] = {"KHR_materials_ior"};
+    file.json["materials"][0]["extensions"]["KHR_materials_ior"] = "glass";
+    const std::string all = sentences(import(file).report);
+    EXPECT_TRUE(
+        contains(all, "ignored: KHR_materials_ior at materials[0].extensions.KHR_materials_ior: must be an object"));
+    EXPECT_EQ(all.find("uses it nowhere"), std::string::npos) << all;
+}
+
+TEST_F(Report, SaysThatASurfaceGlowsWhereItDoes) {
+    TestFile file = small_file();
+    Json& material = file.json["materials"][0];
+    material["emissiveFactor"] = {0, 0, 0};
+    material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 5}};
+    const std::string dark = sentences(import(file).report);
+    EXPECT_EQ(dark.find("rendered: emission"), std::string::npos) << dark;
+    EXPECT_TRUE(contains(dark, "ignored: KHR_materials_emissive_strength at materials[0].extensions."));
+    material["emissiveFactor"] = {0, 3, 0};
+    const ImportResult bright = import(file);
+    EXPECT_EQ(bright.scene.materials[0].optics.emission, Vec3f(0, 15, 0));
+    expect(file, "rendered: emission at materials[0].emissiveFactor: ");
+    expect(file,
+           "rendered: emissiveFactor at materials[0].emissiveFactor[1]: is 3; glTF has 1 at most, and Tandem takes it");
+    material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 0}};
+    EXPECT_EQ(sentences(import(file).report).find("rendered: emission at"), std::string::npos);
+}
+
+TEST_F(Report, SaysThatABodyIsOfGlassWhereItIs) {
+    TestFile file = small_file();
+    Json& extensions = file.json["materials"][0]["extensions"];
+    extensions["KHR_materials_transmission"] = {{"transmissionFactor", 0}};
+    extensions["KHR_materials_volume"] = {{"thicknessFactor", 1}};
+    const std::string all = sentences(import(file).report);
+    EXPECT_EQ(all.find("a body of glass"), std::string::npos) << all;
+    EXPECT_TRUE(
+        contains(all, "ignored: KHR_materials_volume at materials[0].extensions.KHR_materials_volume: the body"));
+}
+
+TEST_F(Report, NamesAPlaceForTheFrameRateThatIsThere) {
+    TestFile file = rich_file();
+    expect(file, "takes 24 frames a second unless scenes[0].extras.frames_per_second says otherwise");
+    file.json.erase("scene");
+    file.json.erase("scenes");
+    const std::string all = sentences(import(file).report);
+    EXPECT_TRUE(
+        contains(all, "takes 24 frames a second; in a file with scenes, extras.frames_per_second of one sets it"));
+    EXPECT_EQ(all.find("nodes.extras"), std::string::npos);
+}
+
+TEST_F(Report, SaysThatAnAnimationGoesOnBeyondTheLastFrame) {
+    TestFile file = rich_file();
+    const std::string sentence = "length of the animation";
+    EXPECT_EQ(sentences(import(file).report).find(sentence), std::string::npos);
+    const std::size_t times = file.add_floats("SCALAR", {0, 1, 1e30F});
+    file.json["animations"][0]["samplers"][0]["input"] = times;
+    const ImportResult result = import(file);
+    EXPECT_EQ(frame_count(result.scene), 2147483647);
+    expect(
+        file,
+        "approximated: length of the animation at animations[0]: its last key is at 1e+30 s; frames have numbers up");
+}
+
+TEST_F(Report, ClampsFactors) {
+    TestFile file = small_file();
+    Json& material = file.json["materials"][0];
+    material.erase("extensions");
+    material["pbrMetallicRoughness"] = {{"baseColorFactor", {1.5, -1, 0.5, 1}}};
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.materials[0].phong.diffuse, Vec3f(1, 0, 0.5F));
+    expect(file,
+           "approximated: baseColorFactor at materials[0].pbrMetallicRoughness.baseColorFactor[0]: must be a number "
+           "from 0 to 1, but is 1.5; Tandem takes 1");
+}
+
 TEST_F(Report, NamesTheChoiceOfAScene) {
     TestFile file = small_file();
     file.json["scenes"].push_back({{"nodes", {1}}});

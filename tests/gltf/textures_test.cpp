@@ -33,11 +33,20 @@ TestFile textured_file(const std::string& uri = png_uri()) {
 
 class Textures : public test::GltfFiles {
   protected:
-    void expect_refused(const TestFile& file, const std::string& sentence) const {
-        EXPECT_TRUE(contains(error_of(write("inside/scene.gltf", file.text())), sentence));
+    /// The file is drawn without a picture, and says why.
+    void expect_no_picture(const TestFile& file, const std::string& sentence) const {
+        const ImportResult result = import_gltf(write("inside/scene.gltf", file.text()));
+        EXPECT_TRUE(result.scene.images.empty());
+        EXPECT_FALSE(result.scene.materials[0].diffuse_texture);
+        EXPECT_EQ(result.scene.nodes[1].geometry.size(), 1U);
+        EXPECT_TRUE(contains(sentences(result.report), sentence));
+        for (const char* wrong :
+             {"rendered: image", "rendered: base colour texture", "no texture that Tandem renders"}) {
+            EXPECT_EQ(sentences(result.report).find(wrong), std::string::npos) << wrong;
+        }
     }
-    void expect_image_refused(const std::string& uri, const std::string& reason) const {
-        expect_refused(textured_file(uri), "images[0].uri: " + reason);
+    void expect_image_left_out(const std::string& uri, const std::string& reason) const {
+        expect_no_picture(textured_file(uri), "ignored: base colour texture at images[0].uri: " + reason);
     }
 };
 
@@ -85,7 +94,10 @@ TEST_F(Textures, KeepTheirSamplers) {
     file.json["samplers"][0] = {{"wrapS", 10497}};
     EXPECT_TRUE(contains(sentences(import(file).report), "rendered: texture sampler at samplers[0]: "));
     file.json["samplers"][0] = {{"wrapS", 7}};
-    expect_refused(file, "samplers[0].wrapS: must be one of 33071 33648 10497, but is 7");
+    const ImportResult odd = import(file);
+    EXPECT_EQ(odd.scene.textures[0].wrap_s, Wrap::repeat);
+    EXPECT_TRUE(contains(sentences(odd.report),
+                         "ignored: wrapS at samplers[0].wrapS: must be one of 33071 33648 10497, but is 7"));
 }
 
 TEST_F(Textures, OfNormalsHaveAScale) {
@@ -112,7 +124,8 @@ TEST_F(Textures, AreMovedByKhrTextureTransform) {
     info["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
     EXPECT_EQ(import(file).scene.materials[0].diffuse_texture->texcoord, 1U) << "it goes before the texture's own";
     info["extensions"]["KHR_texture_transform"] = {{"scale", {3}}};
-    expect_refused(file, "KHR_texture_transform.scale: must be 2 numbers");
+    EXPECT_TRUE(contains(sentences(import(file).report),
+                         "KHR_texture_transform.scale: must be 2 numbers, but is an array of 1"));
 }
 
 TEST_F(Textures, ThatTandemDoesNotShowAreNotOpened) {
@@ -159,50 +172,117 @@ TEST_F(Textures, OnMeshesWithoutCoordinatesShowTheirCorner) {
                          "approximated: texture without coordinates at meshes[0].primitives[0].attributes: "));
 }
 
-TEST_F(Textures, OutsideOfTheFolderAreRefused) {
+TEST_F(Textures, OutsideOfTheFolderAreLeftOut) {
     write("secret.png", small_png());
     for (const char* uri : {"../secret.png", "%2e%2e/secret.png", "pictures/../../secret.png"}) {
-        expect_image_refused(uri, "leads out of the folder");
+        expect_image_left_out(uri, "leads out of the folder");
     }
-    expect_image_refused((folder_ / "secret.png").string(), "is an absolute path");
-    expect_image_refused("file:///etc/passwd", "has a scheme");
+    expect_image_left_out((folder_ / "secret.png").string(), "is an absolute path");
+    expect_image_left_out("file:///etc/passwd", "has a scheme");
     std::filesystem::create_directories(folder_ / "inside");
     std::filesystem::create_symlink(folder_ / "secret.png", folder_ / "inside/link.png");
-    expect_image_refused("link.png", "names 'link.png', a link that leads out");
+    expect_image_left_out("link.png", "names 'link.png', a link that leads out");
 }
 
-TEST_F(Textures, ThatCannotBeReadAreRefused) {
-    expect_image_refused("none.png", "names 'none.png', which is not there");
+TEST_F(Textures, ThatCannotBeReadAreLeftOut) {
+    expect_image_left_out("none.png", "names 'none.png', which is not there");
     write("inside/text.png", "hello");
-    expect_image_refused("text.png", "'text.png' is not a picture that Tandem reads as a texture: PNG or JPEG");
+    expect_image_left_out("text.png", "'text.png' is not a picture that Tandem reads as a texture: PNG or JPEG");
     write("inside/short.png", small_png().substr(0, 40));
-    expect_image_refused("short.png", "'short.png' is not a readable PNG image: the file is cut off");
+    expect_image_left_out("short.png", "'short.png' is not a readable PNG image: the file is cut off");
     std::string huge = small_png();
     huge[18] = huge[22] = '\x7F';  // the width and height of the header, whose checksum is wrong now
     write("inside/huge.png", huge);
-    expect_image_refused("huge.png", "'huge.png' is not a readable PNG image: ");
-    expect_image_refused("data:image/gif;base64,AAAA",
-                         "is a data URI that does not begin with 'data:image/png;base64,'");
-    expect_image_refused("data:image/png;base64,AAA*", "is a data URI whose base64 is broken");
-    expect_image_refused("data:image/png;base64,", "'data URI' is not a picture");
+    expect_image_left_out("huge.png", "'huge.png' is not a readable PNG image: ");
+    expect_image_left_out("data:image/gif;base64,AAAA", "'data URI' is not a picture that Tandem reads");
+    expect_image_left_out("data:image/png,AAAA", "is a data URI that does not begin with 'data:', a media type and");
+    write("inside/pointer.png", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 4\n");
+    expect_image_left_out("pointer.png",
+                          "'pointer.png' is a pointer of Git LFS, not the file itself; run 'git lfs pull'");
+    expect_image_left_out("data:image/png;base64,AAA*", "is a data URI whose base64 is broken");
+    expect_image_left_out("data:image/png;base64,", "'data URI' is not a picture");
 }
 
-TEST_F(Textures, OfMalformedFilesAreRefused) {
+TEST_F(Textures, OfMalformedFilesAreLeftOut) {
     TestFile file = textured_file();
     file.json["images"][0] = Json::object();
-    expect_refused(file, "images[0]: has neither a uri nor a bufferView; add one");
+    expect_no_picture(file, "images[0]: has neither a uri nor a bufferView; add one");
     file.json["images"][0] = {{"uri", "a.png"}, {"bufferView", 0}};
     file.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 4}}};
     file.data = "abcd";
-    expect_refused(file, "images[0]: has a uri and a bufferView; keep one");
+    expect_no_picture(file, "images[0].uri: stands beside a bufferView; Tandem takes the bufferView");
     file.json["images"][0] = {{"bufferView", 0}};
-    expect_refused(file, "images[0].bufferView: 'bufferView 0' is not a picture");
+    expect_no_picture(file, "images[0].bufferView: 'bufferView 0' is not a picture");
     file = textured_file();
     file.json["textures"][0]["source"] = 3;
-    expect_refused(file, "textures[0].source: is 3, but the file's array 'images' has 1 elements");
+    EXPECT_TRUE(
+        contains(sentences(import(file).report), "textures[0].source: is 3, but the file's array 'images' has 1"));
     file = textured_file();
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 1}};
-    expect_refused(file, "baseColorTexture.index: is 1, but the file's array 'textures' has 1 elements");
+    EXPECT_TRUE(
+        contains(sentences(import(file).report),
+                 "ignored: baseColorTexture at materials[0].pbrMetallicRoughness.baseColorTexture.index: is 1, but"));
+}
+
+TEST_F(Textures, OfAnyMediaTypeAreTold) {
+    const std::string data = test::base64(small_png());
+    for (const char* type : {"image/jpg", "application/octet-stream", "image/png;name=a.png", ""}) {
+        const std::string uri = "data:" + std::string(type) + ";base64," + data;
+        EXPECT_EQ(import(textured_file(uri)).scene.images.at(0).texels, small_texels) << type;
+    }
+    std::string bare = data;
+    while (bare.back() == '=') bare.pop_back();
+    EXPECT_EQ(import(textured_file("data:image/png;base64," + bare)).scene.images.at(0).texels, small_texels);
+}
+
+TEST_F(Textures, MayHaveBytesBehindTheirEnd) {
+    write("a.png", small_png() + "and something else");
+    EXPECT_EQ(import(textured_file("a.png")).scene.images.at(0).texels, small_texels);
+}
+
+/// As web browsers have it.
+TEST_F(Textures, MayBeNamedCarelessly) {
+    write("pictures/100% wall.png", small_png());
+    EXPECT_EQ(import(textured_file("pictures\\100% wall.png")).scene.images.at(0).texels, small_texels);
+}
+
+/// One picture for three images: a file by two names, and a buffer view.
+TEST_F(Textures, OfTheSameBytesAreDecodedOnce) {
+    TestFile file = textured_file("a.png");
+    write("a.png", small_png());
+    std::filesystem::create_symlink("a.png", folder_ / "b.png");
+    file.json["images"].push_back({{"uri", "./b.png"}});
+    file.json["textures"].push_back({{"source", 1}});
+    file.json["materials"][0]["normalTexture"] = {{"index", 1}};
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.images.size(), 1U);
+    EXPECT_EQ(result.scene.textures.size(), 2U);
+    EXPECT_TRUE(contains(sentences(result.report), "rendered: image at images[0] (2 uses)"));
+}
+
+/// A grey PNG of 8192 x 8192 in 65 KB, and others beside it.
+TEST_F(Textures, ThatAreTooLargeForTheFileAreHalved) {
+    const std::size_t edge = 8192;
+    ByteImage image{static_cast<int>(edge), static_cast<int>(edge), std::vector<std::uint8_t>(3 * edge * edge, 40)};
+    for (std::size_t i = 0; i < 3 * edge; ++i) image.values[i] = 240;  // the first row
+    const Bytes png = encode_png(image, {}, 9);
+    image = {};
+    write("large.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+    write("small.png", small_png());
+    TestFile file = textured_file("small.png");
+    file.json["images"].push_back({{"uri", "large.png"}});
+    file.json["textures"].push_back({{"source", 1}});
+    file.json["materials"][0]["normalTexture"] = {{"index", 1}};
+    const ImportResult result = import(file);
+    ASSERT_EQ(result.scene.images.size(), 2U);
+    EXPECT_EQ(result.scene.images[0].texels, small_texels);
+    EXPECT_EQ(result.scene.images[1].width, 4096U);
+    EXPECT_EQ(result.scene.images[1].height, 4096U);
+    EXPECT_EQ(result.scene.images[1].texels[0], 0xFF8C8C8CU) << "the mean of 240 and 40";
+    EXPECT_EQ(result.scene.images[1].texels[4096], 0xFF282828U);
+    EXPECT_TRUE(
+        contains(sentences(result.report),
+                 "approximated: large image at images[1]: has 8192 x 8192 texels; Tandem takes 4096 x 4096, since"));
 }
 
 }  // namespace

@@ -34,7 +34,6 @@ LIBRARIES = {
     "GLM": (r"glm/", lambda path: path == "lib/math/vec.h"),
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
-    "tinygltf": (r"tiny_?gltf", lambda path: path.startswith("lib/gltf/")),
     "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/film/")),
     "OpenImageIO": (r"OpenImageIO/", lambda path: path.startswith("lib/film/")),
 }

@@ -1,0 +1,22 @@
+/// Pointer files of Git LFS: what a clone has in place of large files until they are fetched.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace tandem {
+
+/// Is it a pointer file? Source: the specification of Git LFS, docs/spec.md, "The Pointer".
+[[nodiscard]] inline bool is_lfs_pointer(std::span<const std::byte> file) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    return text.starts_with("version https://git-lfs.github.com/spec/");
+}
+
+/// Such a file is shorter than this.
+inline constexpr std::size_t lfs_pointer_bytes = 1024;
+
+inline constexpr const char* lfs_advice =
+    "is a pointer of Git LFS, not the file itself; run 'git lfs pull' in its repository";
+
+}  // namespace tandem
