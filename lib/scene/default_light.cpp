@@ -26,19 +26,18 @@ constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
 double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 /// Square metres, in the world. Of an ellipsoid that of the sphere of its volume.
-double area_of(const Scene& scene, const PlacedShape& placed) {
-    const Matrix3& m = placed.world_from_shape.linear;
-    if (const auto* sphere = std::get_if<SphereShape>(&placed.geometry->shape)) {
+double area_of(const Scene& scene, const Shape& shape, const Matrix3& m) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
         const double radius = sphere->radius * std::cbrt(std::abs(determinant(m)));
         return 4 * std::numbers::pi * radius * radius;
     }
-    if (const auto* box = std::get_if<BoxShape>(&placed.geometry->shape)) {
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
         const Matrix3 axes = transpose(m);
         const Vec3d edge[3] = {axes.row[0] * box->size.x, axes.row[1] * box->size.y, axes.row[2] * box->size.z};
         return 2 *
                (length(cross(edge[0], edge[1])) + length(cross(edge[1], edge[2])) + length(cross(edge[2], edge[0])));
     }
-    const Mesh& mesh = scene.meshes[std::get<MeshShape>(placed.geometry->shape).mesh];
+    const Mesh& mesh = scene.meshes[std::get<MeshShape>(shape).mesh];
     double area = 0;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const Vec3d start = widen(mesh.positions[a]);
@@ -76,11 +75,12 @@ double mean_glow(const Scene& scene) {
     for (const Material& material : scene.materials) radiance.push_back(radiance_of(scene, material));
     if (std::none_of(radiance.begin(), radiance.end(), [](double r) { return r > 0; })) return 0;
     double total = 0, area = 0;
-    for (const PlacedShape& placed : place_shapes(scene, time_of_frame(scene, 0))) {
-        const double part = area_of(scene, placed);
+    const auto add = [&](const Geometry& geometry, const Transform& world_from_shape) {
+        const double part = area_of(scene, geometry.shape, world_from_shape.linear);
         area += part;
-        total += part * radiance[placed.geometry->material];
-    }
+        total += part * radiance[geometry.material];
+    };
+    for_each_shape(scene, world_from_nodes(scene, time_of_frame(scene, 0)), add);
     return area > 0 ? total / area : 0;
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
+#include "tandem/error/error.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/surface_reach.h"
 
@@ -64,31 +64,46 @@ Matrix3 axes_at(int azimuth, int elevation) {
     return {{right, cross(backward, right), backward}};
 }
 
-/// Seen from where a scene just fits between two planes through the camera.
+/// A scene between two planes through a camera that lean `slope` to either side of its backward axis, and touch it.
 struct Fit {
+    double slope;
     double centre;    ///< of the camera, along the axis across the planes
     double distance;  ///< of the camera, along the backward axis
 };
 
-/// The tightest pair of planes that lean `slope` to either side of the backward axis. All is relative to `middle`.
-Fit fit(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& across, const Vec3d& backward, double slope) {
-    const auto along = [&](const Vec3d& direction) { return reach.along(direction) - dot(direction, middle); };
-    const double upper = along(across + backward * slope);
-    const double lower = along(backward * slope - across);
-    return {(upper - lower) / 2, (upper + lower) / (2 * slope)};
-}
+/// A scene as a camera sees it that looks along an axis. Positions are relative to `middle`.
+class Sight {
+  public:
+    Sight(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& backward)
+        : reach_(reach), middle_(middle), backward_(backward) {}
 
-/// Where the camera is along `across` if it is `distance` away: a scene that does not fill the film in this direction
-/// stands in its middle. Finds the slope at which it would fill it.
-double centre_at(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& across, const Vec3d& backward,
-                 double slope, double distance) {
-    Fit tight = fit(reach, middle, across, backward, slope);
-    for (int i = 0; i < 8 && tight.distance > 0 && tight.distance < 0.99 * distance; ++i) {
-        slope *= tight.distance / distance;
-        tight = fit(reach, middle, across, backward, slope);
+    /// Of what is nearest to the camera, along the backward axis.
+    [[nodiscard]] double front() const { return along({backward_})[0]; }
+
+    [[nodiscard]] Fit fit(const Vec3d& across, double slope) const {
+        const std::vector<double> most = along({across + backward_ * slope, backward_ * slope - across});
+        return {slope, (most[0] - most[1]) / 2, (most[0] + most[1]) / (2 * slope)};
     }
-    return tight.centre;
-}
+
+    /// Where the camera is along `across` if it is farther away than it need be for `tight`: what does not fill the
+    /// film stands in its middle. Finds the slope at which it would fill it.
+    [[nodiscard]] double centre(const Vec3d& across, Fit tight, double distance) const {
+        for (int i = 0; i < 8 && tight.distance > 0 && tight.distance < 0.99 * distance; ++i) {
+            tight = fit(across, tight.slope * tight.distance / distance);
+        }
+        return tight.centre;
+    }
+
+  private:
+    [[nodiscard]] std::vector<double> along(const std::vector<Vec3d>& directions) const {
+        std::vector<double> most = reach_.along(directions);
+        for (std::size_t i = 0; i < most.size(); ++i) most[i] -= dot(directions[i], middle_);
+        return most;
+    }
+
+    const SurfaceReach& reach_;
+    Vec3d middle_, backward_;
+};
 
 /// The scene at the first moment at which it shows something.
 SurfaceReach reach_of(const Scene& scene) {
@@ -100,24 +115,14 @@ SurfaceReach reach_of(const Scene& scene) {
     return {scene, time_of_frame(scene, last)};
 }
 
-/// Stands in for what cannot be framed.
-const Scene& cube() {
-    static const Scene scene = [] {
-        Scene result;
-        result.nodes.resize(1);
-        result.nodes[0].geometry = {{BoxShape{}, 0}};
-        return result;
-    }();
-    return scene;
-}
-
 struct Bounds {
     Vec3d lower, upper;
 };
 
 Bounds bounds_of(const SurfaceReach& reach) {
-    return {-Vec3d{reach.along({-1, 0, 0}), reach.along({0, -1, 0}), reach.along({0, 0, -1})},
-            {reach.along({1, 0, 0}), reach.along({0, 1, 0}), reach.along({0, 0, 1})}};
+    const Vec3d axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    const std::vector<double> most = reach.along(axes);
+    return {-Vec3d{most[3], most[4], most[5]}, {most[0], most[1], most[2]}};
 }
 
 /// Far enough from the limit of coordinates that the camera keeps it too.
@@ -131,17 +136,25 @@ bool can_be_framed(const Bounds& bounds) {
 
 Vec3d place_camera(const SurfaceReach& reach, const Bounds& bounds, const Matrix3& axes, double aspect) {
     const auto& [right, up, backward] = axes.row;
-    const Vec3d middle = bounds.lower + (bounds.upper - bounds.lower) * 0.5;
-    const double slope_up = fill * std::tan(vertical_angle / 2);
-    const double slope_right = slope_up * aspect;
     const Vec3d size = bounds.upper - bounds.lower;
+    const Vec3d middle = bounds.lower + size * 0.5;
+    const Sight sight(reach, middle, backward);
+    const double slope = fill * std::tan(vertical_angle / 2);
+    const Fit width = sight.fit(right, slope * aspect);
+    const Fit height = sight.fit(up, slope);
     // a line that is seen end-on fits into every picture, and so does a point: the camera keeps off them
     const double gap = norm1(size) > 0 ? 0.05 * norm1(size) : std::max(1.0, 1e-3 * norm1(middle));
-    const double closest = reach.along(backward) - dot(backward, middle) + gap;
-    const double distance = std::max({closest, fit(reach, middle, right, backward, slope_right).distance,
-                                      fit(reach, middle, up, backward, slope_up).distance});
-    return middle + right * centre_at(reach, middle, right, backward, slope_right, distance) +
-           up * centre_at(reach, middle, up, backward, slope_up, distance) + backward * distance;
+    const double distance = std::max({sight.front() + gap, width.distance, height.distance});
+    return middle + right * sight.centre(right, width, distance) + up * sight.centre(up, height, distance) +
+           backward * distance;
+}
+
+/// Stands in for what cannot be framed.
+Scene cube() {
+    Scene scene;
+    scene.nodes.resize(1);
+    scene.nodes[0].geometry = {{BoxShape{}, 0}};
+    return scene;
 }
 
 }  // namespace
@@ -156,23 +169,26 @@ bool is_view(const std::string& name) { return find_view(name) != nullptr; }
 
 Framing frame_scene(const Scene& scene, const std::string& name, double aspect) {
     const View* view = find_view(name);
-    assert(view != nullptr);
-    const SurfaceReach found = reach_of(scene);
-    const bool has_bounds = !found.is_empty() && can_be_framed(bounds_of(found));
-    const SurfaceReach reach = has_bounds ? found : SurfaceReach(cube(), 0);
+    if (view == nullptr) throw InputError(fmt::format("there is no view '{}'; take one of {}", name, view_names()));
+    if (!(aspect > 0 && std::isfinite(aspect))) {
+        throw InputError(fmt::format("a film whose width is {} times its height cannot be framed", aspect));
+    }
+    Framing framing;
+    SurfaceReach reach = reach_of(scene);
+    framing.is_empty = reach.is_empty();
+    const Scene stand_in = cube();
+    if (reach.is_empty() || !can_be_framed(bounds_of(reach))) reach = SurfaceReach(stand_in, 0);
     const Bounds bounds = bounds_of(reach);
     const Vec3d size = bounds.upper - bounds.lower;
     const int azimuth = view->azimuth + (view->name == automatic ? azimuth_for(size) : 0);
     const int elevation = view->elevation.value_or(elevation_for(size));
     const Matrix3 axes = axes_at(azimuth, elevation);
-    Framing framing;
     framing.node.name = name;
     framing.node.matrix = {transpose(axes), place_camera(reach, bounds, axes, aspect)};
     framing.node.camera = PerspectiveCamera{vertical_angle};
     framing.description = view->words;
     if (azimuth != view->azimuth) framing.description += fmt::format(", turned {} degrees to the right", azimuth);
     if (std::abs(elevation) < 90) framing.description += fmt::format(", {} degrees above", elevation);
-    framing.is_empty = found.is_empty();
     return framing;
 }
 

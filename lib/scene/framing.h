@@ -28,7 +28,8 @@ struct Framing {
 /// is the front, turned to the right where the scene is much deeper than it is wide. Any bounds are framed: points,
 /// planes, tiny and huge ones, far from the origin, but for those whose coordinates pass 1e17.
 ///
-/// `view`: one of view_names(). The scene must be valid.
+/// `view`: one of view_names(). The scene must be valid. Throws InputError for a view that there is not, and for an
+/// aspect that is not above 0 and finite.
 [[nodiscard]] Framing frame_scene(const Scene& scene, const std::string& view, double aspect);
 
 }  // namespace tandem

@@ -9,12 +9,6 @@ namespace tandem {
 
 namespace {
 
-/// Does it take every face to a line or a point?
-bool leaves_no_area(const Matrix3& m) {
-    const Vec3d zero{0, 0, 0};
-    return cross(m.row[0], m.row[1]) == zero && cross(m.row[1], m.row[2]) == zero && cross(m.row[2], m.row[0]) == zero;
-}
-
 std::vector<Vec3f> used_corners(const Mesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
     for (const auto* indices : {&mesh.triangles, &mesh.quads}) {
@@ -27,52 +21,48 @@ std::vector<Vec3f> used_corners(const Mesh& mesh) {
     return corners;
 }
 
+/// Of a shape around its own origin.
+double reach_of(const Shape& shape, const std::vector<std::vector<Vec3f>>& corners, const Vec3d& direction) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+        return sphere->radius * std::sqrt(dot(direction, direction));
+    }
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return norm1(direction * box->size) / 2;
+    double most = -__builtin_huge_val();
+    for (const Vec3f& corner : corners[std::get<MeshShape>(shape).mesh]) {
+        most = std::max(most, dot(direction, widen(corner)));
+    }
+    return most;
+}
+
 }  // namespace
 
-std::vector<PlacedShape> place_shapes(const Scene& scene, double time) {
-    const std::vector<Transform> world_from_node = world_from_nodes(scene, time);
-    std::vector<PlacedShape> placed;
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        for (const Geometry& geometry : scene.nodes[i].geometry) {
-            const auto add = [&](const Transform& world_from_shape) {
-                if (!leaves_no_area(world_from_shape.linear)) placed.push_back({&geometry, world_from_shape});
-            };
-            if (geometry.instances.empty()) add(world_from_node[i]);
-            for (const Trs& instance : geometry.instances) add(world_from_node[i] * to_transform(instance));
-        }
-    }
-    return placed;
+bool leaves_no_area(const Matrix3& map) {
+    const Vec3d zero{0, 0, 0};
+    return cross(map.row[0], map.row[1]) == zero && cross(map.row[1], map.row[2]) == zero &&
+           cross(map.row[2], map.row[0]) == zero;
 }
 
-SurfaceReach::SurfaceReach(const Scene& scene, double time) : corners_(scene.meshes.size()) {
-    for (const PlacedShape& placed : place_shapes(scene, time)) {
-        const Shape& shape = placed.geometry->shape;
-        if (const auto* reference = std::get_if<MeshShape>(&shape)) {
+SurfaceReach::SurfaceReach(const Scene& scene, double time)
+    : scene_(&scene), world_from_node_(world_from_nodes(scene, time)), corners_(scene.meshes.size()) {
+    for_each_shape(scene, world_from_node_, [&](const Geometry& geometry, const Transform&) {
+        if (const auto* reference = std::get_if<MeshShape>(&geometry.shape)) {
             std::vector<Vec3f>& corners = corners_[reference->mesh];
             if (corners.empty()) corners = used_corners(scene.meshes[reference->mesh]);
-            if (corners.empty()) continue;
+            if (corners.empty()) return;
         }
-        bodies_.push_back({placed.world_from_shape, &shape});
-    }
+        is_empty_ = false;
+    });
 }
 
-double SurfaceReach::along(const Vec3d& direction) const {
-    double most = -__builtin_huge_val();
-    for (const Body& body : bodies_) {
-        const double start = dot(direction, body.world_from_shape.translation);
-        const Vec3d local = transpose(body.world_from_shape.linear) * direction;
-        double reach = -__builtin_huge_val();
-        if (const auto* sphere = std::get_if<SphereShape>(body.shape)) {
-            reach = sphere->radius * std::sqrt(dot(local, local));
-        } else if (const auto* box = std::get_if<BoxShape>(body.shape)) {
-            reach = norm1(local * box->size) / 2;
-        } else {
-            for (const Vec3f& corner : corners_[std::get<MeshShape>(*body.shape).mesh]) {
-                reach = std::max(reach, dot(local, widen(corner)));
-            }
+std::vector<double> SurfaceReach::along(std::span<const Vec3d> directions) const {
+    std::vector<double> most(directions.size(), -__builtin_huge_val());
+    for_each_shape(*scene_, world_from_node_, [&](const Geometry& geometry, const Transform& world_from_shape) {
+        const Matrix3 columns = transpose(world_from_shape.linear);
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            const double start = dot(directions[i], world_from_shape.translation);
+            most[i] = std::max(most[i], start + reach_of(geometry.shape, corners_, columns * directions[i]));
         }
-        most = std::max(most, start + reach);
-    }
+    });
     return most;
 }
 

@@ -1,42 +1,48 @@
 /// How far the surfaces of a scene reach.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tandem/scene/scene.h"
 
 namespace tandem {
 
-/// A shape where it stands in the world.
-struct PlacedShape {
-    const Geometry* geometry;
-    Transform world_from_shape;
-};
+/// Does the map take every face to a line or a point? Authors hide things so.
+[[nodiscard]] bool leaves_no_area(const Matrix3& map);
 
-/// All shapes of the scene at `time` seconds, but for those that a transform shrinks to a point or a line: authors hide
-/// things so. The scene must be valid and outlive them.
-[[nodiscard]] std::vector<PlacedShape> place_shapes(const Scene& scene, double time);
+/// Calls `visit(geometry, world_from_shape)` for every shape that is not hidden, once for each instance.
+template <class Visit>
+void for_each_shape(const Scene& scene, const std::vector<Transform>& world_from_node, const Visit& visit) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        for (const Geometry& geometry : scene.nodes[i].geometry) {
+            const auto place = [&](const Transform& world_from_shape) {
+                if (!leaves_no_area(world_from_shape.linear)) visit(geometry, world_from_shape);
+            };
+            if (geometry.instances.empty()) place(world_from_node[i]);
+            for (const Trs& instance : geometry.instances) place(world_from_node[i] * to_transform(instance));
+        }
+    }
+}
 
 /// The surfaces of a scene at a moment, as their extreme points. Vertices that no face uses do not count.
 class SurfaceReach {
   public:
+    /// `time` in seconds. The scene must be valid and outlive this.
     SurfaceReach(const Scene& scene, double time);
 
     /// Is there no surface?
-    [[nodiscard]] bool is_empty() const { return bodies_.empty(); }
+    [[nodiscard]] bool is_empty() const { return is_empty_; }
 
-    /// The largest dot product of `direction`, of any length, with a point of a surface, in world space: the support
-    /// function of the convex hull. -infinity if there is no surface. Linear in the number of vertices.
-    [[nodiscard]] double along(const Vec3d& direction) const;
+    /// For each direction, of any length, its largest dot product with a point of a surface, in world space: the
+    /// support function of the convex hull. -infinity if there is no surface. Linear in the number of vertices.
+    [[nodiscard]] std::vector<double> along(std::span<const Vec3d> directions) const;
 
   private:
-    struct Body {
-        Transform world_from_shape;
-        const Shape* shape;
-    };
-
-    std::vector<Body> bodies_;
+    const Scene* scene_;
+    std::vector<Transform> world_from_node_;
     std::vector<std::vector<Vec3f>> corners_;  ///< by mesh: its vertices that faces use
+    bool is_empty_ = true;
 };
 
 }  // namespace tandem

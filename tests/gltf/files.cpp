@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tandem/film/image_codecs.h"
+
 namespace tandem::test {
 
 namespace {

@@ -258,6 +258,15 @@ TEST(Framing, OfNothingOrTooMuchStandsBeforeTheOrigin) {
     }
 }
 
+TEST(Framing, RefusesViewsAndFilmsThatThereAreNot) {
+    const Scene ball = scene_of(SphereShape{1});
+    EXPECT_TRUE(test::contains(test::input_error([&] { (void)frame_scene(ball, "under", 1); }),
+                               "there is no view 'under'; take one of auto, front"));
+    for (const double aspect : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
+        EXPECT_TRUE(test::contains(test::input_error([&] { (void)frame_scene(ball, "auto", aspect); }), "film"));
+    }
+}
+
 TEST(SurfaceReach, IsTheSupportOfTheHull) {
     Random random(1);
     for (int i = 0; i < 100; ++i) {
@@ -266,14 +275,14 @@ TEST(SurfaceReach, IsTheSupportOfTheHull) {
         const Trs trs = any_trs(random, true);
         const double moved = dot(d, trs.translation);
         const Scene sphere = scene_of(SphereShape{2}, {.translation = trs.translation, .rotation = trs.rotation});
-        EXPECT_NEAR(SurfaceReach(sphere, 0).along(d), moved + 2 * length, 1e-12);
+        EXPECT_NEAR(SurfaceReach(sphere, 0).along({&d, 1})[0], moved + 2 * length, 1e-12);
         const Scene box = scene_of(BoxShape{{1, 2, 3}}, trs);
         double most = -1e300;
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3d at = {corner & 1 ? 0.5 : -0.5, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.5 : -1.5};
             most = std::max(most, dot(d, transform_point(to_transform(trs), at)));
         }
-        EXPECT_NEAR(SurfaceReach(box, 0).along(d), most, 1e-12);
+        EXPECT_NEAR(SurfaceReach(box, 0).along({&d, 1})[0], most, 1e-12);
     }
     const Scene none;
     EXPECT_TRUE(SurfaceReach(none, 0).is_empty());
