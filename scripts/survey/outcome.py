@@ -68,7 +68,7 @@ def group_of(sentence):
     Names of extensions stay. Of several lines only the first counts.
     """
     text = sentence.split("\n")[0]
-    text = re.sub(r"'(?!(?:[A-Z0-9]{2,}_)\w+')[^']*'", "'…'", text)
+    text = re.sub(r"(?<!\w)'(?!(?:[A-Z0-9]{2,}_)\w+')[^']*'", "'…'", text)
     text = re.sub(r"(?<![A-Za-z_])[-+]?\d+(?:[,.]\d+)*(?:e[-+]?\d+)?(?![A-Za-z_])", "#", text)
     text = re.sub(r"FILE: (?:[\w\[\]#.]+(?:\.\w+|\[#\]))+(?=[ :])", "FILE: PATH", text)
     return text

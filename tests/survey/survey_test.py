@@ -82,6 +82,10 @@ class Sentences(unittest.TestCase):
         draco = outcome.group_of("requires 'KHR_draco_mesh_compression'")
         self.assertNotEqual(draco, outcome.group_of("requires 'KHR_texture_basisu'"))
 
+    def test_an_apostrophe_is_no_quote(self):
+        text = "FILE: scene: is 4, but the file's array 'scenes' has 2 elements"
+        self.assertEqual(outcome.group_of(text), "FILE: scene: is #, but the file's array '…' has # elements")
+
     def test_no_path_of_the_machine_stays(self):
         text = outcome.anonymous("/home/me/a.gltf: /home/me/b.bin is cut off", "/home/me/a.gltf")
         self.assertEqual(text, "FILE: b.bin is cut off")
