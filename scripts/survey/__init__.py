@@ -1,0 +1,1 @@
+"""The parts of survey_gltf.py."""
