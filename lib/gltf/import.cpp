@@ -81,6 +81,7 @@ class SceneBuilder {
         scene_.materials = gltf::read_materials(source_, report_);
         gltf::read_textures(source_, scene_, report_, flaws_);
         scene_.environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
+        scene_.nodes.reserve(node_of_.size());
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
         }

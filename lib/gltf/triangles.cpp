@@ -26,16 +26,29 @@ class TriangleReader {
 
     Mesh run() {
         Mesh mesh;
+        const auto position = primitive_["attributes"]["POSITION"].get<std::size_t>();
+        mesh.triangles = triangles_of(source_.document, corners(element_count(source_, position)),
+                                      static_cast<Mode>(mode_of(primitive_)), path_, flaws_);
+        choose_vertices(mesh.triangles, element_count(source_, position));
         mesh.positions = vectors<Vec3f>("POSITION", "VEC3", Components::floats, Components::quantised);
         vertices_ = mesh.positions.size();
         mesh.normals = optional_vectors<Vec3f>("NORMAL", "VEC3", Components::floats, Components::normalised);
         mesh.texcoords = optional_vectors<Vec2f>("TEXCOORD_0", "VEC2", Components::normalised, Components::quantised);
-        mesh.triangles = triangles_of(source_.document, corners(), static_cast<Mode>(mode_of(primitive_)), path_, flaws_);
         mend(source_.document, mesh, path_, flaws_);
         return mesh;
     }
 
   private:
+    /// Primitives may share vertices, each with some of them, so only those that it has are read. A skin needs all.
+    void choose_vertices(std::vector<std::uint32_t>& triangles, std::size_t vertices) {
+        leave_out_missing_vertices(source_.document, triangles, vertices, path_, flaws_);
+        if (triangles.size() < vertices && !primitive_["attributes"].contains("JOINTS_0")) {
+            used_ = renumber_vertices(triangles);
+        }
+        vertices_ = used_ ? used_->size() : vertices;
+        all_vertices_ = vertices;
+    }
+
     /// None for an attribute with a flaw: the mesh is drawn without it.
     template <class Vector>
     std::vector<Vector> optional_vectors(const char* name, const char* type, Components plain, Components quantised) {
@@ -60,9 +73,15 @@ class TriangleReader {
         if (index == nullptr) return {};
         const std::string where = fmt::format("{}.attributes.{}", path_, name);
         const auto accessor = index->get<std::size_t>();
-        budget_.spend(source_.document, where, element_count(source_, accessor));
+        const std::size_t all = element_count(source_, accessor);
+        if (all != all_vertices_) {
+            source_.document.fail(
+                where, fmt::format("has {} elements, but POSITION has {}; make them equal", all, all_vertices_));
+        }
+        budget_.spend(source_.document, where, vertices_);
         AccessorNeed need = {type, quantised, fmt::format("the attribute {}", name), where};
         need.is_finite = !is_mended(name);
+        need.elements = used_ ? &*used_ : nullptr;
         const std::vector<float> values = read_accessor(source_, accessor, need);
         if (!is_quantised_ && !has_components(source_, accessor, plain)) {
             flaws_.tolerate(fmt::format("attribute {}", name), where,
@@ -71,13 +90,8 @@ class TriangleReader {
                                         mesh_quantization));
         }
         constexpr std::size_t width = Vector::length();
-        const std::size_t count = values.size() / width;
-        if (vertices_ != 0 && count != vertices_) {
-            source_.document.fail(
-                where, fmt::format("has {} elements, but POSITION has {}; make them equal", count, vertices_));
-        }
-        std::vector<Vector> result(count);
-        for (std::size_t i = 0; i < count; ++i) {
+        std::vector<Vector> result(vertices_);
+        for (std::size_t i = 0; i < vertices_; ++i) {
             for (std::size_t c = 0; c < width; ++c) {
                 result[i][static_cast<typename Vector::length_type>(c)] = values[i * width + c];
             }
@@ -85,10 +99,11 @@ class TriangleReader {
         return result;
     }
 
-    Corners corners() {
+    Corners corners(std::size_t vertices) {
         const Json* index = find(primitive_, "indices");
         if (index == nullptr) {
-            std::vector<std::uint32_t> all(vertices_);
+            budget_.spend(source_.document, path_ + ".attributes.POSITION", vertices);
+            std::vector<std::uint32_t> all(vertices);
             std::iota(all.begin(), all.end(), 0U);
             return {std::move(all), std::nullopt};
         }
@@ -104,7 +119,8 @@ class TriangleReader {
     Budget& budget_;
     FlawLog& flaws_;
     bool is_quantised_ = false;
-    std::size_t vertices_ = 0;
+    std::optional<std::vector<std::uint32_t>> used_;  ///< the vertices to read; none: all of them
+    std::size_t vertices_ = 0, all_vertices_ = 0;     ///< of the mesh, and of POSITION
 };
 
 }  // namespace
