@@ -171,7 +171,7 @@ struct PngReader : PngFile {
 
     std::size_t unpacked_bytes = 0;  ///< of all rows as they are in the file
 
-    [[nodiscard]] std::size_t work() const { return std::max(width() * height(), unpacked_bytes / 4); }
+    [[nodiscard]] std::size_t work() const { return std::max(width() * height(), unpacked_bytes / 2); }
     [[nodiscard]] bool is_interlaced() const { return png_get_interlace_type(png, info) != PNG_INTERLACE_NONE; }
     [[nodiscard]] std::size_t width() const { return png_get_image_width(png, info); }
     [[nodiscard]] std::size_t height() const { return png_get_image_height(png, info); }

@@ -23,7 +23,7 @@ inline constexpr std::uint32_t most_texture_edge = 16384;
 /// The size that a picture says it has.
 struct TexelSize {
     std::uint32_t width = 0, height = 0;
-    std::size_t work = 0;  ///< of decoding it, in pixels of 8-bit RGBA in one pass
+    std::size_t work = 0;  ///< of decoding it, in pixels of a grey picture in one pass
 };
 
 /// The work of all pictures in `bytes` bytes of file, before a few bytes keep a program busy for many seconds.

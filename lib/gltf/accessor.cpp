@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "tandem/gltf/structure.h"
 
@@ -125,12 +126,20 @@ class Reader {
         if (viewed == nullptr && count_ > most_zeros) {
             fail(fmt::format("has {} elements and no buffer view to hold them; give it one", count_));
         }
-        values_.resize(count_ * width_);
+        const Json* sparse = find(json_, "sparse");
+        const bool reads_all = need_.elements == nullptr || sparse != nullptr;
+        const std::size_t count = reads_all ? count_ : need_.elements->size();
+        values_.resize(count * width_);
         if (viewed != nullptr) {
             const View from = view(json_, component_ * width_);
-            for (std::size_t i = 0; i < count_; ++i) read_element(from.bytes + i * from.stride, i);
+            for (std::size_t i = 0; i < count; ++i) {
+                read_element(from.bytes + (reads_all ? i : (*need_.elements)[i]) * from.stride, i);
+            }
         }
-        if (const Json* sparse = find(json_, "sparse")) replace(*sparse);
+        if (sparse != nullptr) {
+            replace(*sparse);
+            if (need_.elements != nullptr) keep(*need_.elements);
+        }
         if constexpr (std::is_floating_point_v<Value>) {
             if (need_.is_finite) check_finite();
         }
@@ -186,6 +195,16 @@ class Reader {
             }
             read_element(value_view.bytes + i * value_view.stride, at);
         }
+    }
+
+    void keep(const std::vector<std::uint32_t>& elements) {
+        std::vector<Value> kept;
+        kept.reserve(elements.size() * width_);
+        for (const std::uint32_t element : elements) {
+            const auto first = values_.begin() + static_cast<std::ptrdiff_t>(element * width_);
+            kept.insert(kept.end(), first, first + static_cast<std::ptrdiff_t>(width_));
+        }
+        values_ = std::move(kept);
     }
 
     void check_finite() const {

@@ -24,6 +24,8 @@ struct AccessorNeed {
     std::string for_what;   ///< "the keys of an animation"
     std::string used_at;    ///< JSON path of the index that names the accessor
     bool is_finite = true;  ///< whether a number that is not finite is a flaw
+    /// The elements to read; null for all of them. Each is below element_count().
+    const std::vector<std::uint32_t>* elements = nullptr;
 };
 
 /// How many elements an accessor says that it has, without a look at them.

@@ -55,8 +55,9 @@ void check_buffer(const Document& document, FlawLog& flaws, Json& buffer, const 
                         : place.kind == Place::Kind::data_uri ? "its data URI"
                                                               : "the file";
     const std::string what = fmt::format("is {}, but {} has {} bytes; it may be truncated", length, where, place.bytes);
-    if (place.bytes == 0) document.fail(path + ".byteLength", what);
-    flaws.replace("buffer", path + ".byteLength", what);
+    const Flaw flaw(document.file, path + ".byteLength", what);
+    if (place.bytes == 0) throw flaw;
+    flaws.shorten("buffer", flaw);
     buffer["byteLength"] = place.bytes;
 }
 

@@ -69,7 +69,7 @@ void check_face_count(const Source& source, const std::vector<std::optional<std:
     if (faces <= limit) return;
     source.document.refuse(
         "nodes",
-        fmt::format("{} of them show meshes of {:.0f} faces in all, which would take {:.1f} GB of memory; a file "
+        fmt::format("{} of them show what counts as {:.0f} faces in all, and takes {:.1f} GB of memory; a file "
                     "with {:.0f} bytes of data may have {:.0f}, so show fewer",
                     shown, faces, faces * bytes_per_face / 1e9, bytes, limit));
 }

@@ -10,8 +10,9 @@
 namespace tandem::gltf {
 
 /// Refuses a file whose nodes and instances repeat its meshes into more than a million faces, or more than one for
-/// every two bytes of its data. A face takes some 350 bytes of memory, whichever the mesh that it repeats. Counts, and
-/// copies nothing. `node_of`: by node of the file, nothing if the scene does not have it. Throws InputError.
+/// every two bytes of its data. A face takes some 350 bytes of memory, whichever the mesh that it repeats. What has no
+/// faces, as a sphere or lines, counts as four. Copies nothing. `node_of`: by node of the file, nothing if the scene
+/// does not have it. Throws InputError.
 void check_face_count(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of);
 
 }  // namespace tandem::gltf

@@ -70,4 +70,27 @@ std::vector<std::uint32_t> triangles_of(const Document& document, Corners corner
     return triangles;
 }
 
+void leave_out_missing_vertices(const Document& document, std::vector<std::uint32_t>& triangles, std::size_t vertices,
+                                const std::string& path, FlawLog& flaws) {
+    const auto is_missing = [vertices](std::uint32_t vertex) { return vertex >= vertices; };
+    const auto first = std::find_if(triangles.begin(), triangles.end(), is_missing);
+    if (first == triangles.end()) return;
+    const std::string where = path + ".indices";
+    const std::string what = fmt::format("name vertex {}, but POSITION has {} vertices", *first, vertices);
+    const std::size_t all = triangles.size() / 3;
+    const std::size_t removed = remove_triangles(triangles, is_missing);
+    if (removed == all) document.fail(where, what);
+    flaws.replace("triangles", where, fmt::format("{}; Tandem leaves out {} of {} triangles", what, removed, all));
+}
+
+std::vector<std::uint32_t> renumber_vertices(std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> used = triangles;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t& vertex : triangles) {
+        vertex = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), vertex) - used.begin());
+    }
+    return used;
+}
+
 }  // namespace tandem::gltf

@@ -32,4 +32,24 @@ struct Corners {
 [[nodiscard]] std::vector<std::uint32_t> triangles_of(const Document& document, Corners corners, Mode mode,
                                                       const std::string& path, FlawLog& flaws);
 
+/// Leaves out triangles with a vertex that is not below `vertices`, with a note. Throws a Flaw if none is left.
+void leave_out_missing_vertices(const Document& document, std::vector<std::uint32_t>& triangles, std::size_t vertices,
+                                const std::string& path, FlawLog& flaws);
+
+/// Gives the vertices that triangles have the numbers from 0, in their order, and returns their old numbers.
+[[nodiscard]] std::vector<std::uint32_t> renumber_vertices(std::vector<std::uint32_t>& triangles);
+
+/// Leaves out triangles one of whose vertices `is_bad`, and returns how many.
+template <class IsBad>
+std::size_t remove_triangles(std::vector<std::uint32_t>& triangles, IsBad is_bad) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        if (is_bad(triangles[i]) || is_bad(triangles[i + 1]) || is_bad(triangles[i + 2])) continue;
+        for (std::size_t k = 0; k < 3; ++k) triangles[kept++] = triangles[i + k];
+    }
+    const std::size_t removed = (triangles.size() - kept) / 3;
+    triangles.resize(kept);
+    return removed;
+}
+
 }  // namespace tandem::gltf

@@ -27,8 +27,12 @@ Flaw::Flaw(const std::filesystem::path& file, std::string json_path, std::string
       what_is_wrong_(std::move(what)),
       root_(root.empty() ? fmt::format("{}: {}", json_path_, what_is_wrong_) : std::move(root)) {}
 
-void FlawLog::leave_out(std::string_view feature, const Flaw& flaw) {
-    report_.add(Treatment::ignored, feature, flaw.json_path(), flaw.what_is_wrong());
+void FlawLog::leave_out(std::string_view feature, const Flaw& flaw) { add(Treatment::ignored, feature, flaw); }
+
+void FlawLog::shorten(std::string_view feature, const Flaw& flaw) { add(Treatment::approximated, feature, flaw); }
+
+void FlawLog::add(Treatment treatment, std::string_view feature, const Flaw& flaw) {
+    report_.add(treatment, feature, flaw.json_path(), flaw.what_is_wrong());
     if (!first_of_geometry_ && concerns_geometry(flaw.json_path())) first_of_geometry_ = flaw;
 }
 

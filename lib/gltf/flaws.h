@@ -37,6 +37,9 @@ class FlawLog {
     /// The scene is without `feature`.
     void leave_out(std::string_view feature, const Flaw& flaw);
 
+    /// The scene has a part of `feature` only.
+    void shorten(std::string_view feature, const Flaw& flaw);
+
     /// The scene has something else in place of what the file says; `reason` says what.
     void replace(std::string_view feature, std::string_view json_path, std::string_view reason);
 
@@ -47,6 +50,8 @@ class FlawLog {
     void refuse_lost_geometry() const;
 
   private:
+    void add(Treatment treatment, std::string_view feature, const Flaw& flaw);
+
     ImportReport& report_;
     std::optional<Flaw> first_of_geometry_;
 };

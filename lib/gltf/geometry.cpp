@@ -131,12 +131,12 @@ std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t ind
     const bool is_drawn = has_triangles(primitive, sets, is_skinned_, path, notes);
     auto known = mesh_of_.find({mesh, index});
     if (is_drawn && known == mesh_of_.end()) {
-        Mesh read = read_triangles(source_, primitive, sets, path, budget_, flaws_, notes);
+        auto [read, elements] = read_triangles(source_, primitive, sets, path, budget_, flaws_, notes);
         read.name = described.value("name", std::string());
         complete_texcoords(read, sets, path);
         known = mesh_of_.emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size())).first;
         scene_.meshes.push_back(std::move(read));
-        primitives_.push_back(known->first);
+        primitives_.push_back({known->first, std::move(elements)});
     }
     report_.add(notes);  // not before the mesh could be read
     if (!is_drawn) return std::nullopt;

@@ -33,7 +33,11 @@ class GeometryReader {
         friend auto operator<=>(const Primitive&, const Primitive&) = default;
     };
     /// Where a mesh of the scene was read from.
-    [[nodiscard]] Primitive primitive_of(std::uint32_t mesh) const { return primitives_[mesh]; }
+    struct Origin {
+        Primitive primitive;
+        std::optional<std::vector<std::uint32_t>> elements;  ///< as in PrimitiveMesh
+    };
+    [[nodiscard]] const Origin& origin_of(std::uint32_t mesh) const { return primitives_[mesh]; }
 
     /// Notes the shapes of KHR_implicit_shapes that no primitive of the file uses.
     void note_unused_shapes();
@@ -60,7 +64,7 @@ class GeometryReader {
     bool is_skinned_ = false;  ///< the node that is read
     std::optional<std::uint32_t> default_material_;
     std::map<Primitive, std::uint32_t> mesh_of_;
-    std::vector<Primitive> primitives_;  ///< by mesh of the scene
+    std::vector<Origin> primitives_;  ///< by mesh of the scene
     std::set<Primitive> left_out_;
 };
 

@@ -84,6 +84,7 @@ class SceneBuilder {
         const auto environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
         scene_.environment = environment.value_or(Environment{});
         scene_.display = gltf::read_display(document_, chosen_, chosen_path_, report_);
+        scene_.nodes.reserve(node_of_.size());
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
             if (node_of_[i]) scene_.nodes.push_back(read_node(i));
         }

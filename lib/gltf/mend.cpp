@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tandem/gltf/faces.h"
 #include "tandem/math/ray.h"
 
 namespace tandem::gltf {
@@ -24,7 +25,6 @@ class Mender {
         : document_(document), mesh_(mesh), path_(path), flaws_(flaws) {}
 
     void run() {
-        mend_indices();
         mend_positions();
         mend_normals();
         for (std::size_t set = 0; set < mesh_.texcoords.size(); ++set) mend_texcoords(set);
@@ -35,41 +35,19 @@ class Mender {
         return fmt::format("{}.attributes.{}", path_, name);
     }
 
-    /// Leaves out the triangles one of whose vertices is bad, and says `what` of them.
-    template <class IsBad>
-    void leave_out_triangles(IsBad is_bad, const std::string& where, const std::string& what) {
-        std::vector<std::uint32_t>& corners = mesh_.triangles;
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < corners.size(); i += 3) {
-            if (is_bad(corners[i]) || is_bad(corners[i + 1]) || is_bad(corners[i + 2])) continue;
-            std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(i), 3,
-                        corners.begin() + static_cast<std::ptrdiff_t>(kept));
-            kept += 3;
-        }
-        if (kept == 0) document_.fail(where, what);
-        if (kept == corners.size()) return;  // vertices that no triangle has
-        flaws_.replace("triangles", where,
-                       fmt::format("{}; Tandem leaves out {} of {} triangles", what, (corners.size() - kept) / 3,
-                                   corners.size() / 3));
-        corners.resize(kept);
-    }
-
-    void mend_indices() {
-        const std::size_t count = mesh_.positions.size();
-        const auto is_bad = [count](std::uint32_t vertex) { return vertex >= count; };
-        const auto bad = std::find_if(mesh_.triangles.begin(), mesh_.triangles.end(), is_bad);
-        if (bad == mesh_.triangles.end()) return;
-        leave_out_triangles(is_bad, path_ + ".indices",
-                            fmt::format("name vertex {}, but POSITION has {} vertices", *bad, count));
-    }
-
     void mend_positions() {
-        const auto is_bad = [this](std::uint32_t vertex) { return !is_number(mesh_.positions[vertex]); };
         const auto bad = std::find_if_not(mesh_.positions.begin(), mesh_.positions.end(), is_number);
         if (bad == mesh_.positions.end()) return;
-        leave_out_triangles(
-            is_bad, attribute("POSITION"),
-            fmt::format("element {} holds a number that is not finite or beyond 1e18", bad - mesh_.positions.begin()));
+        const std::string what =
+            fmt::format("element {} holds a number that is not finite or beyond 1e18", bad - mesh_.positions.begin());
+        const std::size_t all = mesh_.triangles.size() / 3;
+        const std::size_t removed = remove_triangles(
+            mesh_.triangles, [this](std::uint32_t vertex) { return !is_number(mesh_.positions[vertex]); });
+        if (removed == all) document_.fail(attribute("POSITION"), what);
+        if (removed > 0) {
+            flaws_.replace("triangles", attribute("POSITION"),
+                           fmt::format("{}; Tandem leaves out {} of {} triangles", what, removed, all));
+        }
         std::replace_if(
             mesh_.positions.begin(), mesh_.positions.end(), [](const Vec3f& p) { return !is_number(p); },
             Vec3f{0, 0, 0});

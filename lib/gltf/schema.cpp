@@ -31,6 +31,7 @@ enum class Care {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The largest float: a number that Tandem keeps as a float must not overflow there.
 constexpr double largest = 3.4028234663852886e38;
+constexpr double most_whole = 9007199254740992;  // 2^53
 constexpr double smallest = std::numeric_limits<double>::min();
 
 /// One property of one object.
@@ -97,7 +98,7 @@ constexpr Property index_maps(const char* owner, const char* name, const char* a
 }
 /// A whole number of 0 or more, below 2^53; or one of `choices`, between spaces.
 constexpr Property whole(const char* owner, const char* name, const char* choices = "") {
-    return {owner, name, Kind::whole, choices, 0, 9007199254740992.0};
+    return {owner, name, Kind::whole, choices, 0, most_whole};
 }
 constexpr Property number(const char* owner, const char* name) {
     return {owner, name, Kind::number, "", -largest, largest};
@@ -136,8 +137,8 @@ constexpr Property properties[] = {
     objects("root", "materials", "material"),
     objects("root", "cameras", "camera"),
     objects("root", "meshes", "mesh").with(vital),
+    objects("root", "skins", "skin"),  // no node is ever left out
     objects("root", "nodes", "node").with(vital),
-    objects("root", "skins", "skin"),
     objects("root", "scenes", "scene"),
     index("root", "scene", "scenes"),
     objects("root", "animations", "animation"),
@@ -150,12 +151,12 @@ constexpr Property properties[] = {
     whole("accessor", "byteOffset").with(strict),
     whole("accessor", "componentType", "5120 5121 5122 5123 5125 5126").required(),
     truth("accessor", "normalized"),
-    whole("accessor", "count").between(1, 9007199254740992.0).required(),
+    whole("accessor", "count").between(1, most_whole).required(),
     text("accessor", "type", "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4").required(),
     numbers("accessor", "max", 0),
     numbers("accessor", "min", 0),
     object("accessor", "sparse", "sparse").with(strict),
-    whole("sparse", "count").between(1, 9007199254740992.0).required(),
+    whole("sparse", "count").between(1, most_whole).required(),
     object("sparse", "indices", "sparse indices").required(),
     object("sparse", "values", "sparse values").required(),
     index("sparse indices", "bufferView", "bufferViews").required(),
@@ -177,12 +178,12 @@ constexpr Property properties[] = {
 
     text("buffer", "name"),
     text("buffer", "uri").with(strict),
-    whole("buffer", "byteLength").between(1, 9007199254740992.0).required(),
+    whole("buffer", "byteLength").between(1, most_whole).required(),
 
     text("buffer view", "name"),
     index("buffer view", "buffer", "buffers").required(),
     whole("buffer view", "byteOffset").with(strict),
-    whole("buffer view", "byteLength").between(1, 9007199254740992.0).required(),
+    whole("buffer view", "byteLength").between(1, most_whole).required(),
     whole("buffer view", "byteStride").between(0, 1 << 30).with(strict),
     whole("buffer view", "target", "34962 34963"),
 
@@ -350,7 +351,7 @@ std::string range_words(const Property& property, const Json& found) {
     if (property.low == -largest && property.high == largest) {
         return found.is_number() ? fmt::format(" from {} to {}", -largest, largest) : "";
     }
-    if (property.high >= largest) return fmt::format(" of {} or more", property.low);
+    if (property.high >= most_whole) return fmt::format(" of {} or more", property.low);
     if (property.low == smallest) return fmt::format(" above 0 and up to {}", property.high);
     return fmt::format(" from {} to {}", property.low, property.high);
 }

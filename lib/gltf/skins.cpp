@@ -98,11 +98,13 @@ class Poser {
 
     /// Index of the posed mesh in the scene; none if the primitive has no joints.
     std::optional<std::uint32_t> pose_mesh(std::uint32_t index, std::size_t skin) {
-        const auto [mesh_number, number] = geometry_.primitive_of(index);
+        const GeometryReader::Origin& origin = geometry_.origin_of(index);
+        const auto [mesh_number, number] = origin.primitive;
         const Json& primitive = json_["meshes"][mesh_number]["primitives"][number];
         const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh_number, number);
         const std::size_t vertices = scene_.meshes[index].positions.size();
-        const std::vector<Influences> influences = read_influences(primitive, path, vertices);
+        const std::vector<Influences> influences =
+            read_influences(primitive, path, vertices, origin.elements ? &*origin.elements : nullptr);
         if (influences.empty()) return std::nullopt;
         const std::vector<Transform> joints = world_from_mesh(skin);
         Mesh posed = scene_.meshes[index];
@@ -117,7 +119,8 @@ class Poser {
         return static_cast<std::uint32_t>(scene_.meshes.size() - 1);
     }
 
-    std::vector<Influences> read_influences(const Json& primitive, const std::string& path, std::size_t vertices) {
+    std::vector<Influences> read_influences(const Json& primitive, const std::string& path, std::size_t vertices,
+                                            const std::vector<std::uint32_t>* elements) {
         std::vector<Influences> sets;
         const Json& attributes = primitive["attributes"];
         for (std::size_t set = 0;; ++set) {

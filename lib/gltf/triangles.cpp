@@ -26,8 +26,12 @@ class TriangleReader {
         is_quantised_ = used != nullptr && std::find(used->begin(), used->end(), mesh_quantization) != used->end();
     }
 
-    Mesh run(const std::vector<std::uint32_t>& sets) {
+    PrimitiveMesh run(const std::vector<std::uint32_t>& sets) {
         Mesh mesh;
+        const auto position = primitive_["attributes"]["POSITION"].get<std::size_t>();
+        mesh.triangles = triangles_of(source_.document, corners(element_count(source_, position)),
+                                      static_cast<Mode>(mode_of(primitive_)), path_, flaws_);
+        choose_vertices(mesh.triangles, element_count(source_, position));
         mesh.positions = vectors<Vec3f>("POSITION", "VEC3", Components::floats, Components::quantised);
         vertices_ = mesh.positions.size();
         mesh.normals = optional_vectors<Vec3f>("NORMAL", "VEC3", Components::floats, Components::normalised);
@@ -37,13 +41,21 @@ class TriangleReader {
                                                           Components::normalised, Components::quantised);
         }
         mesh.colours = colours();
-        mesh.triangles =
-            triangles_of(source_.document, corners(), static_cast<Mode>(mode_of(primitive_)), path_, flaws_);
         mend(source_.document, mesh, path_, flaws_);
-        return mesh;
+        return {std::move(mesh), std::move(used_)};
     }
 
   private:
+    /// Primitives may share vertices, each with some of them, so only those that it has are read. A skin needs all.
+    void choose_vertices(std::vector<std::uint32_t>& triangles, std::size_t vertices) {
+        leave_out_missing_vertices(source_.document, triangles, vertices, path_, flaws_);
+        if (triangles.size() < vertices && !primitive_["attributes"].contains("JOINTS_0")) {
+            used_ = renumber_vertices(triangles);
+        }
+        vertices_ = used_ ? used_->size() : vertices;
+        all_vertices_ = vertices;
+    }
+
     /// None for an attribute with a flaw: the mesh is drawn without it.
     template <class Vector>
     std::vector<Vector> optional_vectors(const char* name, const char* type, Components plain, Components quantised) {
@@ -68,9 +80,15 @@ class TriangleReader {
         if (index == nullptr) return {};
         const std::string where = fmt::format("{}.attributes.{}", path_, name);
         const auto accessor = index->get<std::size_t>();
-        budget_.spend(source_.document, where, element_count(source_, accessor));
+        const std::size_t all = element_count(source_, accessor);
+        if (all != all_vertices_) {
+            source_.document.fail(
+                where, fmt::format("has {} elements, but POSITION has {}; make them equal", all, all_vertices_));
+        }
+        budget_.spend(source_.document, where, vertices_);
         AccessorNeed need = {type, quantised, fmt::format("the attribute {}", name), where};
         need.is_finite = !is_mended(name);
+        need.elements = used_ ? &*used_ : nullptr;
         const std::vector<float> values = read_accessor(source_, accessor, need);
         if (!is_quantised_ && !has_components(source_, accessor, plain)) {
             flaws_.tolerate(
@@ -80,13 +98,8 @@ class TriangleReader {
                             mesh_quantization));
         }
         constexpr std::size_t width = Vector::length();
-        const std::size_t count = values.size() / width;
-        if (vertices_ != 0 && count != vertices_) {
-            source_.document.fail(
-                where, fmt::format("has {} elements, but POSITION has {}; make them equal", count, vertices_));
-        }
-        std::vector<Vector> result(count);
-        for (std::size_t i = 0; i < count; ++i) {
+        std::vector<Vector> result(vertices_);
+        for (std::size_t i = 0; i < vertices_; ++i) {
             for (std::size_t c = 0; c < width; ++c) {
                 result[i][static_cast<typename Vector::length_type>(c)] = values[i * width + c];
             }
@@ -102,17 +115,18 @@ class TriangleReader {
         const auto accessor = index->get<std::size_t>();
         const auto type = source_.document.json["accessors"][accessor].value("type", std::string());
         const std::size_t width = type == "VEC4" ? 4 : 3;
-        budget_.spend(source_.document, where, element_count(source_, accessor));
-        std::vector<float> values;
-        try {
-            values = read_accessor(source_, accessor,
-                                   {width == 4 ? "VEC4" : "VEC3", Components::normalised, "vertex colours", where});
-        } catch (const Flaw& flaw) {
-            flaws_.leave_out("vertex colours", flaw);
+        if (element_count(source_, accessor) != all_vertices_) {
+            report_.add(Treatment::ignored, "vertex colours", where, "there is not one for each position");
             return {};
         }
-        if (values.size() != width * vertices_) {
-            report_.add(Treatment::ignored, "vertex colours", where, "there is not one for each position");
+        budget_.spend(source_.document, where, vertices_);
+        AccessorNeed need = {width == 4 ? "VEC4" : "VEC3", Components::normalised, "vertex colours", where};
+        need.elements = used_ ? &*used_ : nullptr;
+        std::vector<float> values;
+        try {
+            values = read_accessor(source_, accessor, need);
+        } catch (const Flaw& flaw) {
+            flaws_.leave_out("vertex colours", flaw);
             return {};
         }
         bool in_range = true;
@@ -133,10 +147,11 @@ class TriangleReader {
         return result;
     }
 
-    Corners corners() {
+    Corners corners(std::size_t vertices) {
         const Json* index = find(primitive_, "indices");
         if (index == nullptr) {
-            std::vector<std::uint32_t> all(vertices_);
+            budget_.spend(source_.document, path_ + ".attributes.POSITION", vertices);
+            std::vector<std::uint32_t> all(vertices);
             std::iota(all.begin(), all.end(), 0U);
             return {std::move(all), std::nullopt};
         }
@@ -153,7 +168,8 @@ class TriangleReader {
     FlawLog& flaws_;
     ImportReport& report_;
     bool is_quantised_ = false;
-    std::size_t vertices_ = 0;
+    std::optional<std::vector<std::uint32_t>> used_;  ///< the vertices to read; none: all of them
+    std::size_t vertices_ = 0, all_vertices_ = 0;     ///< of the mesh, and of POSITION
 };
 
 }  // namespace
@@ -200,8 +216,8 @@ bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets
     return true;
 }
 
-Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
-                    const std::string& path, Budget& budget, FlawLog& flaws, ImportReport& report) {
+PrimitiveMesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
+                             const std::string& path, Budget& budget, FlawLog& flaws, ImportReport& report) {
     return TriangleReader(source, primitive, path, budget, flaws, report).run(sets);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,13 @@ inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
 /// Sets of texture coordinates that are read: TEXCOORD_0 up to this one.
 inline constexpr std::uint32_t last_texcoord = 15;
 
+/// The mesh of a primitive.
+struct PrimitiveMesh {
+    Mesh mesh;
+    /// Which elements of the primitive's accessors the mesh has as vertices; none: all, in their order.
+    std::optional<std::vector<std::uint32_t>> elements;
+};
+
 /// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
 /// which attributes are ignored. `sets`: of texture coordinates, those that its material uses. `is_skinned`: the node
 /// has a skin.
@@ -30,7 +38,8 @@ inline constexpr std::uint32_t last_texcoord = 15;
 /// An attribute that cannot be read, or has not as many elements as POSITION, is left out; what triangles_of() and
 /// mend() say of corners and numbers holds. Throws a Flaw if positions or indices cannot be read, or no triangle is
 /// left.
-[[nodiscard]] Mesh read_triangles(const Source& source, const Json& primitive, const std::vector<std::uint32_t>& sets,
-                                  const std::string& path, Budget& budget, FlawLog& flaws, ImportReport& report);
+[[nodiscard]] PrimitiveMesh read_triangles(const Source& source, const Json& primitive,
+                                           const std::vector<std::uint32_t>& sets, const std::string& path,
+                                           Budget& budget, FlawLog& flaws, ImportReport& report);
 
 }  // namespace tandem::gltf

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                      [](Json& d) {
                          d["scenes"][0]["nodes"] = {0, 2};
                      },
-                     "scenes[0].nodes[1]", "node 2 is a child of node 1; Tandem takes it once, below that node"},
+                     "scenes[0].nodes[1]", "node 2 is a child of node 1; the scene does not reach that node"},
         DocumentFlaw{"both", [](Json& d) { d["nodes"][0]["matrix"] = Json(std::vector<int>(16, 1)); },
                      "nodes[0].translation", "stands beside a matrix; Tandem takes the matrix"},
         DocumentFlaw{"projective",
@@ -241,7 +241,7 @@ TEST_F(Mended, WhatNothingUsesDoesNotCount) {
     EXPECT_EQ(result.scene.animation.size(), 2U);
     const std::string all = sentences(result.report);
     for (const char* sentence :
-         {"ignored: buffer view at bufferViews[4].byteLength: must be a whole number from 1 to ",
+         {"ignored: buffer view at bufferViews[4].byteLength: must be a whole number of 1 or more, but is 0",
           "ignored: accessor at accessors[4].componentType: must be one of 5120",
           "ignored: min at accessors[5].min: must be an array of numbers, but is 1",
           "ignored: max at accessors[5].max[0]: must be a number, but is \"a\"",

@@ -106,6 +106,29 @@ TEST_F(GltfMesh, IsReadOnceHoweverManyNodesShowIt) {
     EXPECT_TRUE(contains(report, "rendered: doubleSided at materials[0].doubleSided: "));
 }
 
+/// As exporters write a mesh of many materials.
+TEST_F(GltfMesh, OfSharedVerticesHasThoseThatItUses) {
+    TestFile file = mesh_file();
+    primitive(file)["attributes"]["TEXCOORD_0"] = file.add_floats("VEC2", {0, 0, 1, 0, 2, 0, 3, 0, 4, 0, 5, 0});
+    primitive(file)["indices"] = file.add_indices(5121, {5, 1, 3});
+    for (const bool is_sparse : {false, true}) {
+        if (is_sparse) {
+            const std::size_t which = file.add_bytes("SCALAR", 5121, 1, std::string(1, '\5'));
+            const std::size_t what = file.add_floats("VEC3", {7, 8, 9});
+            Json& accessors = file.json["accessors"];
+            accessors[0]["sparse"] = {
+                {"count", 1},
+                {"indices", {{"bufferView", accessors[which]["bufferView"]}, {"componentType", 5121}}},
+                {"values", {{"bufferView", accessors[what]["bufferView"]}}}};
+        }
+        const Mesh mesh = mesh_of(file);
+        EXPECT_EQ(mesh.triangles, indices({2, 0, 1}));
+        EXPECT_EQ(mesh.positions,
+                  (std::vector<Vec3f>{{1, 0, 0}, {1, 1, 0}, is_sparse ? Vec3f{7, 8, 9} : Vec3f{1, 2, 0}}));
+        EXPECT_EQ(mesh.texcoords, (std::vector<Vec2f>{{1, 0}, {3, 0}, {5, 0}}));
+    }
+}
+
 TEST_F(GltfMesh, InstancesRepeatIt) {
     TestFile file = mesh_file();
     const std::size_t places = file.add_floats("VEC3", {0, 0, 1, 0, 0, 2, 0, 0, 3});
@@ -208,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
                 p["indices"] = f.add_indices(5121, std::vector<std::uint32_t>(3 * 1000, 1));
                 f.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
             },
-            "nodes: 1 of them show meshes of 60000000 faces in all, which would take 21.0 GB of memory; a file with"}),
+            "nodes: 1 of them show what counts as 60000000 faces in all, and takes 21.0 GB of memory; a file with"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST_F(Skins, NeedNoInverseBindMatrices) {
 TEST_F(Skins, ThatCannotBeUsedLeaveTheMeshAtItsNode) {
     const auto expect_ignored = [&](const TestFile& file, const std::string& reason) {
         const ImportResult result = import(file);
-        EXPECT_TRUE(contains(sentences(result.report), "ignored: skin at nodes[1].skin: ")) << reason;
+        EXPECT_TRUE(contains(sentences(result.report), "ignored: skin at ")) << reason;
         EXPECT_TRUE(contains(sentences(result.report), reason));
         EXPECT_EQ(result.scene.nodes[1].geometry.size(), 1U);
     };
@@ -111,7 +111,9 @@ TEST_F(Skins, ThatCannotBeUsedLeaveTheMeshAtItsNode) {
 TEST_F(Skins, CannotReadBeyondTheirBuffer) {
     TestFile file = skinned_file();
     file.json["accessors"][file.json["skins"][0]["inverseBindMatrices"].get<std::size_t>()]["count"] = 1000;
-    EXPECT_TRUE(contains(error_of(file), "needs 64000 bytes for its 1000 elements"));
+    const ImportResult result = import(file);
+    EXPECT_TRUE(contains(sentences(result.report), "needs 64000 bytes for its 1000 elements"));
+    EXPECT_EQ(result.scene.meshes.size(), 1U) << "nothing was posed";
 }
 
 }  // namespace

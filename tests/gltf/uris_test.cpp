@@ -67,12 +67,17 @@ TEST_F(Uris, ThatNameNothingToRead) {
 
 TEST_F(Uris, ShortFiles) {
     write("inside/short.bin", "abc");
-    const std::string sentence = "buffers[0].byteLength: is 116, but the file has 3 bytes; it may be truncated";
-    EXPECT_TRUE(contains(error_of(with_uri("short.bin")), "accessors[0]: needs 36 bytes"));
+    const std::string sentence = "buffers[0].byteLength: is 108, but the file has 3 bytes; it may be truncated";
+    EXPECT_TRUE(contains(error_of(with_uri("short.bin")),
+                         "bufferViews[1]: reaches from byte 36 to byte 60, but buffer 0 has 3 bytes"));
     TestFile file = rich_file();
     file.json["buffers"] = {{{"uri", "short.bin"}, {"byteLength", file.data.size()}}};
     file.json["nodes"][2].erase("extensions");  // the instances, which need the bytes
     EXPECT_TRUE(contains(test::sentences(import_gltf(write("inside/scene.gltf", file.text())).report), sentence));
+    TestFile mesh = test::mesh_file();
+    mesh.json["buffers"] = {{{"uri", "short.bin"}, {"byteLength", mesh.data.size()}}};
+    EXPECT_TRUE(
+        contains(error_of(write("inside/scene.gltf", mesh.text())), "but the file has 3 bytes; it may be truncated"));
     write("inside/short.bin", "");
     EXPECT_TRUE(contains(error_of(with_uri("short.bin")), "but the file has 0 bytes; it may be truncated"));
 }
