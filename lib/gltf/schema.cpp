@@ -259,7 +259,7 @@ constexpr Property properties[] = {
     indices("scene", "nodes", "nodes"),
 
     text("skin", "name"),
-    index("skin", "inverseBindMatrices", "accessors"),
+    index("skin", "inverseBindMatrices", "accessors").with(strict),
     index("skin", "skeleton", "nodes"),
     indices("skin", "joints", "nodes").required(),
 

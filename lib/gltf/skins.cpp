@@ -130,13 +130,15 @@ class Poser {
             const auto read = [&](const Json& accessor, Components components, const char* what) {
                 const std::string where = fmt::format("{}.attributes.{}_{}", path, what, set);
                 budget_.spend(source_.document, where, 4 * vertices);
-                auto values =
-                    read_accessor(source_, accessor.get<std::size_t>(), {"VEC4", components, "a skinned mesh", where});
-                if (values.size() != 4 * vertices) {
-                    source_.document.fail(where, fmt::format("has {} elements, but POSITION has {}; make them equal",
-                                                             values.size() / 4, vertices));
+                const std::size_t count = element_count(source_, accessor.get<std::size_t>());
+                const std::size_t positions = element_count(source_, attributes["POSITION"].get<std::size_t>());
+                if (count != positions) {
+                    source_.document.fail(
+                        where, fmt::format("has {} elements, but POSITION has {}; make them equal", count, positions));
                 }
-                return values;
+                AccessorNeed need = {"VEC4", components, "a skinned mesh", where};
+                need.elements = elements;
+                return read_accessor(source_, accessor.get<std::size_t>(), need);
             };
             sets.push_back(
                 {read(*joints, Components::quantised, "JOINTS"), read(*weights, Components::normalised, "WEIGHTS")});

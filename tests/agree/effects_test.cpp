@@ -15,6 +15,7 @@
 #include "support/estimate.h"
 #include "tandem/effects/derive.h"
 #include "tandem/film/compare.h"
+#include "tandem/scene/named_scenes.h"
 #include "tandem/scene/prepare.h"
 
 namespace tandem {
@@ -74,6 +75,27 @@ TEST_P(EffectBits, AreThoseOfTheLeastProcessor) {
         EXPECT_EQ(result.stats.counters, RenderCounters{}) << entry.name;
         EXPECT_EQ(result.stats.effects, entry.effects) << entry.name;
     }
+}
+
+// More pixels than a GPU has threads, so that these take one pixel after the other; rays through a hierarchy, and
+// shadow rays through faces that are culled: that once ended in an illegal instruction.
+TEST_P(EffectBits, OfHolesInAHierarchyAreThoseOfTheLeastProcessor) {
+    Scene open = named_scene("triangles/5000");
+    for (Material& material : open.materials) material.sides = FaceSides::culled;
+    open.environment = {{0.2F, 0.2F, 0.2F}, {0.6F, 0.7F, 0.8F}, {0, 0, 0}, 1, 0};
+    open.nodes.push_back({.name = "sun",
+                          .trs = {.rotation = {-0.4, 0.3, 0.1, 0.85}},
+                          .light = LightSource{.kind = LightKind::directional, .intensity = 0.5F}});
+    const PreparedScene scene = prepare(open);
+    ASSERT_TRUE(scene.effects.has(Effect::cutouts));
+    RenderJob job = small_job(GetParam().tier);
+    job.width = 480;
+    job.height = 300;
+    BackendOptions least;
+    least.instruction_set = "x86-64-v2";
+    const auto reference = make_backend("cpu", least);
+    const std::string expected = film_hash(reference->render(reference->load(scene, GetParam().tier), job).film);
+    EXPECT_EQ(film_hash(backend_->render(load(scene), job).film), expected);
 }
 
 // The exact set, each set with one effect more, and the set of all effects.
