@@ -19,7 +19,8 @@ class TexelRows {
   public:
     static constexpr std::uint32_t channels = 4;
 
-    TexelRows(std::uint32_t width, std::uint32_t height, unsigned shift) : width_(width), height_(height), shift_(shift) {
+    TexelRows(std::uint32_t width, std::uint32_t height, unsigned shift)
+        : width_(width), height_(height), shift_(shift) {
         result_.width = shrunk_edge(width, shift);
         result_.height = shrunk_edge(height, shift);
         result_.texels.resize(std::size_t{result_.width} * result_.height);

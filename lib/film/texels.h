@@ -43,13 +43,13 @@ struct TexelSize {
 /// PNG or JPEG, told apart by their first bytes. Every PNG: grey and palettes become RGB, 16 bits 8, and what has no
 /// alpha is opaque. JPEG: grey and YCbCr, Huffman-coded, baseline or progressive.
 ///
-/// `shift`, up to 12: each edge is divided by 2^shift, rounded up, and texels are means (texel_rows.h); of an interlaced
-/// PNG they are the upper left pixel. That takes memory for the smaller picture only.
+/// `shift`, up to 12: each edge is divided by 2^shift, rounded up, and texels are means (texel_rows.h); of an
+/// interlaced PNG they are the upper left pixel. That takes memory for the smaller picture only.
 ///
 /// Throws InputError, which names the picture `name`, for other formats and for data that is malformed, cut off, larger
 /// than 16384 x 16384, or of more pixels than its bytes can stand for; that is found out before memory is allocated. So
-/// it does for pictures whose decoding is out of proportion to their bytes: beyond decoding_limit(), as for a JPEG of very
-/// many passes, or 256 MiB of coefficients of a JPEG in several passes, if its file is not a large one too.
+/// it does for pictures whose decoding is out of proportion to their bytes: beyond decoding_limit(), as for a JPEG of
+/// very many passes, or 256 MiB of coefficients of a JPEG in several passes, if its file is not a large one too.
 /// EnvironmentError for a JPEG in a build without libjpeg.
 [[nodiscard]] Texels decode_texels(std::span<const std::byte> bytes, const std::string& name, unsigned shift = 0);
 

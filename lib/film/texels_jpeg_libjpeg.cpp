@@ -27,14 +27,15 @@ constexpr std::size_t most_coefficients = std::size_t{1} << 28, coefficients_per
 /// That a pass goes over in the time of a pixel.
 constexpr std::size_t coefficients_per_pixel = 32;
 
-/// How many passes over the picture there are: markers of their start (SOS), counted without decoding. A forged file can
-/// ask for a pass in a few bytes, again and again.
+/// How many passes over the picture there are: markers of their start (SOS), counted without decoding. A forged file
+/// can ask for a pass in a few bytes, again and again.
 std::size_t count_passes(std::span<const std::byte> bytes) {
     const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(bytes[i]); };
     std::size_t passes = 0;
     for (std::size_t at = 2; at + 4 <= bytes.size();) {
         const unsigned marker = byte(at + 1);
-        const bool stands_alone = marker == 0x00 || marker == 0x01 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8);
+        const bool stands_alone =
+            marker == 0x00 || marker == 0x01 || marker == 0xFF || (marker >= 0xD0 && marker <= 0xD8);
         if (byte(at) != 0xFF || stands_alone) {  // within coded data
             ++at;
             continue;

@@ -42,8 +42,8 @@ TANDEM_HD_CALL Vec3<Double<Real>> shading_normal(Vec3f v0, Vec3f v1, Vec3f v2, c
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3f* normals, const Ray<Real>& ray,
                                             const Mask<Real>& here) {
-    return shading_normal<Real>(triangle.v0, triangle.v1, triangle.v2, normals, 1,
-                                is_double_sided(triangle.attributes), ray, here);
+    return shading_normal<Real>(triangle.v0, triangle.v1, triangle.v2, normals, 1, is_double_sided(triangle.attributes),
+                                ray, here);
 }
 
 /// The same for the triangle of the quad that the ray meets at t.

@@ -20,9 +20,7 @@ struct FaceAttributes {
     FaceSides sides = FaceSides::single_sided;
 };
 
-TANDEM_HD bool is_double_sided(const FaceAttributes& attributes) {
-    return attributes.sides == FaceSides::double_sided;
-}
+TANDEM_HD bool is_double_sided(const FaceAttributes& attributes) { return attributes.sides == FaceSides::double_sided; }
 
 /// World space, metres; counter-clockwise seen from the side that its normal points to. The area is not zero. Aligned,
 /// so that a GPU reads it in three loads.

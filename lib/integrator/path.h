@@ -148,7 +148,8 @@ requires(can_bounce<Effects>()) TANDEM_HD
         if (Effects::has(Effect::emission)) {
             const Real share = seen_share<Effects>(scene, path, hit, found);
             // what is unlit lights nothing: paths that a surface has scattered do not see it
-            const Mask<Real> dark = Mask<Real>(Effects::has(Effect::indirect)) && vertex.surface.unlit && path.pdf > D(0.0);
+            const Mask<Real> dark =
+                Mask<Real>(Effects::has(Effect::indirect)) && vertex.surface.unlit && path.pdf > D(0.0);
             radiance = select(found && !dark, radiance + path.throughput * (vertex.surface.emission * share), radiance);
         }
         take_transmitted<Effects>(vertex.surface, meeting);

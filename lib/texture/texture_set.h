@@ -21,8 +21,8 @@ struct TextureDescriptor {
 };
 
 /// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1). A face has
-/// several pairs of values at its corners; `slot` is the one that holds the texture's coordinates. Other primitives have
-/// one parametrisation.
+/// several pairs of values at its corners; `slot` is the one that holds the texture's coordinates. Other primitives
+/// have one parametrisation.
 struct TextureUse {
     std::uint32_t texture = no_texture;
     float u_row[3] = {1, 0, 0};
