@@ -50,10 +50,14 @@ void add_light(const LightSource& light, const std::string& name, Needs& needs) 
     }
 }
 
-void add_pictures(const PreparedTextures& textures, std::size_t material, const std::string& name, Needs& needs) {
+/// `coloured`: what is known of textures, by their number. Many materials may share one.
+void add_pictures(const PreparedTextures& textures, std::size_t material, const std::string& name,
+                  std::map<std::uint32_t, bool>& coloured, Needs& needs) {
     if (textures.materials.empty()) return;
     const MaterialTextures& of_material = textures.materials[material];
-    if (has_colours(textures, of_material.diffuse)) needs.add(Effect::textures, name + " has a texture");
+    const auto [known, is_new] = coloured.try_emplace(of_material.diffuse.texture, false);
+    if (is_new) known->second = has_colours(textures, of_material.diffuse);
+    if (known->second) needs.add(Effect::textures, name + " has a texture");
     if (has_colours(textures, of_material.emission)) needs.add(Effect::textures, name + " has an emissive texture");
     if (of_material.colour_slot != no_slot) needs.add(Effect::textures, name + " has vertices with colours");
     if (of_material.normal.texture != no_texture) needs.add(Effect::normal_maps, name + " has a normal map");
@@ -116,11 +120,12 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         const Node& node = scene.nodes[i];
         if (node.light && is_lit(*node.light)) add_light(*node.light, label("light", node.name, i), needs);
     }
+    std::map<std::uint32_t, bool> coloured;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!used[i]) continue;
         const std::string name = label("material", scene.materials[i].name, i);
         add_material(prepared.optics[i], name, needs);
-        add_pictures(prepared.textures, i, name, needs);
+        add_pictures(prepared.textures, i, name, coloured, needs);
     }
     if (prepared.culled_node != PreparedScene::never) {
         const std::uint32_t node = prepared.culled_node;

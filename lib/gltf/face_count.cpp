@@ -13,25 +13,43 @@ namespace tandem::gltf {
 
 namespace {
 
-constexpr double most_faces = 1e6, faces_per_byte = 0.5;
-/// Of a face in the prepared scene, with normals and texture coordinates, and in an acceleration structure.
-constexpr double bytes_per_face = 350;
+/// Of memory, for a small file and for each byte of data of a larger one.
+constexpr double most_bytes = 3.8e8, bytes_per_byte = 190;
+/// Of a face: in the prepared scene and in an acceleration structure, and what its corners carry.
+constexpr double bytes_per_face = 235, bytes_of_normals = 36, bytes_of_texcoords = 24, bytes_of_colours = 48;
 /// A primitive without faces, and a shape, cost time as well.
 constexpr double least_faces = 4;
 
 // Counts are below 2^53 and their products may be above 2^64, so they are doubles.
 
-double faces_of(const Source& source, const Json& primitive) {
+/// What showing a mesh or primitive once takes.
+struct Cost {
+    double faces = 0;
+    double bytes = 0;
+};
+
+double bytes_per_face_of(const Json& attributes) {
+    double bytes = bytes_per_face;
+    for (const auto& [name, accessor] : attributes.items()) {
+        if (name == "NORMAL") bytes += bytes_of_normals;
+        if (name == "COLOR_0") bytes += bytes_of_colours;
+        if (name.starts_with("TEXCOORD_")) bytes += bytes_of_texcoords;
+    }
+    return bytes;
+}
+
+Cost cost_of(const Source& source, const Json& primitive) {
     const Json* attributes = find(primitive, "attributes");
+    const Json* position = attributes == nullptr ? nullptr : find(*attributes, "POSITION");
+    if (position == nullptr) return {least_faces, least_faces * bytes_per_face};
     const Json* indices = find(primitive, "indices");
-    const Json* corners = indices != nullptr || attributes == nullptr ? indices : find(*attributes, "POSITION");
-    if (corners == nullptr || primitive.is_string()) return least_faces;
+    const Json* corners = indices == nullptr ? position : indices;
     const auto count = static_cast<double>(element_count(source, corners->get<std::size_t>()));
     const std::uint64_t mode = mode_of(primitive);
-    const double faces = mode == triangle_list                            ? count / 3
-                         : mode == triangle_strip || mode == triangle_fan ? count - 2
-                                                                          : 0;
-    return std::max(faces, least_faces);
+    double faces = least_faces;
+    if (mode == triangle_list) faces = std::max(faces, count / 3);
+    if (mode == triangle_strip || mode == triangle_fan) faces = std::max(faces, count - 2);
+    return {faces, faces * bytes_per_face_of(*attributes)};
 }
 
 double instances_of(const Source& source, const Json& node) {
@@ -48,30 +66,32 @@ double instances_of(const Source& source, const Json& node) {
 
 void check_face_count(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of) {
     const Json& json = source.document.json;
-    std::vector<double> faces_of_mesh(source.document.length("meshes"), -1);
-    double faces = 0;
+    std::vector<std::optional<Cost>> cost_of_mesh(source.document.length("meshes"));
+    Cost sum;
     std::size_t shown = 0;
     for (std::size_t i = 0; i < node_of.size(); ++i) {
         const Json* mesh = node_of[i] ? find(json["nodes"][i], "mesh") : nullptr;
         if (mesh == nullptr) continue;
-        double& of_mesh = faces_of_mesh[mesh->get<std::size_t>()];
-        if (of_mesh < 0) {
-            of_mesh = 0;
+        std::optional<Cost>& of_mesh = cost_of_mesh[mesh->get<std::size_t>()];
+        if (!of_mesh) {
+            of_mesh = Cost{};
             for (const Json& primitive : json["meshes"][mesh->get<std::size_t>()]["primitives"]) {
-                of_mesh += faces_of(source, primitive);
+                const Cost cost = cost_of(source, primitive);
+                *of_mesh = {of_mesh->faces + cost.faces, of_mesh->bytes + cost.bytes};
             }
         }
-        faces += of_mesh * instances_of(source, json["nodes"][i]);
+        const double instances = instances_of(source, json["nodes"][i]);
+        sum = {sum.faces + of_mesh->faces * instances, sum.bytes + of_mesh->bytes * instances};
         ++shown;
     }
     const auto bytes = static_cast<double>(data_bytes(source));
-    const double limit = std::max(most_faces, faces_per_byte * bytes);
-    if (faces <= limit) return;
+    const double limit = std::max(most_bytes, bytes_per_byte * bytes);
+    if (sum.bytes <= limit) return;
     source.document.refuse(
         "nodes",
-        fmt::format("{} of them show what counts as {:.0f} faces in all, and takes {:.1f} GB of memory; a file "
-                    "with {:.0f} bytes of data may have {:.0f}, so show fewer",
-                    shown, faces, faces * bytes_per_face / 1e9, bytes, limit));
+        fmt::format("{} of them show what counts as {:.0f} faces in all, and takes {:.2f} GB of memory; a file "
+                    "with {:.0f} bytes of data may take {:.2f} GB, so show fewer",
+                    shown, sum.faces, sum.bytes / 1e9, bytes, limit / 1e9));
 }
 
 }  // namespace tandem::gltf

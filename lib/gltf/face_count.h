@@ -9,10 +9,10 @@
 
 namespace tandem::gltf {
 
-/// Refuses a file whose nodes and instances repeat its meshes into more than a million faces, or more than one for
-/// every two bytes of its data. A face takes some 350 bytes of memory, whichever the mesh that it repeats. What has no
-/// faces, as a sphere or lines, counts as four. Copies nothing. `node_of`: by node of the file, nothing if the scene
-/// does not have it. Throws InputError.
+/// Refuses a file whose nodes and instances repeat its meshes into faces that would take more than 380 MB of memory, or
+/// 190 bytes for each byte of its data. A face takes 235 bytes and what its corners carry, whichever the mesh that it
+/// repeats; what has no faces, as a sphere or lines, counts as four. Copies nothing. `node_of`: by node of the file,
+/// nothing if the scene does not have it. Throws InputError.
 void check_face_count(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of);
 
 }  // namespace tandem::gltf

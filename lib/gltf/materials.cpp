@@ -27,6 +27,13 @@ Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent) {
 std::vector<Material> read_materials(const Source& source, ImportReport& report) {
     std::vector<Material> materials;
     const Json* described = find(source.document.json, "materials");
+    constexpr std::size_t most_materials = 100'000;
+    if (described != nullptr && described->size() > most_materials) {
+        source.document.refuse("materials",
+                               fmt::format("has {} elements, and Tandem takes {}; leave out those that nothing "
+                                           "uses",
+                                           described->size(), most_materials));
+    }
     for (std::size_t i = 0; described != nullptr && i < described->size(); ++i) {
         const Json& read = (*described)[i];
         const std::string path = fmt::format("materials[{}]", i);

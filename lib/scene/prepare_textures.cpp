@@ -72,16 +72,17 @@ class Preparer {
         if (material.diffuse_texture) {
             const TextureReference& reference = *material.diffuse_texture;
             const Image& image = image_of(reference);
-            const bool one_colour = has_one_colour(image, rgb);
+            const Facts& facts = facts_of(image);
+            const bool one_colour = facts.has_one_rgb;
             if (one_colour) {
                 const Vec3f factor = colour_of(image.texels[0]);
                 phong_[index].diffuse *= factor;
                 phong_[index].ambient *= factor;
             }
-            if (has_one_colour(image)) {
+            if (facts.has_one_rgba) {
                 prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
             } else if (!one_colour || prepared.alpha_cutoff > 0) {
-                if (prepared.alpha_cutoff > 0) alpha = least_alpha(image);
+                if (prepared.alpha_cutoff > 0) alpha = facts.least_alpha;
                 prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
             }
         }
@@ -100,6 +101,18 @@ class Preparer {
         result_.materials.push_back(prepared);
     }
 
+    /// What a look at every texel says.
+    struct Facts {
+        bool has_one_rgb, has_one_rgba;
+        std::uint32_t least_alpha;
+    };
+    /// Many materials may show one image.
+    const Facts& facts_of(const Image& image) {
+        const auto known = facts_.find(&image);
+        if (known != facts_.end()) return known->second;
+        return facts_[&image] = {has_one_colour(image, rgb), has_one_colour(image), least_alpha(image)};
+    }
+
     const Image& image_of(const TextureReference& reference) const {
         return scene_.images[scene_.textures[reference.texture].image];
     }
@@ -109,7 +122,7 @@ class Preparer {
         Vec3f& emission = optics_[index].emission;
         if (!(norm1(emission) > 0)) return;
         const Image& image = image_of(reference);
-        if (has_one_colour(image, rgb)) {
+        if (facts_of(image).has_one_rgb) {
             emission *= colour_of(image.texels[0]);
         } else {
             prepared.emission = with_transform(reference, add(reference, ColourSpace::srgb, false), slots);
@@ -128,7 +141,7 @@ class Preparer {
         if (is_new) {
             const Texture& texture = scene_.textures[reference.texture];
             const Image& image = image_of(reference);
-            const bool one = has_one_colour(image);
+            const bool one = facts_of(image).has_one_rgba;
             result_.textures.push_back({first_texel_of(texture.image, whitened), one ? 1 : image.width,
                                         one ? 1 : image.height, texture.wrap_s, texture.wrap_t, texture.filter, space});
         }
@@ -140,7 +153,7 @@ class Preparer {
             first_texel_of_.try_emplace({index, whitened}, static_cast<std::uint32_t>(result_.texels.size()));
         if (is_new) {
             const Image& image = scene_.images[index];
-            const std::size_t count = has_one_colour(image) ? 1 : image.texels.size();
+            const std::size_t count = facts_of(image).has_one_rgba ? 1 : image.texels.size();
             if (count > most_texels - result_.texels.size()) {
                 throw InputError("the textures of the scene have more than 2^30 texels; make their images smaller");
             }
@@ -159,7 +172,8 @@ class Preparer {
     std::vector<Optics>& optics_;
     std::vector<CornerSlots> slots_;                                                 ///< by material
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
-    std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;         ///< by image, and whether whitened
+    std::map<const Image*, Facts> facts_;
+    std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;  ///< by image, and whether whitened
     PreparedTextures result_;
 };
 

@@ -75,6 +75,93 @@ TEST(Texels, ThatAreBrokenAreRefused) {
     EXPECT_TRUE(contains(error_of({}), "is not a picture that Tandem reads as a texture: PNG or JPEG"));
 }
 
+Bytes with(Bytes bytes, const std::string& more) {
+    for (const char c : more) bytes.push_back(std::byte(c));
+    return bytes;
+}
+
+/// As libpng itself, and every viewer, has it.
+TEST(Texels, OfPngMayHaveBytesBehindTheirEnd) {
+    const ByteImage image = test::sample_bytes(4, 3);
+    const Bytes good = encode_png(image, test::sample_metadata(4, 3), 1);
+    EXPECT_EQ(decode_texels(with(good, "and more"), "memory").texels, decode_texels(good, "memory").texels);
+    EXPECT_EQ(decode_png(with(good, "and more"), "memory").image.width, 4);
+    EXPECT_TRUE(contains(error_of(Bytes(good.begin(), good.end() - 13)), "is not a readable PNG image"));
+}
+
+/// A picture of 5 x 3 pixels with the levels 0, 10, 20, ... in green, and alpha.
+std::vector<std::uint8_t> numbered_pixels() {
+    std::vector<std::uint8_t> pixels;
+    for (std::uint8_t i = 0; i < 15; ++i) pixels.insert(pixels.end(), {7, static_cast<std::uint8_t>(10 * i), 0, 200});
+    return pixels;
+}
+
+TEST(Texels, AreMeansWhenAPictureIsShrunk) {
+    const Bytes bytes = png(PNG_FORMAT_RGBA, 5, 3, numbered_pixels().data());
+    const Texels half = decode_texels(bytes, "memory", 1);
+    EXPECT_EQ(half.width, 3U);
+    EXPECT_EQ(half.height, 2U);
+    std::vector<std::uint32_t> green;
+    for (const std::uint32_t texel : half.texels) {
+        EXPECT_EQ(texel & 0xFFFF00FFU, 0xC8000007U);
+        green.push_back(texel >> 8 & 255U);
+    }
+    EXPECT_EQ(green, (std::vector<std::uint32_t>{30, 50, 65, 105, 125, 140})) << "of 4, 4, 2, 2, 2 and 1 pixels";
+    const Texels one = decode_texels(bytes, "memory", 12);
+    ASSERT_EQ(one.texels.size(), 1U);
+    EXPECT_EQ(one.texels[0], 0xC8004607U);
+    EXPECT_EQ(texel_size(bytes, "memory").width, 5U);
+    EXPECT_EQ(texel_size(bytes, "memory").height, 3U);
+}
+
+/// A PNG as libpng's full interface writes it.
+Bytes interlaced_png(png_uint_32 edge, const std::vector<std::uint8_t>& grey) {
+    Bytes bytes;
+    png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(writer);
+    png_set_write_fn(
+        writer, &bytes,
+        [](png_structp to, png_bytep data, std::size_t size) {
+            auto& all = *static_cast<Bytes*>(png_get_io_ptr(to));
+            const auto* start = reinterpret_cast<const std::byte*>(data);
+            all.insert(all.end(), start, start + size);
+        },
+        nullptr);
+    png_set_IHDR(writer, info, edge, edge, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_ADAM7, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    std::vector<png_bytep> rows;
+    for (png_uint_32 y = 0; y < edge; ++y) rows.push_back(const_cast<png_bytep>(&grey[std::size_t{y} * edge]));
+    png_set_rows(writer, info, rows.data());
+    png_write_png(writer, info, PNG_TRANSFORM_IDENTITY, nullptr);
+    png_destroy_write_struct(&writer, &info);
+    return bytes;
+}
+
+TEST(Texels, OfInterlacedPngAreTheUpperLeftPixels) {
+    for (const png_uint_32 edge : {1U, 7U, 16U, 19U}) {
+        std::vector<std::uint8_t> grey(std::size_t{edge} * edge);
+        for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(37 * i);
+        const Bytes bytes = interlaced_png(edge, grey);
+        for (unsigned shift = 0; shift < 6; ++shift) {
+            const Texels found = decode_texels(bytes, "memory", shift);
+            ASSERT_EQ(found.width, shrunk_edge(edge, shift));
+            for (std::size_t y = 0; y < found.height; ++y) {
+                for (std::size_t x = 0; x < found.width; ++x) {
+                    const std::uint32_t expected = grey[(y << shift) * edge + (x << shift)];
+                    ASSERT_EQ(found.texels[y * found.width + x], 0xFF000000U | expected * 0x010101U)
+                        << edge << ", shift " << shift << ", at " << x << ", " << y;
+                }
+            }
+        }
+    }
+}
+
+TEST(Texels, InPlaceOfAPointerOfGitLfsAreMissing) {
+    const Bytes pointer = with({}, "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 4\n");
+    EXPECT_TRUE(
+        contains(error_of(pointer), "'memory' is a pointer of Git LFS, not the file itself; run 'git lfs pull'"));
+}
+
 TEST(Texels, ThatClaimToBeHugeAreRefusedBeforeMemoryIsAllocated) {
     // Width and height are at bytes 16 to 23, in a chunk whose checksum libpng looks at: so it is made anew.
     const auto claiming = [](std::uint32_t width, std::uint32_t height) {
@@ -150,6 +237,33 @@ TEST(Texels, OfJpegAreThoseThatWentIn) {
             }
         }
     }
+}
+
+TEST(Texels, OfJpegAreShrunkAsOthersAre) {
+    for (const bool progressive : {false, true}) {
+        const Bytes bytes = jpeg(JCS_GRAYSCALE, 40, progressive, std::vector<std::uint8_t>(1600, 90));
+        for (unsigned shift = 0; shift < 7; ++shift) {
+            const Texels found = decode_texels(bytes, "memory", shift);
+            EXPECT_EQ(found.width, shrunk_edge(40, shift)) << shift;
+            EXPECT_EQ(found.height, shrunk_edge(40, shift)) << shift;
+            for (const std::uint32_t texel : found.texels) EXPECT_NEAR(static_cast<int>(texel & 255U), 90, 1);
+        }
+    }
+}
+
+/// The scans of a progressive file again and again, as fast as they can be written. They are counted and not decoded.
+TEST(Texels, OfJpegInVeryManyPassesAreRefused) {
+    const Bytes good = jpeg(JCS_RGB, 1024, true, slope(1024, 3));
+    EXPECT_EQ(decode_texels(good, "memory").width, 1024U);
+    std::size_t scan = 2;  // where the first scan starts
+    const auto at = [&](std::size_t i) { return std::to_integer<std::size_t>(good[i]); };
+    while (at(scan + 1) != 0xDA) scan += 2 + at(scan + 2) * 256 + at(scan + 3);
+    const std::size_t header = 2 + at(scan + 2) * 256 + at(scan + 3);
+    Bytes many(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(scan));
+    const auto start = good.begin() + static_cast<std::ptrdiff_t>(scan);
+    for (int i = 0; i < 4000; ++i) many.insert(many.end(), start, start + static_cast<std::ptrdiff_t>(header));
+    many.insert(many.end(), good.end() - 2, good.end());
+    EXPECT_TRUE(contains(error_of(many), "decoding it is the work of "));
 }
 
 TEST(Texels, OfBrokenJpegAreRefused) {

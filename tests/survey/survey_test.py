@@ -122,14 +122,14 @@ class Runs(Folder):
     def test_tandem_render_draws_and_refuses(self):
         renderer = runs.Renderer(render, "16x12", 1, 100, 0)
         fine = files.File(str(self.write("fine.gltf", triangle())), "fine.gltf", "tests")
-        wrong = files.File(str(self.write("wrong.gltf", triangle(scene=7))), "wrong.gltf", "tests")
+        wrong = files.File(str(self.write("wrong.gltf", triangle(extensionsRequired=["EXT_of_tomorrow"]))), "wrong.gltf", "tests")
         drawn, refused = (runs.survey_file(renderer, file) for file in (fine, wrong))
         self.assertEqual((drawn["status"], drawn["outcome"]), (0, outcome.NOTES), drawn)
         self.assertFalse(drawn["one_colour"])
         self.assertEqual(len(drawn["film_sha256"]), 64)
         self.assertGreater(drawn["peak_mib"], 1)
         self.assertEqual((refused["status"], refused["outcome"]), (2, outcome.REFUSED), refused)
-        self.assertIn("FILE: scene", refused["sentence"])
+        self.assertIn("FILE: extensionsRequired[0]", refused["sentence"])
 
 
 class Files(Folder):
