@@ -5,7 +5,7 @@
   scripts/survey_gltf.py ... --summary docs/results/gltf-files/survey.json --page docs/results/gltf-files.md
 
 FILEs and FOLDERs are listed one by one. --corpus names a folder of folders, one a source: these are counted, without copies.
-It runs tandem-render on every file, at most --jobs at a time. Exit status: 0 every file was drawn or refused with a sentence;
+It runs tandem-render on every file, at most --jobs at a time; a run that was stopped goes on where its --json.part ends. Exit status: 0 every file was drawn or refused with a sentence;
 1 a crash, a hang or an odd status, or with --parity films that differ; 2 wrong usage; 3 the machine lacks something.
 """
 
@@ -16,7 +16,7 @@ import platform
 import subprocess
 import sys
 
-from survey import files, outcome, page, parity, runs, sheets, summary
+from survey import files, journal, outcome, page, parity, runs, sheets, summary
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -98,7 +98,18 @@ def write_json(path, data):
 
 
 def drawn_survey(options, renderer, listed, corpus):
-    records = runs.each([*listed, *corpus], options.jobs, lambda file: runs.survey_file(renderer, file), progress_line("drawn", options.quiet))
+    run = {"program": files.sha256_of(options.render), "command": renderer.command("", "", "")[1:], "memory": options.memory}
+    kept = journal.Journal(options.json and options.json + ".part", run)
+
+    def record_of(file):
+        record = kept.kept(file)
+        if not record:
+            record = runs.survey_file(renderer, file)
+            kept.add(record)
+        return record
+
+    records = runs.each([*listed, *corpus], options.jobs, record_of, progress_line("drawn", options.quiet))
+    kept.close()
     commits = files.commits(options.corpus) if options.corpus else {}
     return {"run": about(options), "commits": commits, "listed": records[: len(listed)], "corpus": records[len(listed) :]}
 
