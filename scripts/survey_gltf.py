@@ -5,8 +5,10 @@
   scripts/survey_gltf.py ... --summary docs/results/gltf-files/survey.json --page docs/results/gltf-files.md
 
 FILEs and FOLDERs are listed one by one. --corpus names a folder of folders, one a source: these are counted, without copies.
-It runs tandem-render on every file, at most --jobs at a time; a run that was stopped goes on where its --json.part ends. Exit status: 0 every file was drawn or refused with a sentence;
-1 a crash, a hang or an odd status, or with --parity films that differ; 2 wrong usage; 3 the machine lacks something.
+It runs tandem-render on every file, --jobs at a time. A run with --json that was stopped goes on where it was.
+
+Exit status: 0 every file was drawn or refused with a sentence; 1 a crash, a hang or an odd status, or with --parity films that
+differ; 2 wrong usage; 3 the machine lacks something.
 """
 
 import argparse
