@@ -46,6 +46,8 @@ def options_of(arguments):
     parser.add_argument("--from", dest="read", metavar="JSON", help="read the records of an earlier --json instead of drawing")
     parser.add_argument("--sheet", metavar="FOLDER", help="write contact sheets of what is drawn; needs Pillow, and a larger --size")
     parser.add_argument("--parity", action="store_true", help="compare the films of cpu and cuda, in strict and precise")
+    parser.add_argument("--commit", help="what the program was built from; this tree's HEAD if not given")
+    parser.add_argument("--remark", default="", help="a sentence about the run for the page")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     options = parser.parse_args(arguments)
     if not (options.folders or options.corpus or options.read):
@@ -76,7 +78,8 @@ def about(options):
     return {
         "command": " ".join([*command, "--size", options.size, "--spp", str(options.spp), "--jobs", str(options.jobs)]),
         "version": output_of([options.render, "--version"]),
-        "commit": output_of(["git", "-C", ROOT, "rev-parse", "--short=10", "HEAD"]),
+        "commit": options.commit or output_of(["git", "-C", ROOT, "rev-parse", "--short=10", "HEAD"]),
+        "remark": options.remark,
         "size": options.size,
         "spp": options.spp,
         "backend": options.backend,
