@@ -5,8 +5,10 @@
   scripts/survey_gltf.py ... --summary docs/results/gltf-files/survey.json --page docs/results/gltf-files.md
 
 FILEs and FOLDERs are listed one by one. --corpus names a folder of folders, one a source: these are counted, without copies.
-It runs tandem-render on every file, at most --jobs at a time. Exit status: 0 every file was drawn or refused with a sentence;
-1 a crash, a hang or an odd status, or with --parity films that differ; 2 wrong usage; 3 the machine lacks something.
+It runs tandem-render on every file, --jobs at a time. A run with --json that was stopped goes on where it was.
+
+Exit status: 0 every file was drawn or refused with a sentence; 1 a crash, a hang or an odd status, or with --parity films that
+differ; 2 wrong usage; 3 the machine lacks something.
 """
 
 import argparse
@@ -16,7 +18,7 @@ import platform
 import subprocess
 import sys
 
-from survey import files, outcome, page, parity, runs, sheets, summary
+from survey import files, journal, outcome, page, parity, runs, sheets, summary
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -44,6 +46,8 @@ def options_of(arguments):
     parser.add_argument("--from", dest="read", metavar="JSON", help="read the records of an earlier --json instead of drawing")
     parser.add_argument("--sheet", metavar="FOLDER", help="write contact sheets of what is drawn; needs Pillow, and a larger --size")
     parser.add_argument("--parity", action="store_true", help="compare the films of cpu and cuda, in strict and precise")
+    parser.add_argument("--commit", help="what the program was built from; this tree's HEAD if not given")
+    parser.add_argument("--remark", default="", help="a sentence about the run for the page")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     options = parser.parse_args(arguments)
     if not (options.folders or options.corpus or options.read):
@@ -74,7 +78,8 @@ def about(options):
     return {
         "command": " ".join([*command, "--size", options.size, "--spp", str(options.spp), "--jobs", str(options.jobs)]),
         "version": output_of([options.render, "--version"]),
-        "commit": output_of(["git", "-C", ROOT, "rev-parse", "--short=10", "HEAD"]),
+        "commit": options.commit or output_of(["git", "-C", ROOT, "rev-parse", "--short=10", "HEAD"]),
+        "remark": options.remark,
         "size": options.size,
         "spp": options.spp,
         "backend": options.backend,
@@ -98,7 +103,18 @@ def write_json(path, data):
 
 
 def drawn_survey(options, renderer, listed, corpus):
-    records = runs.each([*listed, *corpus], options.jobs, lambda file: runs.survey_file(renderer, file), progress_line("drawn", options.quiet))
+    run = {"program": files.sha256_of(options.render), "command": renderer.command("", "", "")[1:], "memory": options.memory}
+    kept = journal.Journal(options.json and options.json + ".part", run)
+
+    def record_of(file):
+        record = kept.kept(file)
+        if not record:
+            record = runs.survey_file(renderer, file)
+            kept.add(record)
+        return record
+
+    records = runs.each([*listed, *corpus], options.jobs, record_of, progress_line("drawn", options.quiet))
+    kept.close()
     commits = files.commits(options.corpus) if options.corpus else {}
     return {"run": about(options), "commits": commits, "listed": records[: len(listed)], "corpus": records[len(listed) :]}
 

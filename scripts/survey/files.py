@@ -34,6 +34,11 @@ def neighbours_of(path, data):
     return paths
 
 
+def sha256_of(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
 class File:
     """A glTF file: `path`, `name` (relative to the folder given), `source` (what it is counted under)."""
 

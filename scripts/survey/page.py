@@ -113,7 +113,7 @@ def page_of(data, json_name, most_features=40):
         paragraph(
             f"""glTF files of other people, each drawn once as `tandem-render FILE -o PICTURE --size {run['size']} --spp {run['spp']}`
             draws it, without any change to the file. `scripts/survey_gltf.py` ran the programs, wrote [the figures]({json_name}) and made
-            this page from them. Version {run['version']}, commit {run['commit']}, backend {run['backend']}; {run['machine']}. The command:"""
+            this page from them. Version {run['version']}, commit {run['commit']}, backend {run['backend']}; {run['machine']}. {run['remark']} The command:"""
         ),
         "```\n" + run["command"] + "\n```",
         table(head, rows),

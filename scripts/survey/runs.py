@@ -62,19 +62,20 @@ class Run:
 
 
 def levels_of(path):
-    """The 8-bit levels of a binary PPM."""
+    """The 8-bit levels of a binary PPM, or None if it is absent or torn."""
+    if not os.path.exists(path):
+        return None
     with open(path, "rb") as file:
         data = file.read()
     fields, at = [], 0
     while len(fields) < 4:  # magic number, width, height, largest level; comments in between
-        end = data.index(b"\n", at)
+        end = data.find(b"\n", at)
+        if end < 0:
+            return None
         line, at = data[at:end], end + 1
         fields += [] if line.startswith(b"#") else line.split()
-    width, height = int(fields[1]), int(fields[2])
     levels = data[at:]
-    if fields[0] != b"P6" or len(levels) != width * height * 3:
-        raise ValueError(f"{path} is no whole binary PPM")
-    return levels
+    return levels if fields[0] == b"P6" and len(levels) == int(fields[1]) * int(fields[2]) * 3 else None
 
 
 def survey_file(renderer, file):
@@ -82,7 +83,7 @@ def survey_file(renderer, file):
     with tempfile.TemporaryDirectory() as folder:
         picture, json_path = os.path.join(folder, "picture.ppm"), os.path.join(folder, "run.json")
         run = Run(renderer.command(file.path, picture, json_path), renderer.timeout, renderer.memory_mib)
-        has_film = os.path.exists(picture)
+        levels = levels_of(picture)
         notes, sentence = outcome.parts_of(run.errors)
         record = {
             "source": file.source,
@@ -90,7 +91,7 @@ def survey_file(renderer, file):
             "sha256": file.sha256,
             "bytes": file.bytes,
             "missing_neighbours": file.missing,
-            "outcome": outcome.outcome_of(run.status, run.timed_out, sentence, notes, has_film),
+            "outcome": outcome.outcome_of(run.status, run.timed_out, sentence, notes, bool(levels)),
             "status": run.status,
             "sentence": outcome.anonymous(sentence, file.path),
             "notes": notes,
@@ -98,11 +99,10 @@ def survey_file(renderer, file):
             "wall_seconds": round(run.wall_seconds, 3),
             "peak_mib": round(run.peak_mib, 1),
         }
-        if has_film:
-            levels = levels_of(picture)
+        if levels:
             record["mean_level"] = round(sum(levels) / len(levels), 1)
             record["one_colour"] = all(levels[i : i + 3] == levels[:3] for i in range(0, len(levels), 3))
-        if has_film and os.path.exists(json_path):
+        if levels and os.path.exists(json_path):
             with open(json_path, encoding="utf-8") as stream:
                 record["film_sha256"] = json.load(stream)["frames"][0]["film_sha256"]
     return record

@@ -15,7 +15,7 @@ import unittest
 
 root, render = pathlib.Path(sys.argv[1]), sys.argv[2]
 sys.path.insert(0, str(root / "scripts"))
-from survey import files, outcome, page, runs, summary  # noqa: E402
+from survey import files, journal, outcome, page, runs, summary  # noqa: E402
 
 # What a scene's name makes the fake program do; $3 is the picture, $9 the JSON.
 FAKE = """#!/bin/sh
@@ -130,6 +130,18 @@ class Runs(Folder):
         self.assertGreater(drawn["peak_mib"], 1)
         self.assertEqual((refused["status"], refused["outcome"]), (2, outcome.REFUSED), refused)
         self.assertIn("FILE: extensionsRequired[0]", refused["sentence"])
+
+
+class Journals(Folder):
+    def test_a_stopped_run_goes_on(self):
+        path, run = str(self.folder / "s.json.part"), {"program": "1"}
+        file = files.File(str(self.write("a.gltf", "{}")), "a.gltf", "tests")
+        record = {"source": "tests", "file": "a.gltf", "sha256": file.sha256, "status": 0}
+        journal.Journal(path, run).add(record)
+        with open(path, "a", encoding="utf-8") as stream:
+            stream.write('{"source": "tests", "fi')
+        self.assertEqual(journal.Journal(path, run).kept(file), record)
+        self.assertIsNone(journal.Journal(path, {"program": "2"}).kept(file))
 
 
 class Files(Folder):

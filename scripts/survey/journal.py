@@ -1,0 +1,34 @@
+"""Keeps the records of a long run as they come, so that a run that was stopped goes on."""
+
+import json
+import os
+import threading
+
+
+class Journal:
+    """One line a record, after a line that says what run it is. Another run's lines do not count."""
+
+    def __init__(self, path, run):
+        self.path, self.lock, self.records = path, threading.Lock(), {}
+        if path and os.path.exists(path):
+            with open(path, encoding="utf-8") as stream:
+                lines = stream.read().split("\n")[:-1]  # what follows the last line end was torn
+            if lines and json.loads(lines[0]) == run:
+                self.records = {(r["source"], r["file"], r["sha256"]): r for r in map(json.loads, lines[1:])}
+        if path:
+            with open(path, "w", encoding="utf-8") as stream:
+                for entry in [run, *self.records.values()]:
+                    stream.write(json.dumps(entry) + "\n")
+
+    def kept(self, file):
+        return self.records.get((file.source, file.name, file.sha256))
+
+    def add(self, record):
+        if not self.path:
+            return
+        with self.lock, open(self.path, "a", encoding="utf-8") as stream:
+            stream.write(json.dumps(record) + "\n")
+
+    def close(self):
+        if self.path:
+            os.remove(self.path)
