@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                 p["indices"] = f.add_indices(5121, std::vector<std::uint32_t>(3 * 1000, 1));
                 f.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
             },
-            "nodes: 1 of them show what counts as 60000000 faces in all, and takes 12.60 GB of memory; a file with"}),
+            "nodes: 1 of them show what counts as 60000000 faces in all, and takes 14.10 GB of memory; a file with"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
