@@ -1,4 +1,5 @@
 // Everything of the kernel side that computes, for ptx.py to look at: the exact functions and one pixel.
+#include "cuda/render_thread.h"
 #include "tandem/geometry/intersect.h"
 #include "tandem/integrator/pixel.h"
 #include "tandem/integrator/roulette.h"
@@ -47,8 +48,8 @@ __global__ void warps(int blades, double u, double v, double* out) {
 }
 
 __global__ void one_pixel(SceneView scene, PixelJob job, double* out) {
-    const auto pixel = render_pixel<EffectSet<all_effects.bits()>, float>(LoopTracer{scene}, scene, job, blockIdx.x,
-                                                                          threadIdx.x, true);
+    using Effects = cuda::Gathered<EffectSet<all_effects.bits()>, LoopTracer>;
+    const auto pixel = render_pixel<Effects, float>(LoopTracer{scene}, scene, job, blockIdx.x, threadIdx.x, true);
     out[0] = pixel.sum.x;
     out[1] = pixel.sum.y;
     out[2] = pixel.sum.z;
