@@ -63,16 +63,25 @@ double mean_level(const Image& image) {
     return sum / (3.0 * static_cast<double>(image.texels.size()));
 }
 
-double radiance_of(const Scene& scene, const Material& material) {
-    const double factor = material.unlit ? 0 : norm1(widen(material.optics.emission)) / 3;
-    if (factor == 0 || !material.emissive_texture) return factor;
-    return factor * mean_level(scene.images[scene.textures[material.emissive_texture->texture].image]);
+/// The mean radiance of the surface of each material. A picture is looked at once, however many materials show it.
+std::vector<double> radiance_of_materials(const Scene& scene) {
+    std::vector<double> level(scene.images.size(), -1);
+    std::vector<double> radiance;
+    for (const Material& material : scene.materials) {
+        double mean = material.unlit ? 0 : norm1(widen(material.optics.emission)) / 3;
+        if (mean != 0 && material.emissive_texture) {
+            const std::size_t image = scene.textures[material.emissive_texture->texture].image;
+            if (level[image] < 0) level[image] = mean_level(scene.images[image]);
+            mean *= level[image];
+        }
+        radiance.push_back(mean);
+    }
+    return radiance;
 }
 
 /// The mean radiance over all surfaces.
 double mean_glow(const Scene& scene) {
-    std::vector<double> radiance;
-    for (const Material& material : scene.materials) radiance.push_back(radiance_of(scene, material));
+    const std::vector<double> radiance = radiance_of_materials(scene);
     if (std::none_of(radiance.begin(), radiance.end(), [](double r) { return r > 0; })) return 0;
     double total = 0, area = 0;
     const auto add = [&](const Geometry& geometry, const Transform& world_from_shape) {

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Compiles every header under lib/ alone, with g++ and, where present, clang++.
+"""Compiles every header under lib/ alone, with clang++ or, without it, g++.
+
+clang++ comes first because the build compiles the same headers with g++ already.
 
 usage: headers.py ROOT BUILD
 """
@@ -35,24 +37,22 @@ def include_flags(root, build):
 def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     report = Report()
-    compilers = [name for name in ("g++", "clang++") if shutil.which(name)]
+    compiler = "clang++" if shutil.which("clang++") else "g++"
     flags = include_flags(root, build)
     headers = sorted(path.relative_to(root / "lib") for path in (root / "lib").rglob("*.h"))
 
-    def compile_alone(job):
-        compiler, header = job
+    def compile_alone(header):
         result = subprocess.run(
             [compiler, "-std=c++20", "-march=x86-64-v2", "-ffp-contract=off", *WARNINGS, *flags, "-fsyntax-only", "-x", "c++", "-"],
             input=f'#include "tandem/{header.as_posix()}"\n', capture_output=True, text=True)
-        return compiler, header, result
+        return header, result
 
-    jobs = [(compiler, header) for header in headers for compiler in compilers]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for compiler, header, result in pool.map(compile_alone, jobs):
+        for header, result in pool.map(compile_alone, headers):
             if result.returncode:
                 first = next((line for line in result.stderr.splitlines() if "error" in line), result.stderr[:300])
                 report.add(f"lib/{header}", f"does not compile alone with {compiler}: {first}")
-    report.finish(f"{len(headers)} headers with {' and '.join(compilers)}")
+    report.finish(f"{len(headers)} headers with {compiler}")
 
 
 main()
