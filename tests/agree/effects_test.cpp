@@ -8,7 +8,9 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
@@ -176,6 +178,16 @@ class TileMeans {
     double samples_ = 0;
 };
 
+/// The oracle's means, drawn once for all backends of a tier.
+const TileMeans& oracle_means(const EffectScene& entry, const PreparedScene& scene, Tier tier, int samples, int films,
+                              std::uint64_t first_seed) {
+    static const auto oracle = make_backend("oracle");
+    static std::map<std::tuple<std::string, Tier, std::uint64_t>, TileMeans> known;
+    const auto [place, is_new] = known.try_emplace({entry.name, tier, first_seed}, *oracle, scene, tier, samples);
+    if (is_new) place->second.add_films(films, first_seed);
+    return place->second;
+}
+
 // Where the oracle draws other points of lights and other directions, films are compared by their means, by Welch's
 // test at 5 % of all tests together (Bonferroni). A tile that differs is looked at again in fresh films, four times as
 // many: a bias differs again, chance does not.
@@ -183,7 +195,6 @@ TEST_P(EffectBits, HaveTheMeansOfTheOracle) {
     const int films = effort() > 1 ? 60 : 10, samples = 16 * effort(), samples_of_oracle = 4 * effort();
     constexpr double level = 0.05 / (TileMeans::tiles * 20);  // of up to 20 scenes
     double drawn = 0;
-    const auto oracle = make_backend("oracle");
     for (const EffectScene& entry : effect_scenes()) {
         if (!has_own_estimators(entry.effects)) continue;
         const PreparedScene scene = prepare(entry.scene);
@@ -192,9 +203,9 @@ TEST_P(EffectBits, HaveTheMeansOfTheOracle) {
         std::string differences;
         for (const auto& [count, first_seed] : {std::pair{films, 100ULL}, std::pair{4 * films, 10000ULL}}) {
             TileMeans ours(*backend_, scene, GetParam().tier, samples);
-            TileMeans theirs(*oracle, scene, GetParam().tier, samples_of_oracle);
             ours.add_films(count, first_seed);
-            theirs.add_films(count, first_seed + 800);
+            const TileMeans& theirs =
+                oracle_means(entry, scene, GetParam().tier, samples_of_oracle, count, first_seed + 800);
             drawn += ours.samples() + theirs.samples();
             std::vector<std::size_t> differ;
             for (const std::size_t tile : suspects) {
