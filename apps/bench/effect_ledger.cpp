@@ -76,11 +76,11 @@ BenchmarkRow row_of(const Ledger& ledger, const LedgerArm& arm, const RenderJob&
 
 /// Each against the row that it has a meaning against: the whole set, or for one effect alone, none.
 void add_factors(Ledger& ledger) {
-    const BenchmarkRow* none = nullptr;
+    const BenchmarkRow& whole = ledger.rows.front().row;
+    const BenchmarkRow* none = &whole;
     for (const LedgerRow& row : ledger.rows) {
         if (row.arm.kind == LedgerArm::Kind::none) none = &row.row;
     }
-    const BenchmarkRow& whole = ledger.rows.front().row;
     for (LedgerRow& row : ledger.rows) {
         if (row.arm.kind == LedgerArm::Kind::whole) continue;
         row.row.factor = factor_over(row.arm.kind == LedgerArm::Kind::alone ? *none : whole, row.row);

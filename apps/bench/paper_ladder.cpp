@@ -295,6 +295,7 @@ std::vector<BenchmarkRow*> PaperRows::all() {
 std::vector<std::int32_t> spread_frames(const FrameRange& range, int count) {
     std::vector<std::int32_t> frames;
     const std::int32_t taken = std::min<std::int32_t>(count, range.count());
+    frames.reserve(static_cast<std::size_t>(std::max(taken, 0)));
     for (std::int32_t i = 0; i < taken; ++i) {
         frames.push_back(range.first + static_cast<std::int32_t>(std::int64_t{i} * range.count() / taken));
     }

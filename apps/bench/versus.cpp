@@ -59,6 +59,7 @@ Table phase_table(const std::vector<BenchmarkRow>& rows) {
 BarPlot rate_plot_of(const std::string& title, const std::string& unit, const std::vector<BenchmarkRow>& rows,
                      double (*rate)(const BenchmarkRow&)) {
     std::vector<const BenchmarkRow*> pointers;
+    pointers.reserve(rows.size());
     for (const BenchmarkRow& row : rows) pointers.push_back(&row);
     return rate_plot(title, unit, pointers, rate);
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -83,8 +84,7 @@ Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata) {
     // the table writes four characters each time
     Bytes bytes(head.size() + longest_pixel * pixel_count(image) + 4);
     char* const start = reinterpret_cast<char*>(bytes.data());
-    std::memcpy(start, head.data(), head.size());
-    char* at = start + head.size();
+    char* at = std::copy(head.begin(), head.end(), start);
     const std::uint8_t* value = image.values.data();
     for (std::size_t i = pixel_count(image); i > 0; --i) {
         for (int c = 0; c < 3; ++c, ++value) {

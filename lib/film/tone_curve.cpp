@@ -15,7 +15,8 @@ namespace {
 
 /// 255 times the clamped value, rounded to the nearest. The product is exact in double, so there is one rounding.
 inline std::uint8_t linear_level(float linear) {
-    return static_cast<std::uint8_t>(static_cast<int>(static_cast<double>(clamp_to_unit(linear)) * 255.0 + 0.5));
+    const double with_half = static_cast<double>(clamp_to_unit(linear)) * 255.0 + 0.5;
+    return static_cast<std::uint8_t>(static_cast<int>(with_half));
 }
 
 /// The levels of sRGB, by a table over the upper half of a float's bits. Between two entries there is one border

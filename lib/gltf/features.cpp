@@ -120,10 +120,11 @@ class Walker {
     void find_inside(const Json& value, const std::string& outer, const std::string& path) {
         for (const auto& [name, member] : value.items()) {
             if (!member.is_structured()) continue;
-            const std::string where = value.is_array() ? fmt::format("{}[{}]", path, name) : path + "." + name;
+            const std::string where =
+                value.is_array() ? fmt::format("{}[{}]", path, name) : fmt::format("{}.{}", path, name);
             if (value.is_object() && name == "extensions" && member.is_object()) {
                 for (const auto& [extension, content] : member.items()) {
-                    inside_ignored_.try_emplace(extension, Inside{outer, where + "." + extension});
+                    inside_ignored_.try_emplace(extension, Inside{outer, fmt::format("{}.{}", where, extension)});
                 }
             }
             find_inside(member, outer, where);

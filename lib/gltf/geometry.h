@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,9 @@ class GeometryReader {
     /// A primitive of the file: of a mesh, by its number there.
     struct Primitive {
         std::size_t mesh, index;
-        friend auto operator<=>(const Primitive&, const Primitive&) = default;
+        friend bool operator<(const Primitive& a, const Primitive& b) {
+            return std::tie(a.mesh, a.index) < std::tie(b.mesh, b.index);
+        }
     };
     /// Where a mesh of the scene was read from.
     struct Origin {
