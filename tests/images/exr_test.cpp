@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-#if TANDEM_HAS_OIIO
+#if TANDEM_HAS_EXR
 
 TEST(Exr, RoundTripKeepsEveryBit) {
     const FloatImage image = sample_floats(67, 45);
@@ -46,9 +46,9 @@ TEST(Exr, IsThirtyTwoBitFloatAndUncroppedRgb) {
 
 #else
 
-TEST(Exr, WithoutOpenImageIoSaysWhatToInstall) {
+TEST(Exr, WithoutOpenExrSaysWhatToInstall) {
     const auto message = thrown_message<EnvironmentError>([] { (void)format_of("picture.exr"); });
-    EXPECT_NE(message.find("libopenimageio-dev"), std::string::npos) << message;
+    EXPECT_NE(message.find("libopenexr-dev"), std::string::npos) << message;
     EXPECT_FALSE(thrown_message<EnvironmentError>([] { (void)encode_exr(sample_floats(1, 1), {}); }).empty());
     EXPECT_FALSE(thrown_message<EnvironmentError>([] { (void)decode_exr({}, "picture.exr"); }).empty());
 }

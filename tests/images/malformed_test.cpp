@@ -107,7 +107,7 @@ std::vector<Kind> kinds() {
             {"P6", [=] { return encode_ppm(bytes, metadata); }, [](const Bytes& b) { return decode_ppm(b, "x"); }},
             {"PFM", [] { return encode_pfm(small_picture); }, [](const Bytes& b) { return decode_pfm(b, "x"); }},
             {"PNG", [=] { return encode_png(bytes, metadata, 1); }, [](const Bytes& b) { return decode_png(b, "x"); }},
-#if TANDEM_HAS_OIIO
+#if TANDEM_HAS_EXR
             {"EXR", [=] { return encode_exr(small_picture, metadata); },
              [](const Bytes& b) { return decode_exr(b, "x"); }},
 #endif
