@@ -1,10 +1,10 @@
 /// Files that are cut off, forged or damaged: one InputError, never a crash or a huge allocation.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <functional>
 
 #include "images/sample_images.h"
+#include "support/peak_memory.h"
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
 #include "tandem/error/error.h"
@@ -124,13 +124,6 @@ TEST(MalformedFile, CutOffAnywhereIsAnInputError) {
             EXPECT_THROW((void)kind.decode(part), InputError) << kind.name << " cut after " << size << " bytes";
         }
     }
-}
-
-/// The most memory that the process has had, in MiB.
-long peak_memory() {
-    rusage usage = {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss / 1024;
 }
 
 TEST(MalformedFile, DamagedBytesGiveAnImageOrAnInputError) {
