@@ -120,7 +120,7 @@ TEST(MalformedExr, ForgedSizesAreFoundOutBeforeMemoryIsAllocated) {
           std::pair{forged(tiles, "tiles", 0, {4096, 4096}), "its tiles or blocks"},
           std::pair{forged(forged(tiles, "tiles", 0, {1, 1}), "dataWindow", 8, {99, 99}), "80000 bytes, and"},
           std::pair{forged(parts, "chunkCount", 0, {0x7FFFFFFF}), "17179869176 bytes, and"}}) {
-        const auto message = thrown_message<InputError>([&] { (void)decode_exr(bytes, "some.exr"); });
+        const auto message = thrown_message<InputError>([&file = bytes] { (void)decode_exr(file, "some.exr"); });
         EXPECT_NE(message.find(reason), std::string::npos) << message << ", instead of: " << reason;
     }
     EXPECT_LT(peak_memory() - before, 64);
