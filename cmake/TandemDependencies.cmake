@@ -7,14 +7,20 @@ find_dependency(fmt)
 find_dependency(OpenSSL COMPONENTS Crypto)
 find_dependency(PNG)
 
+# Optional. What it says meanwhile is that Debian's package of Imath comes without its module for Python.
+block()
+  set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
+  find_package(OpenEXR 3.1.3 CONFIG QUIET)
+endblock()
+
 # Embree 4 (Debian 13, Ubuntu 24.04) or 3.13 (Debian 12): the target `embree`.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_dependency(embree 3.13)
 endif()
 
-# By name, because Debian 12 has no CMake package of GLM; that of OpenImageIO asks for its tools and, with them, Qt; and
-# FindCUDAToolkit of CMake 3.25 asks for a library that CUDA 13 has not.
+# By name, because Debian 12 has no CMake package of GLM, and FindCUDAToolkit of CMake 3.25 asks for a library that CUDA 13
+# has not.
 # tandem_find_library(TARGET LIBRARIES... [HEADER FILE] [HINTS DIRS...]): an imported target, or nothing when a part is missing.
 function(tandem_find_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "HINTS")
@@ -43,7 +49,6 @@ function(tandem_find_library target)
 endfunction()
 
 tandem_find_library(Tandem::glm HEADER glm/vec3.hpp)
-tandem_find_library(Tandem::openimageio OpenImageIO OpenImageIO_Util HEADER OpenImageIO/imageio.h)
 tandem_find_library(Tandem::jpeg jpeg HEADER jpeglib.h)
 
 # Only where the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS says where the toolkit was.

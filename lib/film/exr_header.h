@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-/// Throws InputError if the header is cut off, is not of a flat picture in one part, or claims more pixels, channels or
-/// bytes than the file can hold. Layout: "OpenEXR File Layout", openexr.com.
+/// Throws InputError if a header is cut off or claims more pixels, channels, blocks or bytes than the file can hold, or
+/// if the first part is deep. All else is left to OpenEXR. Layout: "OpenEXR File Layout", openexr.com.
 void check_exr_header(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace tandem

@@ -57,12 +57,13 @@ struct DecodedImage {
 [[nodiscard]] DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& name);
 
 /// 32-bit float EXR, lossless: NaN payloads and signed zeros survive. Metadata are string attributes. Throws
-/// EnvironmentError in a build without OpenImageIO.
-/// Compressed line by line, at zlib's level 1. Measured with OpenEXR 3.1.5 on two cores of a shared AMD EPYC, the
-/// paper's scene at 20 samples, 1000 x 900; best of 7: 127 ms and 5.7 MB; in blocks of 16 lines at level 4
-/// (OpenImageIO's "zip") 461 ms and 4.6 MB; uncompressed 57 ms and 10.8 MB.
+/// EnvironmentError in a build without OpenEXR.
+/// Compressed line by line, at zlib's level 1. CPU time with OpenEXR 3.1.5 on a shared AMD EPYC, the paper's scene at
+/// 20 samples, 1000 x 900; best of 9: 127 ms and 5.7 MB; in blocks of 16 lines at level 4 (ZIP) 165 ms and 4.6 MB;
+/// uncompressed 20 ms and 10.8 MB.
 [[nodiscard]] Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata);
-/// R, G, B of an EXR, or its only channel for all three; throws as encode_exr() does.
+/// R, G, B of an EXR, or its only channel for all three, in the data window of the first part; throws as encode_exr()
+/// does.
 [[nodiscard]] DecodedImage decode_exr(std::span<const std::byte> bytes, const std::string& name);
 
 /// Throws EnvironmentError, saying what to install, if this build cannot do EXR.

@@ -1,4 +1,4 @@
-/// Stands in for image_exr_oiio.cpp in a build without OpenImageIO.
+/// Stands in for image_exr.cpp in a build without OpenEXR.
 #include "tandem/error/error.h"
 #include "tandem/film/image_codecs.h"
 
@@ -6,8 +6,8 @@ namespace tandem {
 
 void check_exr_support() {
     throw EnvironmentError(
-        "this build has no EXR images; install OpenImageIO (on Debian and Ubuntu: libopenimageio-dev) and build again, "
-        "or use .pfm, which holds the same floats");
+        "this build has no EXR images; install OpenEXR (on Debian and Ubuntu: libopenexr-dev) and build again, or use "
+        ".pfm, which holds the same floats");
 }
 
 Bytes encode_exr(const FloatImage&, const ImageMetadata&) {

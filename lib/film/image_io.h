@@ -16,7 +16,7 @@ struct WriteOptions {
 };
 
 /// By the extension of a path: .ppm, .pfm, .png or .exr, in either case. Throws InputError that lists them, and
-/// EnvironmentError for .exr in a build without OpenImageIO.
+/// EnvironmentError for .exr in a build without OpenEXR.
 [[nodiscard]] ImageFormat format_of(const std::string& path, const WriteOptions& options = {});
 
 struct EncodedImage {

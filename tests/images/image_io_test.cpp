@@ -93,7 +93,7 @@ TEST_P(ImageFile, AFailedWriteNamesThePathAndLeavesNothing) {
 const FileKind file_kinds[] = {{"a.ppm", false, ImageFormat::ppm, false},
                                {"a.ppm", true, ImageFormat::ppm_text, false},
                                {"a.PNG", false, ImageFormat::png, false},
-#if TANDEM_HAS_OIIO
+#if TANDEM_HAS_EXR
                                {"a.exr", false, ImageFormat::exr, true},
 #endif
                                {"a.pfm", false, ImageFormat::pfm, true}};

@@ -35,7 +35,7 @@ LIBRARIES = {
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
     "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/film/")),
-    "OpenImageIO": (r"OpenImageIO/", lambda path: path.startswith("lib/film/")),
+    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/film/")),
 }
 
 
