@@ -7,7 +7,7 @@ find_dependency(fmt)
 find_dependency(OpenSSL COMPONENTS Crypto)
 find_dependency(PNG)
 
-# Optional. What it says meanwhile is that Debian's package of Imath comes without its module for Python.
+# Optional. Quietly, because Debian's package of Imath reports at each configuration that its Python module is missing.
 block()
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
   find_package(OpenEXR 3.1.3 CONFIG QUIET)
