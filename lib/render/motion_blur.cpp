@@ -113,7 +113,7 @@ class Exposure {
 
 FramePlan plan_frame(const Scene& scene, const PrepareOptions& options, const RenderJob& job) {
     const EffectMask forced = options.effects.on & host_effects;
-    const FramePlan at_once{{{options, job}}, forced};
+    FramePlan at_once{{{options, job}}, forced};
     if (options.time || options.effects.off.has(Effect::motion_blur)) return at_once;
     const std::size_t camera = camera_node(scene, options.camera);
     const Shutter& shutter = shutter_of(*scene.nodes[camera].camera);

@@ -80,7 +80,8 @@ class LoopBackend final : public Backend {
     source.why_unavailable = [missing](const std::string& name) {
         return name == missing ? "it is left out in this test" : std::string();
     };
-    source.make = [spoils](const std::string& name, const BackendOptions& options) -> std::unique_ptr<Backend> {
+    source.make = [spoils = std::move(spoils)](const std::string& name,
+                                               const BackendOptions& options) -> std::unique_ptr<Backend> {
         return std::make_unique<LoopBackend>(name, spoils(name, options), name != "oracle");
     };
     return source;

@@ -158,7 +158,7 @@ GltfFiles::~GltfFiles() {
 }
 
 std::filesystem::path GltfFiles::write(const std::string& name, const std::string& bytes) const {
-    const std::filesystem::path file = folder_ / name;
+    std::filesystem::path file = folder_ / name;
     std::filesystem::create_directories(file.parent_path());
     std::filesystem::remove(file);  // some file systems wait for the disk when a file is written over
     std::ofstream(file, std::ios::binary) << bytes;
