@@ -56,8 +56,8 @@ TEST_F(MendedMesh, BeginsAnewAtTheLargestIndex) {
 /// A vertex of that number is none either.
 TEST_F(MendedMesh, BeginsAnewWhereThereAre256Vertices) {
     TestFile file = mesh_file();
-    std::vector<float> positions;
-    for (int i = 0; i < 300 * 3; ++i) positions.push_back(static_cast<float>(i % 7));
+    std::vector<float> positions(std::size_t{300} * 3);
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = static_cast<float>(i % 7);
     primitive(file)["attributes"]["POSITION"] = file.add_floats("VEC3", positions);
     primitive(file)["indices"] = file.add_indices(5121, {0, 1, 2, 253, 254, 255});
     EXPECT_EQ(mesh_of(file, "entry 5 is 255").triangles, (Indices{0, 1, 2}));

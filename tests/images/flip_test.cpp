@@ -94,7 +94,7 @@ TEST(Flip, AgreesWithTheProgramOfThePapersAuthors) {
             EXPECT_NEAR(difference.mean, reference.mean, tolerance);
             worst = std::max(worst, std::abs(difference.mean - reference.mean));
             for (std::size_t i = 0; i < pixels.size(); ++i) {
-                const auto at = static_cast<std::size_t>(pixels[i][1] * width + pixels[i][0]);
+                const auto at = std::size_t{width} * pixels[i][1] + pixels[i][0];
                 EXPECT_NEAR(difference.errors[at], reference.errors[i], tolerance) << "pixel " << at;
                 worst = std::max(worst, std::abs(difference.errors[at] - reference.errors[i]));
             }
