@@ -13,13 +13,14 @@
 #include <array>
 #include <atomic>
 
-#include "cpu/fp_environment.h"
 #include "cpu/instruction_sets.h"
 #include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/seconds.h"
+#include "tandem/render/traced_job.h"
 
 namespace tandem {
 
@@ -61,7 +62,7 @@ void check_embree(RTCDevice device, const char* doing) {
 class CpuScene final : public ResidentScene {
   public:
     CpuScene(const PreparedScene& scene, Tier tier, RTCDevice device, const TierKernels& kernels)
-        : ResidentScene(tier), scene_(scene) {
+        : ResidentScene(tier), scene_(scene.copies.empty() ? scene : without_copies(scene)), copies_(scene.copies) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
         view_ = {tandem::view(scene_), {}, nullptr, {}};
@@ -71,6 +72,7 @@ class CpuScene final : public ResidentScene {
 
     [[nodiscard]] PhaseTimes load_times() const override { return times_; }
     [[nodiscard]] const PreparedScene& prepared() const { return scene_; }
+    [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
   private:
@@ -78,6 +80,7 @@ class CpuScene final : public ResidentScene {
         const Aabb bounds = tbb::parallel_reduce(
             tbb::blocked_range<std::uint32_t>(0, count, 4096), Aabb{},
             [&](const tbb::blocked_range<std::uint32_t>& range, Aabb box) {
+                const DefaultFpEnvironment guard;
                 for (std::uint32_t id = range.begin(); id < range.end(); ++id) {
                     box = merge(box, primitive_bounds(view_.scene, id));
                 }
@@ -157,6 +160,7 @@ class CpuScene final : public ResidentScene {
     }
 
     PreparedScene scene_;
+    std::vector<PrimitiveCopy> copies_;  ///< that it is without
     CpuSceneView view_;
     EmbreeScene embree_;
     PhaseTimes times_;
@@ -189,30 +193,35 @@ class CpuBackend final : public Backend {
     }
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        const DefaultFpEnvironment guard;
         std::shared_ptr<CpuScene> result;
         arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels(tier)); });
         return result;
     }
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job);
-        const CpuSceneView& view = dynamic_cast<const CpuScene&>(scene).view();
+        const auto& resident = dynamic_cast<const CpuScene&>(scene);
         const TierKernels& kernels = set_.kernels(scene.tier());
-        std::atomic<std::uint64_t> rejected = 0;
-        const Stopwatch watch;
-        arena_.execute([&] {
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.rays.size(), 1024), [&](const auto& range) {
-                const DefaultFpEnvironment guard;
-                rejected += kernels.trace(view, part(job, range.begin(), range.size()));
+        return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {
+            std::atomic<std::uint64_t> rejected = 0;
+            const Stopwatch watch;
+            arena_.execute([&] {
+                tbb::parallel_for(tbb::blocked_range<std::size_t>(0, traced.rays.size(), 1024), [&](const auto& range) {
+                    const DefaultFpEnvironment guard_of_task;
+                    rejected += kernels.trace(resident.view(), part(traced, range.begin(), range.size()));
+                });
             });
+            const double seconds = watch.seconds();
+            if (traced.counters != nullptr) traced.counters->rejected_rays += rejected;
+            return seconds;
         });
-        const double seconds = watch.seconds();
-        if (job.counters != nullptr) job.counters->rejected_rays += rejected;
-        return seconds;
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job, scene->tier());
         const auto& resident = dynamic_cast<const CpuScene&>(*scene);
         const TierKernels& kernels = set_.kernels(job.tier);
@@ -240,6 +249,7 @@ class CpuBackend final : public Backend {
         result.stats.counters.invalid_samples = invalid;
         result.stats.counters.lost_media = lost_media;
         result.stats.counters.dropped_primitives = resident.prepared().dropped_primitives;
+        result.stats.counters.dropped_lights = resident.prepared().dropped_lights;
         result.stats.rays = effects.has_any(counted_ray_effects)
                                 ? rays.load()
                                 : static_cast<std::uint64_t>(result.film.pixel_count()) * pixel_job.samples;

@@ -17,7 +17,7 @@ struct QueryContext {
     FilterRay<Real> filter;  ///< the true ray
     Proposal<Real> proposal;
     Closest<Real> best;
-    const Source<Real>* source;               ///< for the nearest hit; null for rays that leave no surface
+    const PathSource<Real>* source;           ///< for the nearest hit; null for rays that leave no surface
     const ShadowSource<Real>* shadow_source;  ///< for any hit
 };
 
@@ -89,7 +89,8 @@ namespace embree_detail {
 template <Search search, class Real>
 TANDEM_HD Mask<Real> is_excluded(const QueryContext<Real>& query, const Float<Real>& s, const UInt<Real>& id) {
     if constexpr (search == Search::nearest) {
-        return query.source == nullptr ? Mask<Real>(false) : query.source->primitive == id;
+        if (query.source == nullptr) return Mask<Real>(false);
+        return query.source->primitive == id || !is_beyond<Real>(query.source->passed, query.proposal.parameter(s), id);
     } else {
         const ShadowSource<Real>& source = *query.shadow_source;
         return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);
@@ -143,7 +144,7 @@ struct EmbreeTracer {
         set_source(query, source);
         if (!start(query, ray, active, false)) return query.best;
         RTCRayHit rayhit;
-        rayhit.ray = single_ray(query, 3e38F);
+        rayhit.ray = single_ray(query, to_plain(query.proposal.start_for(source)), 3e38F);
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(view.embree, query.head, rayhit);
         if constexpr (is_fast<Real>) {
@@ -165,7 +166,7 @@ struct EmbreeTracer {
         set_source(query, source);
         if (!start(query, ray, active, true)) return query.best;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
-        set_packet(rayhit.ray, query, Float<Real>(3e38F));
+        set_packet(rayhit.ray, query, query.proposal.start_for(source), Float<Real>(3e38F));
         const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
@@ -192,7 +193,7 @@ struct EmbreeTracer {
         if (!start(query, ray, active, false)) return false;
         const float limit = to_plain(query.proposal.limit(t_max));
         if (!(limit >= 0)) return false;
-        RTCRay embree_ray = single_ray(query, limit);
+        RTCRay embree_ray = single_ray(query, 0.0F, limit);
         embree::occluded1(view.embree, query.head, embree_ray);
         return embree_ray.tfar < 0;
     }
@@ -211,7 +212,7 @@ struct EmbreeTracer {
         query.proposal.active = query.proposal.active && limit >= F(0.0F);
         if (!any(query.proposal.active)) return LaneMask<Isa>(false);
         alignas(64) typename embree::Packet<Real::size>::Ray embree_ray;
-        set_packet(embree_ray, query, select(query.proposal.active, limit, F(0.0F)));
+        set_packet(embree_ray, query, F(0.0F), select(query.proposal.active, limit, F(0.0F)));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
         embree::occluded(reinterpret_cast<const int*>(&valid), view.embree, query.head, embree_ray);
         return query.proposal.active && embree_detail::load<F>(embree_ray.tfar) < F(0.0F);
@@ -223,7 +224,7 @@ struct EmbreeTracer {
         query.source = nullptr;
     }
     template <class Real>
-    TANDEM_HD static void set_source(QueryContext<Real>& query, const Source<Real>& source) {
+    TANDEM_HD static void set_source(QueryContext<Real>& query, const PathSource<Real>& source) {
         query.source = &source;
     }
 
@@ -239,14 +240,15 @@ struct EmbreeTracer {
     }
 
     template <class Real>
-    TANDEM_HD static RTCRay single_ray(const QueryContext<Real>& query, float tfar) {
+    TANDEM_HD static RTCRay single_ray(const QueryContext<Real>& query, float tnear, float tfar) {
         const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
-        return {p.origin.x, p.origin.y, p.origin.z, 0, p.direction.x, p.direction.y, p.direction.z, 0,
+        return {p.origin.x, p.origin.y, p.origin.z, tnear, p.direction.x, p.direction.y, p.direction.z, 0,
                 tfar,       0xFFFFFFFF, 0,          0};
     }
 
     template <class PacketRay, class Real>
-    TANDEM_HD static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Float<Real>& tfar) {
+    TANDEM_HD static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Float<Real>& tnear,
+                                     const Float<Real>& tfar) {
         using F = Float<Real>;
         const auto set = [](auto* field, const auto& value) { std::memcpy(field, &value, sizeof(value)); };
         const Ray<F>& p = query.proposal.ray;
@@ -260,7 +262,7 @@ struct EmbreeTracer {
         set(ray.dir_x, direction.x);
         set(ray.dir_y, direction.y);
         set(ray.dir_z, direction.z);
-        set(ray.tnear, zero);
+        set(ray.tnear, tnear);
         set(ray.tfar, tfar);
         set(ray.time, zero);
         set(ray.mask, UInt<Real>(0xFFFFFFFFU));

@@ -9,6 +9,8 @@
 #include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
+#include "tandem/math/fp_environment.h"
+#include "tandem/render/traced_job.h"
 
 namespace tandem {
 
@@ -101,40 +103,24 @@ class CudaBackend final : public Backend {
     }
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
-        return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_);
+        const DefaultFpEnvironment guard;
+        if (scene.copies.empty()) return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_);
+        auto result = std::make_shared<DeviceScene>(without_copies(scene), tier, scenes_->lease(), upload_);
+        result->set_copies(scene.copies);
+        return result;
     }
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job);
         const auto& resident = dynamic_cast<const DeviceScene&>(scene);
-        hits_.reserve(job.hits.size_bytes());
-        wide_t_.reserve(job.wide_t.size_bytes());
-        counters_.reserve(sizeof(DeviceCounters));
-        counters_on_host_.reserve(sizeof(DeviceCounters));
-        compute_.wait_for(resident.uploaded());
-        const DeviceRays rays = {.rays = upload(job.rays, rays_),
-                                 .sources = upload(job.sources, sources_),
-                                 .ends = upload(job.ends, ends_),
-                                 .hits = reinterpret_cast<Hit*>(hits_.data()),
-                                 .wide_t = job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()),
-                                 .counters = reinterpret_cast<DeviceCounters*>(counters_.data()),
-                                 .count = job.rays.size()};
-        check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
-        trace_start_.record(compute_.get());
-        kernels(resident.tier()).trace(resident.view(), rays, compute_.get());
-        trace_end_.record(compute_.get());
-        download(job.hits, hits_);
-        download(job.wide_t, wide_t_);
-        check(cudaMemcpyAsync(counters_on_host_.data(), counters_.data(), sizeof(DeviceCounters),
-                              cudaMemcpyDeviceToHost, compute_.get()),
-              "downloading counters");
-        check(cudaStreamSynchronize(compute_.get()), "tracing rays");
-        if (job.counters != nullptr) *job.counters += to_render_counters(read(counters_on_host_));
-        return seconds_between(trace_start_, trace_end_);
+        return trace_without_copies(resident.copies(), job,
+                                    [&](const TraceJob& traced) { return trace(resident, traced); });
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job, scene->tier());
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
@@ -184,6 +170,7 @@ class CudaBackend final : public Backend {
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
         result.stats.counters.dropped_primitives = resident.camera().dropped_primitives;
+        result.stats.counters.dropped_lights = resident.camera().dropped_lights;
         result.stats.device_bytes = resident.bytes() + bytes;
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;
@@ -199,6 +186,33 @@ class CudaBackend final : public Backend {
     }
 
   private:
+    double trace(const DeviceScene& resident, const TraceJob& job) {
+        hits_.reserve(job.hits.size_bytes());
+        wide_t_.reserve(job.wide_t.size_bytes());
+        counters_.reserve(sizeof(DeviceCounters));
+        counters_on_host_.reserve(sizeof(DeviceCounters));
+        compute_.wait_for(resident.uploaded());
+        const DeviceRays rays = {.rays = upload(job.rays, rays_),
+                                 .sources = upload(job.sources, sources_),
+                                 .ends = upload(job.ends, ends_),
+                                 .hits = reinterpret_cast<Hit*>(hits_.data()),
+                                 .wide_t = job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()),
+                                 .counters = reinterpret_cast<DeviceCounters*>(counters_.data()),
+                                 .count = job.rays.size()};
+        check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
+        trace_start_.record(compute_.get());
+        kernels(resident.tier()).trace(resident.view(), rays, compute_.get());
+        trace_end_.record(compute_.get());
+        download(job.hits, hits_);
+        download(job.wide_t, wide_t_);
+        check(cudaMemcpyAsync(counters_on_host_.data(), counters_.data(), sizeof(DeviceCounters),
+                              cudaMemcpyDeviceToHost, compute_.get()),
+              "downloading counters");
+        check(cudaStreamSynchronize(compute_.get()), "tracing rays");
+        if (job.counters != nullptr) *job.counters += to_render_counters(read(counters_on_host_));
+        return seconds_between(trace_start_, trace_end_);
+    }
+
     static void check(cudaError_t code, const char* doing) { cuda::check(code, doing); }
     static void check(const TraceJob& job) { tandem::check(job); }
     static void check(const RenderJob& job, Tier loaded_for) { tandem::check(job, loaded_for); }

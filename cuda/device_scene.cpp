@@ -57,6 +57,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     camera_.effects = scene.effects;
     camera_.lens = scene.lens;
     camera_.dropped_primitives = scene.dropped_primitives;
+    camera_.dropped_lights = scene.dropped_lights;
 
     const SceneView host = tandem::view(scene);
     Bvh bvh;

@@ -27,9 +27,12 @@ class DeviceScene final : public ResidentScene {
     [[nodiscard]] PhaseTimes load_times() const override;
     [[nodiscard]] const DeviceSceneView& view() const { return view_; }
     [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }
-    /// For the camera and the count of dropped primitives; arrays are not kept.
+    /// For the camera and the numbers of what was dropped; arrays are not kept.
     [[nodiscard]] const PreparedScene& camera() const { return camera_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
+    /// Copies that had been taken out of the scene; none unless set_copies() was called.
+    [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
+    void set_copies(std::vector<PrimitiveCopy> copies) { copies_ = std::move(copies); }
 
   private:
     std::shared_ptr<SceneMemory> memory_;
@@ -37,6 +40,7 @@ class DeviceScene final : public ResidentScene {
     DeviceSceneView view_{};
     std::size_t bytes_ = 0;
     double build_seconds_ = 0;
+    std::vector<PrimitiveCopy> copies_;
 };
 
 }  // namespace tandem::cuda

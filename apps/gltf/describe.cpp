@@ -121,6 +121,7 @@ Json describe_animation(const Scene& scene) {
 void describe_primitives(const Scene& scene, Json& description) {
     description["primitives"] = nullptr;
     description["dropped_primitives"] = nullptr;
+    description["dropped_lights"] = nullptr;
     description["effects"] = nullptr;
     try {
         const PreparedScene prepared = prepare(scene);
@@ -130,6 +131,7 @@ void describe_primitives(const Scene& scene, Json& description) {
 #undef TANDEM_PRIMITIVE
         };
         description["dropped_primitives"] = prepared.dropped_primitives;
+        description["dropped_lights"] = prepared.dropped_lights;
         Json effects = Json::array();
         for (const EffectNeed& need : derive_effects(scene, prepared)) {
             effects.push_back({{"effect", to_string(need.effect)}, {"reason", need.reason}});
@@ -256,7 +258,10 @@ std::string to_text(const Json& description) {
         }
         text += fmt::format("primitives: {} ({})\n", total, kinds);
         if (const auto dropped = description["dropped_primitives"].get<std::size_t>(); dropped > 0) {
-            text += fmt::format("dropped: {} faces without area\n", dropped);
+            text += fmt::format("dropped: {} primitives without extent\n", dropped);
+        }
+        if (const auto dropped = description["dropped_lights"].get<std::size_t>(); dropped > 0) {
+            text += fmt::format("dropped: {} lights without direction, under a scale of 0\n", dropped);
         }
     }
     if (const Json& effects = description["effects"]; !effects.is_null()) {

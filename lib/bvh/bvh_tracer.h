@@ -93,6 +93,7 @@ struct BvhTracerFor {
         const FilterRay<Real> filter = make_filter_ray(ray);
         const SlabRay slab = make_slab_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
         const Double<Real> t_max = best.t;
+        const float start = to_plain(proposal.start_for(source));
         float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
@@ -105,8 +106,8 @@ struct BvhTracerFor {
                 const bvh_detail::Float4 xy1 = bvh_detail::load_float4(node.xy[1]);
                 const bvh_detail::Float4 z = bvh_detail::load_float4(node.z);
                 const bvh_detail::Float4 children = bvh_detail::load_float4(node.child);
-                const float entry0 = slab_entry(slab, xy0.a, xy0.b, xy0.c, xy0.d, z.a, z.b, limit);
-                const float entry1 = slab_entry(slab, xy1.a, xy1.b, xy1.c, xy1.d, z.c, z.d, limit);
+                const float entry0 = slab_entry(slab, xy0.a, xy0.b, xy0.c, xy0.d, z.a, z.b, start, limit);
+                const float entry1 = slab_entry(slab, xy1.a, xy1.b, xy1.c, xy1.d, z.c, z.d, start, limit);
                 const bool enter0 = entry0 <= limit;
                 const bool enter1 = entry1 <= limit;
                 const auto child0 = static_cast<std::int32_t>(bits_of(children.a));

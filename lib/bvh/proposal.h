@@ -8,7 +8,7 @@
 /// along a path of length 2 S. Boxes are padded by 32 u S. Held by tests/agree/structure_test.cpp.
 #pragma once
 
-#include "tandem/geometry/box.h"
+#include "tandem/geometry/ray_source.h"
 
 namespace tandem {
 
@@ -40,14 +40,35 @@ struct Proposal {
         return narrow(select(s < most, s, most));
     }
 
+    /// A float in [0, parameter of true parameter t]: where the structure may start for a ray that has passed a hole at
+    /// t.
+    TANDEM_HD Float<Real> start(const Double<Real>& t) const {
+        using D = Double<Real>;
+        const D zero(0.0);
+        const D before = t - t * constant<D>(is_fast<Real> ? 0x1p-20 : 0x1p-50);
+        const D s = (before - t_offset) * widen(length) * constant<D>(1.0 - 0x1p-18);
+        const auto most = constant<D>(3e38);
+        return narrow(select(s > zero, select(s < most, s, most), zero));
+    }
+    template <class From>
+    TANDEM_HD Float<Real> start_for(const From& source) const {
+        if constexpr (std::is_same_v<From, PathSource<Real>>) {
+            if (any(source.passed.t > Double<Real>(0.0))) [[unlikely]]
+                return start(source.passed.t);
+        }
+        return Float<Real>(0.0F);
+    }
+
     /// The true parameter of a hit that the structure itself found at s, roughly: the rounding of t_offset stays.
     TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 };
 
 namespace proposal_detail {
 
-/// How far from the origin, in reaches of the bounds, a ray may start to be brought to them in float.
+/// For rays that are moved to the bounds in float: how far from the origin they may start, in reaches of the bounds,
+/// and how long their direction has to be. For a shorter one the t of the bounds may exceed a float.
 inline constexpr float near_by = 8192;
+inline constexpr float least_length = 1e-15F;
 
 /// Where rays that start outside the bounds cross them. In float for origins `near_by`: each t errs by less than 4 u t;
 /// 16 u t is allowed for, so that no ray that may touch anything is lost and the entry lies up to 2^-6 of the reach
@@ -100,10 +121,13 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
     };
     const Mask<Real> outside = beyond(limit);
     if (any(outside)) {
-        const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)));
+        const Mask<Real> is_short = active && largest < Real(proposal_detail::least_length);
+        const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)) || is_short);
         const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
         const D zero(0.0);
-        proposal.active = active && (!outside || (c.crosses && c.t_far > zero));
+        // in the tier fast t may be infinite: then the bounds are out of reach
+        const Mask<Real> in_reach = c.t_near < D(__builtin_huge_val());
+        proposal.active = active && (!outside || (c.crosses && c.t_far > zero && in_reach));
         const Mask<Real> move = outside && proposal.active && c.t_near > zero;
         proposal.t_offset = select(move, c.t_near, zero);
         const Vec3<D> o = widen(ray.origin);

@@ -23,16 +23,16 @@ TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
     return {inverse, origin * inverse};
 }
 
-/// Entry into the box within [0, limit]; above `limit` if it is not entered there.
+/// Entry into the box within [start, limit]; above `limit` if it is not entered there.
 TANDEM_HD float slab_entry(const SlabRay& ray, float lower_x, float upper_x, float lower_y, float upper_y,
-                           float lower_z, float upper_z, float limit) {
+                           float lower_z, float upper_z, float start, float limit) {
     const float x0 = loose_multiply_add(lower_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
     const float x1 = loose_multiply_add(upper_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
     const float y0 = loose_multiply_add(lower_y, ray.inverse_direction.y, -ray.origin_over_direction.y);
     const float y1 = loose_multiply_add(upper_y, ray.inverse_direction.y, -ray.origin_over_direction.y);
     const float z0 = loose_multiply_add(lower_z, ray.inverse_direction.z, -ray.origin_over_direction.z);
     const float z1 = loose_multiply_add(upper_z, ray.inverse_direction.z, -ray.origin_over_direction.z);
-    const float entry = fmaxf(fmaxf(fminf(x0, x1), fminf(y0, y1)), fmaxf(fminf(z0, z1), 0.0F));
+    const float entry = fmaxf(fmaxf(fminf(x0, x1), fminf(y0, y1)), fmaxf(fminf(z0, z1), start));
     const float exit = fminf(fminf(fmaxf(x0, x1), fmaxf(y0, y1)), fminf(fmaxf(z0, z1), limit));
     return entry <= exit ? entry : 3.4e38F;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tandem/math/fp_environment.h"
 #include "tandem/scene/motion.h"
 
 namespace tandem {
@@ -111,6 +112,7 @@ void add_material(const Optics& optics, const std::string& name, Needs& needs) {
 }  // namespace
 
 std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& prepared) {
+    const DefaultFpEnvironment guard;
     Needs needs;
     std::vector<bool> used(scene.materials.size(), false);
     for (const std::uint32_t material : prepared.material_of) used[material] = true;

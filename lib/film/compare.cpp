@@ -9,6 +9,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/film/tone_curve.h"
+#include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
@@ -62,6 +63,7 @@ const char* to_string(Tolerance tolerance) {
 }
 
 FilmDifference compare(const Film& a, const Film& b) {
+    const DefaultFpEnvironment guard;
     if (a.width() != b.width() || a.height() != b.height() || a.pixel_count() == 0) {
         throw InputError(fmt::format("cannot compare films of {} x {} and {} x {} pixels", a.width(), a.height(),
                                      b.width(), b.height()));

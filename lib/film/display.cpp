@@ -6,6 +6,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/math/exact_math.h"
+#include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
@@ -25,6 +26,7 @@ std::string in_words(const Display& display) {
 }
 
 double exposure_factor(const Display& display) {
+    const DefaultFpEnvironment guard;
     const double whole = std::floor(display.exposure_stops);
     const double rest = display.exposure_stops - whole;
     return std::ldexp(rest == 0 ? 1 : power<float>(2.0, rest), static_cast<int>(whole));

@@ -8,6 +8,7 @@
 
 #include "tandem/film/display.h"
 #include "tandem/math/exact_math.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/srgb.h"
 
 namespace tandem {
@@ -34,6 +35,7 @@ std::vector<float> sorted_luminances(const FloatImage& image) {
 }  // namespace
 
 double auto_exposure(const FloatImage& image) {
+    const DefaultFpEnvironment guard;
     const std::vector<float> luminances = sorted_luminances(image);
     const std::size_t count = luminances.size();
     if (count == 0) return 0;

@@ -12,6 +12,7 @@
 #include "tandem/error/error.h"
 #include "tandem/film/separable_filter.h"
 #include "tandem/film/tone_curve.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/srgb.h"
 
 namespace tandem {
@@ -172,6 +173,7 @@ void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options)
 }  // namespace
 
 FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
+    const DefaultFpEnvironment guard;
     check(a, b, options);
     const Seen p = seen(a, options), q = seen(b, options);
     const double largest = largest_colour_error();
@@ -190,6 +192,7 @@ FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions&
 }
 
 FloatImage flip_map(const FlipDifference& difference) {
+    const DefaultFpEnvironment guard;
     // Like magma of matplotlib, straight between its quarters.
     static const std::array<Vec3d, 5> quarters = {Vec3d{0, 0, 0.02}, Vec3d{0.32, 0.07, 0.48}, Vec3d{0.72, 0.21, 0.47},
                                                   Vec3d{0.99, 0.54, 0.38}, Vec3d{0.99, 0.99, 0.75}};

@@ -1,5 +1,7 @@
 #include "tandem/film/image.h"
 
+#include "tandem/math/fp_environment.h"
+
 namespace tandem {
 
 namespace {
@@ -12,6 +14,7 @@ std::size_t pixel_count(const FloatImage& image) { return area(image.width, imag
 std::size_t pixel_count(const ByteImage& image) { return area(image.width, image.height); }
 
 FloatImage film_to_image(const Film& film) {
+    const DefaultFpEnvironment guard;
     FloatImage image{film.width(), film.height(), {}};
     image.pixels.resize(film.pixel_count());
     for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = film.mean(i);

@@ -10,6 +10,7 @@
 #include "tandem/error/error.h"
 #include "tandem/film/sha256.h"
 #include "tandem/film/tone_curve.h"
+#include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
@@ -117,11 +118,13 @@ ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFor
 
 EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                           const WriteOptions& options) {
+    const DefaultFpEnvironment guard;
     if (holds_floats(format)) return encode_floats(image, format, metadata, options);
     return encode_levels(tone_map(image, options.display), format, metadata, options);
 }
 
 EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata, const WriteOptions& options) {
+    const DefaultFpEnvironment guard;
     if (holds_floats(format)) {
         const FloatImage image = film_to_image(film);
         film = {};
@@ -151,6 +154,7 @@ void write_image(const std::string& path, Film film, const ImageMetadata& metada
 }
 
 DecodedImage read_image(const std::string& path) {
+    const DefaultFpEnvironment guard;
     const Bytes bytes = read_file(path);
     DecodedImage result = decode(bytes, path);
     if (result.format == ImageFormat::pfm && !result.metadata) result.metadata = read_sidecar(path, bytes);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/srgb.h"
 
 namespace tandem {
@@ -110,14 +111,17 @@ std::uint8_t to_level(float linear, TransferFunction transfer) {
 }
 
 ToneMapped tone_map(const FloatImage& image, const Display& display) {
+    const DefaultFpEnvironment guard;
     return tone_map(image.width, image.height, display, [&](std::size_t i) { return image.pixels[i]; });
 }
 
 ToneMapped tone_map(const Film& film, const Display& display) {
+    const DefaultFpEnvironment guard;
     return tone_map(film.width(), film.height(), display, [&](std::size_t i) { return film.mean(i); });
 }
 
 std::vector<float> values_of_levels(std::uint32_t most, const Display& display) {
+    const DefaultFpEnvironment guard;
     const double factor = exposure_factor(display);
     std::vector<float> values;
     values.reserve(most + 1);

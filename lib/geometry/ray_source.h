@@ -30,6 +30,20 @@ TANDEM_HD Source<Real> to_real(const RaySource& source) {
 /// A source for rays that leave no surface, such as camera rays: the code for sources is then not even compiled.
 struct NoSource {};
 
+/// For rays that go on through holes: what the ray leaves, and the last hole that it has passed. The ray keeps its
+/// origin, and hits count only if they come after that hole in the order of hits, by t and then by id. So what lies in
+/// the plane of a hole, at the same t, is still met.
+template <class Real>
+struct PathSource : Source<Real> {
+    Closest<Real> passed = {Double<Real>(0.0), UInt<Real>(no_primitive)};
+};
+
+/// Does a hit count for a ray that has passed holes?
+template <class Real>
+TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& passed, const Double<Real>& t, const UInt<Real>& primitive) {
+    return t > passed.t || (t == passed.t && primitive > passed.primitive);
+}
+
 /// What a shadow ray leaves, and what it runs to: hits on the light's own primitive do not count.
 template <class Real>
 struct ShadowSource : Source<Real> {
@@ -121,6 +135,22 @@ TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
     return Mask<Real>(false);
 }
 
+/// Is a hit at `t` on primitive `id` on its far side? It is where the ray left the primitive inward, and where the ray
+/// has passed a hole of the body on its near side.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                 const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
+    Mask<Real> far = leaves_inward<Real>(source, id);
+    if constexpr (!is_face<Primitive>) {
+        const Mask<Real> passed = here && !far && source.passed.t > Double<Real>(0.0);
+        if (any(passed)) [[unlikely]] {
+            Double<Real> first(0.0);
+            far = far || (first_in_front(primitive, ray, first, passed) && passed && t > first);
+        }
+    }
+    return far;
+}
+
 /// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`. A point of a
 /// face beyond `farthest` may be left out.
 template <class Real, class Primitive>
@@ -146,6 +176,55 @@ TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& pri
         const Mask<Real> meets = active && (!own || source.inside);
         if (!any(meets)) return meets;
         return first_or_far(primitive, ray, own, meets, t);
+    }
+}
+
+namespace source_detail {
+
+// Where a ray crosses a primitive that it does not start on for the second time; 0 if it does not. Calls, since this is
+// rare: a ray has to pass a hole of a primitive and meet the same primitive again.
+template <class Real, class Body>
+TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
+    Double<Real> t(0.0);
+    (void)first_or_far(body, ray, active, active, t);
+    return t;
+}
+template <class Real>
+TANDEM_HD_CALL Double<Real> second_crossing_of_quad(Quad quad, Ray<Real> ray, Mask<Real> active) {
+    Double<Real> t_first(0.0), t_second(0.0);
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, active);
+    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active);
+    return select(first && second, greater(t_first, t_second), Double<Real>(0.0));
+}
+
+}  // namespace source_detail
+
+// A ray may meet a primitive again that it met before the last hole: a body where it leaves it, a folded quad at its
+// other half.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
+    const UInt<Real> number(id);
+    const Source<Real>& surface = source;
+    if constexpr (std::is_same_v<Primitive, Triangle>) {
+        const Mask<Real> other = active && source.passed.primitive != number;
+        return first_from(surface, primitive, id, ray, other, farthest, t) && is_beyond<Real>(source.passed, t, number);
+    } else {
+        Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
+        const Mask<Real> before =
+            hit && source.passed.t > Double<Real>(0.0) && !is_beyond<Real>(source.passed, t, number);
+        if (any(before)) [[unlikely]] {
+            Double<Real> again;
+            if constexpr (std::is_same_v<Primitive, Quad>) {
+                again = source_detail::second_crossing_of_quad<Real>(primitive, ray, before);
+            } else {
+                again = source_detail::second_crossing<Real>(primitive, ray, before);
+            }
+            t = select(before, again, t);
+            hit = hit && (!before || is_beyond<Real>(source.passed, t, number));
+        }
+        return hit;
     }
 }
 

@@ -164,13 +164,27 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ra
     return spawn_detail::plane_point(quad.v0, select(first, a, b), ray, t);
 }
 
-/// The point of primitive `id` at t of a ray that comes from `source` (NoSource or Source<Real>). `kinds`: the ones
-/// that it may be of.
+/// is_far_side() of primitive `id`, whatever its type.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const From& source,
+                                   const Double<Real>& t, const Mask<Real>& here) {
+    Mask<Real> far = leaves_inward<Real>(source, id);
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        if (!any(source.passed.t > Double<Real>(0.0))) return far;
+        visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+            far = is_far_side<Real>(source, primitive, id, ray, t, here);
+        });
+    }
+    return far;
+}
+
+/// The point of primitive `id` at t of a ray that comes from `source` (NoSource, Source<Real> or PathSource<Real>).
+/// `kinds`: the ones that it may be of.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
                                               const From& source, const Double<Real>& t,
                                               const Mask<Real>& here = Mask<Real>(true)) {
-    const Mask<Real> exits = leaves_inward<Real>(source, id);
+    const Mask<Real> exits = hits_far_side<kinds>(scene, id, ray, source, t, here);
     SurfacePoint<Real> point;
     visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
         point = surface_point(primitive, ray, t, exits, here);
@@ -224,14 +238,23 @@ TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<
     return {{departure(from, inside), direction}, {from.primitive, inside}};
 }
 
+/// The part at its end that a shadow ray leaves out, relative to its length. The ray's direction is rounded, so
+/// rounding would decide whether it meets a surface that the light lies on. With the gap it does not meet such a
+/// surface, if the cosine to its normal is above 1 / 16.
+template <class Real>
+inline constexpr double shadow_gap = std::is_same_v<Scalar<Real>, double> ? 0x1p-49
+                                     : is_fast<Real>                      ? 0x1p-18
+                                                                          : 0x1p-20;
+
 /// A shadow ray, for Tracer::occluded(). Its light is at t = 1, or infinitely far.
 template <class Real>
 struct ShadowRay {
     Ray<Real> ray;
     ShadowSource<Real> source;
-    Double<Real> t_max = Double<Real>(1.0);
-    Mask<Real>
-        active;  ///< false where the light is at the very point: such a ray has no direction, and brings no light
+    Double<Real> t_max = constant<Double<Real>>(1.0 - shadow_gap<Real>);
+    /// False where the light is at the point itself, so that the ray has no direction, and where the ray cannot be
+    /// traced because it left the range of the tier fast. Both bring no light.
+    Mask<Real> active;
 };
 
 /// The shadow ray to a light at the point `to` or, where it `is_far`, in the direction `to`. `light`: the light's own
@@ -247,8 +270,8 @@ TANDEM_HD ShadowRay<Real> spawn_shadow_ray(const SurfacePoint<Real>& from, const
     shadow.source.light = light;
     shadow.ray.origin = departure(from, shadow.source.inside);
     shadow.ray.direction = select(is_far, to, to_real<Real>(widen(to) - widen(shadow.ray.origin)));
-    shadow.t_max = select(is_far, D(__builtin_huge_val()), D(1.0));
-    shadow.active = is_far || (is_traceable(shadow.ray) && norm1(to_light) > D(0.0));
+    shadow.t_max = select(is_far, D(__builtin_huge_val()), shadow.t_max);
+    shadow.active = is_traceable(shadow.ray) && (is_far || norm1(to_light) > D(0.0));
     return shadow;
 }
 

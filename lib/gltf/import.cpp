@@ -21,6 +21,7 @@
 #include "tandem/gltf/skins.h"
 #include "tandem/gltf/structure.h"
 #include "tandem/gltf/textures.h"
+#include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
@@ -286,6 +287,7 @@ class SceneBuilder {
 }  // namespace
 
 ImportResult import_gltf(const std::filesystem::path& file) {
+    const DefaultFpEnvironment guard;
     ImportReport report;
     FlawLog flaws(report);
     Document document = gltf::read_document(file, flaws);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tandem/gltf/materials.h"
@@ -32,6 +34,16 @@ void read_cone(const Json& light, const std::string& path, LightSource& source, 
                "its innerConeAngle is not below its outerConeAngle; Tandem takes a sharp edge at that one");
 }
 
+/// Kernels read colour times intensity, as floats.
+void limit_brightness(const std::string& path, LightSource& source, ImportReport& report) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    const float brightest = std::max({source.colour.x, source.colour.y, source.colour.z});
+    if (!(double{brightest} * double{source.intensity} > double{largest})) return;
+    source.intensity = std::nextafter(largest / brightest, 0.0F);
+    report.add(Treatment::approximated, "brightness of a light", path,
+               "its color times its intensity is beyond 3.4e38; Tandem takes that");
+}
+
 }  // namespace
 
 std::optional<LightSource> read_light(const Json& light, const std::string& path, ImportReport& report) {
@@ -53,6 +65,7 @@ std::optional<LightSource> read_light(const Json& light, const std::string& path
     source.inverse_square = falls_off && source.kind != LightKind::directional;
     // what Phong's model takes for a surface to be as bright as a Lambertian one under that illuminance
     if (falls_off) source.intensity = static_cast<float>(source.intensity / std::numbers::pi);
+    limit_brightness(path, source, report);
     report.add(Treatment::rendered, feature, path,
                falls_off ? "in candela, or lux from one direction" : "Phong's model takes colour times intensity");
     return source;

@@ -1,6 +1,8 @@
 #include "tandem/gltf/optics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tandem/gltf/materials.h"
 
@@ -61,7 +63,13 @@ Optics read_optics(const Json& material, const std::string& path, ImportReport& 
     if (find(material, "emissiveFactor") != nullptr) {
         const Json* strength = find_extension(material, "KHR_materials_emissive_strength");
         const float factor = strength == nullptr ? 1.0F : strength->value("emissiveStrength", 1.0F);
-        optics.emission = read_colour(material, "emissiveFactor", {0, 0, 0}) * factor;
+        const Vec3f emission = read_colour(material, "emissiveFactor", {0, 0, 0}) * factor;
+        constexpr float largest = std::numeric_limits<float>::max();
+        optics.emission = {std::min(emission.x, largest), std::min(emission.y, largest), std::min(emission.z, largest)};
+        if (optics.emission != emission) {
+            report.add(Treatment::approximated, "emission", path + ".emissiveFactor",
+                       "times the emissiveStrength it is beyond 3.4e38; Tandem takes that");
+        }
         if (optics.emission != Vec3f{0, 0, 0}) {
             report.add(Treatment::rendered, "emission", path + ".emissiveFactor",
                        "the surface glows, and lights others by its area");

@@ -74,7 +74,7 @@ TANDEM_HD Rgba<Real> base_colour(const MaterialTextures& textures, bool on_face,
     if (textures.diffuse.texture != no_texture) colour = values.texture(textures.diffuse);
     if (on_face && textures.colour_slot != no_slot) {
         const Rgba<Real> corners = values.colour(textures.colour_slot);
-        colour = {colour.r * corners.r, colour.g * corners.g, colour.b * corners.b, colour.a * corners.a};
+        colour = {colour.r * corners.r, colour.g * corners.g, colour.b * corners.b, times_alpha(colour.a, corners.a)};
     }
     return colour;
 }

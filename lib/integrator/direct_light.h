@@ -3,6 +3,7 @@
 
 #include "tandem/integrator/block.h"
 #include "tandem/integrator/glow.h"
+#include "tandem/integrator/light_choice.h"
 #include "tandem/integrator/shadow.h"
 #include "tandem/light/punctual_light.h"
 #include "tandem/material/phong.h"
@@ -11,60 +12,20 @@ namespace tandem {
 
 template <class Effects, class Real>
 TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const Surface<Real>& surface,
-                                             const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer) {
+                                             const SurfacePoint<Real>& point, const Vec3<Double<Real>>& position,
+                                             const Vec3<Double<Real>>& to_viewer) {
     const LightRay<Real> ray = light_at<Effects, Real>(light, position);
     IncidentLight<Real> result;
     result.reflected = phong_light(surface.diffuse, surface.specular, surface.shininess, ray.intensity, surface.normal,
                                    ray.to_light, to_viewer);
     if (Effects::has(Effect::shadows)) {
         const bool is_far = Effects::has(Effect::directional_lights) && light.kind == PunctualKind::directional;
-        result.to = broadcast<Real>(is_far ? -light.direction : light.position);
+        result.to = is_far ? constant<Real>(-light.direction) : broadcast<Real>(light.position);
         result.is_far = Mask<Real>(is_far);
         result.casts_shadows = Mask<Real>(light.casts_shadows != 0);
+        if (light.casts_shadows != 0) keep_in_front(surface, point, ray.to_light, result);
     }
     return result;
-}
-
-/// One of several lights, chosen with a chance in proportion to what each would bring if nothing stood in its way: so a
-/// vertex of a path that is followed by chance anyway needs one shadow ray, and its noise is that of the shadows alone.
-/// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
-/// 1996; for weights that come one after the other, M. T. Chao, "A general purpose unequal probability sampling plan",
-/// Biometrika 69(3), 1982.
-template <class Real>
-class LightChoice {
-  public:
-    /// `u`: uniform in [0, 1).
-    TANDEM_HD explicit LightChoice(const Real& u) : u_(u) {}
-
-    TANDEM_HD void offer(const IncidentLight<Real>& light) {
-        const Real weight = norm1(light.reflected);
-        const Real before = total_;
-        total_ = total_ + weight;
-        const Real place = u_ * total_;
-        const Mask<Real> taken = weight > Real(0.0F) && !(place < before);
-        u_ = select(taken, (place - before) / weight, select(before > Real(0.0F), place / before, u_));
-        chosen_ = select(taken, light, chosen_);
-        weight_ = select(taken, weight, weight_);
-    }
-
-    /// The light, brighter by what the chance leaves out: on average it brings what all do.
-    [[nodiscard]] TANDEM_HD IncidentLight<Real> chosen() const {
-        IncidentLight<Real> light = chosen_;
-        light.reflected = chosen_.reflected * (total_ / weight_);
-        return light;
-    }
-
-  private:
-    Real u_;
-    Real total_ = Real(0.0F);
-    Real weight_ = Real(1.0F);
-    IncidentLight<Real> chosen_ = {{Real(0.0F), Real(0.0F), Real(0.0F)}, {Real(0.0F), Real(0.0F), Real(1.0F)}};
-};
-
-/// The number for LightChoice.
-template <class Real>
-TANDEM_HD Real light_choice(const SampleId<Real>& sample, const UInt<Real>& vertex) {
-    return to_unit_interval<Real>(sample.block_at_vertex(Dimension::light, vertex).word[0]);
 }
 
 /// Phong's sum over all that gives light, with the ambient term, at `position` in the lanes of `found`. `point`: the
@@ -89,13 +50,13 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     const std::uint32_t punctual = Effects::light_count(scene.light_count);
     const std::uint32_t count = punctual + (area ? 1U : 0U) + (sky ? 1U : 0U);
     const bool by_chance = indirect && count > 1;
-    LightChoice<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : Real(0.0F));
+    LightChoice<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : PhiloxBlock<UInt<Real>>{});
     // one more round, for the chosen one: so shadow rays start from one place
     for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
         IncidentLight<Real> light = {black, black};
         if (any_reflects) {  // a thread without makes the rounds as well: those of a block keep together
             if (i < punctual) {
-                light = punctual_light<Effects, Real>(scene.lights[i], surface, position, to_viewer);
+                light = punctual_light<Effects, Real>(scene.lights[i], surface, point, position, to_viewer);
             } else if (i == count) {
                 light = choice.chosen();
             } else if (area && i == punctual) {

@@ -27,27 +27,41 @@ TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Do
     using D = Double<Real>;
     return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
 }
+/// Can the halves of a quad be seen before each other? Not those of one that is flat, but for the rounding of its
+/// corners, and whose diagonal lies within it.
+template <class Real>
+TANDEM_HD bool overlaps(const Quad& quad) {
+    using S = Scalar<Double<Real>>;
+    const Vec3<S> to1 = Vec3<S>(quad.v1) - Vec3<S>(quad.v0);
+    const Vec3<S> to2 = Vec3<S>(quad.v2) - Vec3<S>(quad.v0);
+    const Vec3<S> to3 = Vec3<S>(quad.v3) - Vec3<S>(quad.v0);
+    const Vec3<S> normal = cross(to1, to2);
+    const bool is_flat = absolute(dot(to3, normal)) <= S(0x1p-20) * (norm1(to3) * norm1(normal));
+    return !is_flat || !(dot(normal, cross(to2, to3)) > S(0));
+}
 template <class Real>
 TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point) {
     using D = Double<Real>;
     return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
-                                 broadcast<D>(face.v3));
+                                 broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
 }
 
 /// Where light leaves in `direction`, unit, towards what it lights: a sphere shines from its outside, a face from its
-/// front, or from both sides if it is double-sided. Of a quad the half that the point lies on does not matter to a
-/// plane one; of a bent one the first counts.
+/// front, or from both sides if it is double-sided. The halves of a quad know it themselves.
 template <class Real>
 TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
     using D = Double<Real>;
     const Vec3<D> offset = point - broadcast<D>(sphere.centre);
     return dot(offset, offset) > D(sphere.radius) * D(sphere.radius);
 }
-template <class Real, class Face>
-requires(!std::is_same_v<Face, Sphere>) TANDEM_HD Mask<Real> shines(const Face& face, const Vec3<Double<Real>>&,
-                                                                    const Vec3<Double<Real>>& direction) {
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Triangle& face, const Vec3<Double<Real>>&, const Vec3<Double<Real>>& direction) {
     if (is_double_sided(face.attributes)) return Mask<Real>(true);
     return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
+}
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<Double<Real>>&) {
+    return Mask<Real>(true);
 }
 
 }  // namespace glow_detail
@@ -61,14 +75,14 @@ TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Re
     using D = Double<Real>;
     D result(0.0);
     for_each_value(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const float chance = chance_of(scene.area_lights, scene.area_light_count, id);
-        if (!(chance > 0.0F)) return;
+        const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
+        if (!(chance > 0.0)) return;
         visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
             if constexpr (glow_detail::is_light<Body>) {
                 if (!may_glow(kind_of<Body>)) return;
                 const D pdf = pdf_of(glow_detail::view_light<Real>(body, point), direction);
-                result = select(here, pdf * D(chance), result);
+                result = select(here, pdf * constant<D>(chance), result);
             }
         });
     });
@@ -88,12 +102,12 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     const D zero(0.0);
     const Real nothing(0.0F);
     const auto random = sample.block_at_vertex(Dimension::area_light, vertex);
-    const Real which = to_unit_interval<Real>(random.word[0]);
     const D u = widen(to_unit_interval<Real>(random.word[1]));
     const D v = widen(to_unit_interval<Real>(random.word[2]));
     Word light(0U);
     for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-        set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, to_plain(lane(which, i))));
+        const std::uint64_t number = std::uint64_t{lane(random.word[0], i)} << 32 | lane(random.word[3], i);
+        set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, number));
     }
     const Vec3<D> position = widen(point.position);
     LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
@@ -114,10 +128,10 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
                 if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
                 const MaterialTextures& textures = scene.textures.materials[material];
                 if (textures.emission.texture == no_texture) return;
-                emitted = emitted * light_picture<Real>(scene, textures, body, of_light.point);
+                emitted = emitted * light_picture<Real>(scene, textures, body, of_light);
             }
         });
-        const D pdf = select(lights, of_light.pdf * D(chosen.chance), zero);
+        const D pdf = select(lights, of_light.pdf * constant<D>(chosen.chance), zero);
         drawn.direction = select(here, of_light.direction, drawn.direction);
         drawn.point = select(here, of_light.point, drawn.point);
         drawn.pdf = select(here, pdf, drawn.pdf);
@@ -138,11 +152,13 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     const auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
                                    surface.normal, drawn.direction, to_viewer);
     result.reflected = select(seen, value, result.reflected);
+    if (scene.area_lights_cast_shadows != 0) keep_in_front(surface, point, drawn.direction, result);
     return result;
 }
 
-/// What a matt surface reflects of the background, by one direction. For scenes without indirect light; with it, the
-/// path that goes on brings it.
+/// What a matt surface reflects of the background, by one direction about its normal, whichever side is seen: so the
+/// walls of a closed body are not black from inside. For scenes without indirect light; with it, the path that goes on
+/// brings it.
 template <class Real>
 TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
                                                      const SampleId<Real>& sample, const UInt<Real>& vertex) {

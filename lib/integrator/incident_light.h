@@ -1,7 +1,7 @@
 /// One light as a vertex of a path receives it.
 #pragma once
 
-#include "tandem/geometry/spawn_ray.h"
+#include "tandem/integrator/surface.h"
 
 namespace tandem {
 
@@ -20,5 +20,20 @@ struct IncidentLight {
                 select(mask, a.casts_shadows, b.casts_shadows)};
     }
 };
+
+/// Removes the light where it is behind the surface: behind the normal for shading, or on the other side of the surface
+/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not ask for
+/// L . N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it.
+/// For lights that cast shadows. `to_light`: the direction that the light was shaded with.
+template <class Real>
+TANDEM_HD void keep_in_front(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Vec3<Double<Real>>& to_light, IncidentLight<Real>& light) {
+    const Double<Real> zero(0.0);
+    const Double<Real> height = dot(to_light, point.normal);
+    const Mask<Real> across = !(select(point.from_inside, -height, height) > zero);
+    const Mask<Real> behind = across || !(dot(to_light, surface.normal) > zero);
+    const Real none(0.0F);
+    light.reflected = select(behind, Vec3<Real>{none, none, none}, light.reflected);
+}
 
 }  // namespace tandem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/integrator/corner_values.h"
+#include "tandem/light/light_sample.h"
 
 namespace tandem {
 
@@ -34,39 +35,33 @@ TANDEM_HD TexturePoint<Real> on_triangle(const Vec3f& v0, const Vec3f& v1, const
 
 // `texcoords`: the values of the slot, as for parametrisation(). The point is on the surface but for rounding.
 template <class Real>
-TANDEM_HD TexturePoint<Real> texture_point(const Sphere& sphere, const Vec2f*, const Vec3<Double<Real>>& point) {
-    const auto at = parametrisation_detail::on_globe<Real>(point - broadcast<Double<Real>>(sphere.centre));
+TANDEM_HD TexturePoint<Real> texture_point(const Sphere& sphere, const Vec2f*, const LightSample<Real>& drawn) {
+    const auto at = parametrisation_detail::on_globe<Real>(drawn.point - broadcast<Double<Real>>(sphere.centre));
     return {at.u, at.v};
 }
 template <class Real>
 TANDEM_HD TexturePoint<Real> texture_point(const Triangle& face, const Vec2f* texcoords,
-                                           const Vec3<Double<Real>>& point) {
+                                           const LightSample<Real>& drawn) {
     const auto corner = parametrisation_detail::corners_of(face, texcoords);
     return light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1], corner.uv[2],
-                                                   point);
+                                                   drawn.point);
 }
-/// Of the two triangles the one on whose side of the diagonal the point lies.
 template <class Real>
-TANDEM_HD TexturePoint<Real> texture_point(const Quad& face, const Vec2f* texcoords, const Vec3<Double<Real>>& point) {
-    using D = Double<Real>;
+TANDEM_HD TexturePoint<Real> texture_point(const Quad& face, const Vec2f* texcoords, const LightSample<Real>& drawn) {
     const auto corner = parametrisation_detail::corners_of(face, texcoords);
-    const Vec3<D> origin = broadcast<D>(face.v0);
-    const Vec3<D> diagonal = broadcast<D>(face.v2) - origin;
-    const Vec3<D> across = cross(diagonal, point - origin);
-    const Mask<Real> first = dot(across, cross(diagonal, broadcast<D>(face.v1) - origin)) > D(0.0);
     const auto a = light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1],
-                                                           corner.uv[2], point);
+                                                           corner.uv[2], drawn.point);
     const auto b = light_picture_detail::on_triangle<Real>(face.v0, face.v2, face.v3, corner.uv[0], corner.uv[2],
-                                                           corner.uv[3], point);
-    return {select(first, a.u, b.u), select(first, a.v, b.v)};
+                                                           corner.uv[3], drawn.point);
+    return {select(drawn.in_second_half, b.u, a.u), select(drawn.in_second_half, b.v, a.v)};
 }
 
-/// What multiplies the emission of `body`, a sphere or a face, at `point`.
+/// What multiplies the emission of `body`, a sphere or a face, at the point that was drawn.
 template <class Real, class Body>
 TANDEM_HD Vec3<Real> light_picture(const SceneView& scene, const MaterialTextures& textures, const Body& body,
-                                   const Vec3<Double<Real>>& point) {
+                                   const LightSample<Real>& drawn) {
     const TextureUse& use = textures.emission;
-    const TexturePoint<Real> at = texture_point<Real>(body, scene.texcoords + use.slot * corner_count<Body>, point);
+    const TexturePoint<Real> at = texture_point<Real>(body, scene.texcoords + use.slot * corner_count<Body>, drawn);
     const Rgba<Real> texel = sample<Real>(scene.textures, use, at.u, at.v);
     return {texel.r, texel.g, texel.b};
 }

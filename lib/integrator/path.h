@@ -36,19 +36,41 @@ TANDEM_HD_STEP void step_to_vertex(const SceneView& scene, const Ray<Real>& ray,
     find_vertex<Effects, kinds>(scene, ray, source, hit, found, vertex);
 }
 
-/// The share of a surface's own light that a path may count which has found it: the rest is what was drawn from the
-/// lights at the vertex before.
+/// The share of its own light that a surface gives to a path which has found it, in the lanes of `glows`: the rest was
+/// drawn from the lights at the vertex before. `point`: where the path has met the surface.
+///
+/// Method: both densities of the power heuristic belong to the point that the direction was drawn for, `drawn_at`. The
+/// ray starts a little above a face, and from there a near light is larger. So the light is scaled by the quotient of
+/// its projected solid angles, as seen from `drawn_at` and from the ray's origin.
 template <class Effects, class Real>
 TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real, true>& path, const Closest<Real>& hit,
-                          const Mask<Real>& found) {
+                          const SurfacePoint<Real>& point, const Mask<Real>& glows) {
     using D = Double<Real>;
     const Real whole(1.0F);
     if (!Effects::has(Effect::indirect) || !Effects::has(Effect::area_lights)) return whole;
-    const Mask<Real> shared = found && path.pdf > D(0.0);
+    const Mask<Real> shared = glows && path.pdf > D(0.0);
     if (scene.area_light_count == 0 || !any(shared)) return whole;
-    const Vec3<D> direction = normalize(widen(path.ray.direction));
-    const D other = area_light_pdf<Real>(scene, hit.primitive, widen(path.ray.origin), direction, shared);
-    return select(shared, to_real<Real>(power_heuristic(path.pdf, other)), whole);
+    const D zero(0.0);
+    const D one(1.0);
+    const Vec3<D> drawn_at = widen(path.drawn_at);
+    const Vec3<D> raised = widen(path.ray.origin) - drawn_at;  // along the normal, if at all
+    const Vec3<D> along = widen(path.ray.direction);
+    const Vec3<D> way = {raised.x + hit.t * along.x, raised.y + hit.t * along.y, raised.z + hit.t * along.z};
+    const D inverse = inverse_square_root(dot(way, way));
+    const Vec3<D> direction = way * inverse;
+    const D length2 = dot(along, along);
+    const D shorter = hit.t * square_root(length2) * inverse;  // the ray's length over that of `way`
+    const D cosine = path.pdf * constant<D>(pi);
+    const D seen_cosine = cosine * shorter + square_root(dot(raised, raised)) * inverse;
+    const D facing = dot(along, point.normal) * inverse_square_root(length2);
+    const Mask<Real> faces = facing != zero;
+    const D turned = select(faces, dot(direction, point.normal) / select(faces, facing, one), one);
+    // where the light is seen edge on the quotient has no bound
+    const D growth = ((seen_cosine / cosine) * turned) * (shorter * shorter);
+    const D bounded = select(growth < D(2.0), greater(growth, zero), D(2.0));
+    const D other = area_light_pdf<Real>(scene, hit.primitive, drawn_at, direction, shared);
+    const D share = power_heuristic(cosine_hemisphere_pdf(seen_cosine), other) * bounded;
+    return select(shared, to_real<Real>(share), whole);
 }
 
 namespace path_detail {
@@ -124,7 +146,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
                  const UInt<Real>& number, const Closest<Real>& hit, PathState<Effects, Real>& path,
                  Vec3<Real>& radiance, PathTally<Real>& tally) {
     using D = Double<Real>;
-    const Source<Real> source = path.source;
+    const PathSource<Real> source = path.source;
     Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
     const Mask<Real> missed = path.alive && !found;
     path.alive = found;
@@ -146,7 +168,8 @@ requires(can_bounce<Effects>()) TANDEM_HD
         holes = found && !vertex.surface.opaque;
         if (Effects::has(Effect::cutouts)) found = found && !holes;
         if (Effects::has(Effect::emission)) {
-            const Real share = seen_share<Effects>(scene, path, hit, found);
+            const Mask<Real> glows = found && norm1(vertex.surface.emission) > Real(0.0F);
+            const Real share = seen_share<Effects>(scene, path, hit, vertex.point, glows);
             // what is unlit lights nothing: paths that a surface has scattered do not see it
             const Mask<Real> dark =
                 Mask<Real>(Effects::has(Effect::indirect)) && vertex.surface.unlit && path.pdf > D(0.0);
@@ -170,7 +193,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     const Mask<Real> lost =
         scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, meeting, path);
     tally.lost_media = tally.lost_media + select(lost, UInt<Real>(1U), UInt<Real>(0U));
-    if (Effects::has(Effect::cutouts) && any(holes)) pass_through(vertex.point, meeting, holes, path);
+    if (Effects::has(Effect::cutouts) && any(holes)) pass_through(hit, holes, path);
 }
 
 }  // namespace tandem

@@ -29,13 +29,14 @@ struct PathState<Effects, Real, true> {
 
     Ray<Real> ray{};
     Mask<Real> alive;
-    Source<Real> source{};
+    PathSource<Real> source{};
     Vec3<Real> throughput = {Real(1.0F), Real(1.0F), Real(1.0F)};
     UInt<Real> reflections = UInt<Real>(0U);
     UInt<Real> refractions = UInt<Real>(0U);
     UInt<Real> scatterings = UInt<Real>(0U);  ///< by matt surfaces
     UInt<Real> holes = UInt<Real>(0U);
     Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a matt surface chose it; else 0
+    Vec3<Real> drawn_at{};                 ///< the point for which it did; `ray` may start a little above it
     Media media;
 
     /// Of no path yet.
@@ -51,6 +52,7 @@ struct PathState<Effects, Real, true> {
         alive = alive || active;
         source.primitive = select(active, Word(no_primitive), source.primitive);
         source.inside = source.inside && !active;
+        forget_holes(active);
         throughput = select(active, Vec3<Real>{one, one, one}, throughput);
         reflections = select(active, none, reflections);
         refractions = select(active, none, refractions);
@@ -60,17 +62,25 @@ struct PathState<Effects, Real, true> {
         media = select(active, media_at_camera<Effects>(scene, Media()), media);
     }
 
+    /// Of a new ray, in the lanes of `active`.
+    TANDEM_HD void forget_holes(const Mask<Real>& active) {
+        if (!Effects::has(Effect::cutouts)) return;
+        source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
+        source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
+    }
+
     /// References to all that has a value per lane.
     TANDEM_HD auto per_lane() {
         auto& [origin, direction] = ray;
-        return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
-                                       source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
-                                       reflections, refractions, scatterings, holes, pdf),
-                              media.per_lane());
+        return std::tuple_cat(
+            std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive, source.primitive,
+                     source.inside, source.passed.t, source.passed.primitive, throughput.x, throughput.y, throughput.z,
+                     reflections, refractions, scatterings, holes, pdf, drawn_at.x, drawn_at.y, drawn_at.z),
+            media.per_lane());
     }
 
-    /// Over the segment of `ray` that ends at t, in the lanes of `active`. `own`: the medium that the path is in if
-    /// bodies lie apart.
+    /// Over the segment of `ray` from the last hole to t, in the lanes of `active`. `own`: the medium that the path is
+    /// in if bodies lie apart.
     TANDEM_HD void absorb(const SceneView& scene, const Double<Real>& t, const UInt<Real>& own,
                           const Mask<Real>& active) {
         using D = Double<Real>;
@@ -78,7 +88,8 @@ struct PathState<Effects, Real, true> {
         const UInt<Real> medium = current_medium<Effects>(scene, media, own);
         if (!any(active && medium != UInt<Real>(no_medium))) return;
         const Vec3<D> direction = widen(ray.direction);
-        const D distance = t * square_root(dot(direction, direction));
+        const D passed = Effects::has(Effect::cutouts) ? t - source.passed.t : t;
+        const D distance = passed * square_root(dot(direction, direction));
         throughput = throughput * transmittance<Real>(scene, medium, distance, active);
     }
 };

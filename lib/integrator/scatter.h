@@ -87,15 +87,12 @@ TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<
 
 }  // namespace scatter_detail
 
-/// Sends the path on in its direction, through the hole that it has met, in the lanes of `holes`.
+/// Sends the path on along its ray, through the hole that it has met, in the lanes of `holes`.
 template <class Effects, class Real>
-TANDEM_HD void pass_through(const SurfacePoint<Real>& point, const Meeting<Real>& meeting, const Mask<Real>& holes,
-                            PathState<Effects, Real, true>& path) {
+TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, PathState<Effects, Real, true>& path) {
     using Word = UInt<Real>;
-    const Mask<Real> inside = !meeting.from_inside;
-    path.ray.origin = select(holes, departure(point, inside), path.ray.origin);
-    path.source.primitive = select(holes, point.primitive, path.source.primitive);
-    path.source.inside = select(holes, inside, path.source.inside);
+    path.source.passed.t = select(holes, hole.t, path.source.passed.t);
+    path.source.passed.primitive = select(holes, hole.primitive, path.source.passed.primitive);
     path.holes = path.holes + select(holes, Word(1U), Word(0U));
     path.alive = path.alive || (holes && path.holes <= Word(most_holes));
 }
@@ -165,6 +162,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     }
     if (Effects::has(Effect::indirect)) {
         path.pdf = select(active, D(0.0), path.pdf);
+        if (Effects::has(Effect::area_lights)) path.drawn_at = select(active, point.position, path.drawn_at);
         if (any(takes_matt)) {
             const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
             const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
@@ -198,6 +196,9 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
     path.source.primitive = select(active, point.primitive, path.source.primitive);
     path.source.inside = select(active, inside, path.source.inside);
+    path.forget_holes(active);
+    // a ray of the tier fast may have left the range of float
+    if (is_fast<Real>) path.alive = path.alive && is_traceable(path.ray);
     return lost && path.alive;
 }
 

@@ -42,28 +42,21 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
     if (!Effects::has(Effect::cutouts) || (!is_linked && scene.has_cutouts == 0)) {
         return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
     }
-    Ray<Real> ray = shadow.ray;
-    Source<Real> source = shadow.source;
+    PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;
     Mask<Real> stopped(false);
     for (std::uint32_t holes = 0; holes < most_holes; ++holes) {
-        const Closest<Real> hit = nearest_hit<Effects>(tracer, ray, source, open);
+        const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open);
         const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
         if (!any(met)) return stopped;
         const Mask<Real> passes =
-            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, ray, source, hit, met);
+            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, met);
         stopped = stopped || (met && !passes);
         open = met && passes;
         if (!any(open)) return stopped;
         count_rays<Effects, Real>(open, rays);
-        const SurfacePoint<Real> point = surface_point<Tracer::kinds>(scene, ray, source, hit, open);
-        const Mask<Real> inside = dot(widen(ray.direction), point.normal) < Double<Real>(0.0);
-        ray.origin = select(open, departure(point, inside), ray.origin);
-        // a ray of finite length leads to the light from wherever it goes on
-        const Mask<Real> aims = open && !light.is_far;
-        ray.direction = select(aims, to_real<Real>(widen(light.to) - widen(ray.origin)), ray.direction);
-        open = open && (light.is_far || is_traceable(ray));
-        source = {point.primitive, inside};
+        source.passed.t = select(open, hit.t, source.passed.t);
+        source.passed.primitive = select(open, hit.primitive, source.passed.primitive);
     }
     return stopped || open;
 }

@@ -111,7 +111,7 @@ TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& 
         if (!has_textures(scene.textures)) return;
         const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
         if (!(textures.alpha_cutoff > 0.0F)) return;
-        const Mask<Real> exits = leaves_inward<Real>(source, primitive);
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
         CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
         const Real alpha = base_colour(textures, on_face, values).a;
         opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
@@ -143,7 +143,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                              UInt<Real>(0U),           black, Real(0.0F), black};
     for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         Vec3<D> normal = surface.normal;
-        const Mask<Real> exits = leaves_inward<Real>(source, primitive);
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
         const std::uint32_t number = scene.material_of[primitive];
         const Real one(1.0F);
         Rgba<Real> picture = {one, one, one, one};

@@ -7,19 +7,23 @@
 
 namespace tandem {
 
-/// A sphere, triangle or quad that glows.
+/// A sphere, triangle or quad that glows. A number of 64 bits chooses one of them: each light has a range of its
+/// values, in the order of the lights, and the light's chance is exactly the length of its range over 2^64, however
+/// small.
 struct AreaLight {
+    std::uint64_t last;  ///< of its range, which starts behind that of the light before it
+    double chance;       ///< with which it is chosen
     std::uint32_t primitive;
-    float chance;       ///< with which it is chosen among all, in proportion to its power
-    float chance_upto;  ///< sum of the chances of the lights before it and its own; 1 for the last
+    std::uint32_t unused = 0;  ///< what alignment would leave undefined
 };
+static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
-/// The light that u of [0, 1) chooses: its place in `lights`, which are not none.
-TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, float u) {
+/// The light that a uniform number chooses: its place in `lights`, which are not none.
+TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
-        if (u < lights[middle].chance_upto) {
+        if (number <= lights[middle].last) {
             last = middle;
         } else {
             first = middle + 1;
@@ -29,7 +33,7 @@ TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t
 }
 
 /// The chance of a primitive, 0 for one that is no light. `lights` are in the order of their primitives.
-TANDEM_HD float chance_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
+TANDEM_HD double chance_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
     std::uint32_t first = 0, end = count;
     while (first < end) {
         const std::uint32_t middle = (first + end) / 2;
@@ -39,7 +43,7 @@ TANDEM_HD float chance_of(const AreaLight* lights, std::uint32_t count, std::uin
             end = middle;
         }
     }
-    return first < count && lights[first].primitive == primitive ? lights[first].chance : 0.0F;
+    return first < count && lights[first].primitive == primitive ? lights[first].chance : 0.0;
 }
 
 }  // namespace tandem

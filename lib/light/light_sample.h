@@ -11,6 +11,7 @@ struct LightSample {
     Vec3<Double<Real>> point;      ///< on the light, world space
     Double<Real> distance;         ///< from the lit point, metres
     Double<Real> pdf;              ///< of the direction with respect to solid angle, 1/sr; 0: there is nothing to see
+    Mask<Real> in_second_half = Mask<Real>(false);  ///< of a quad: `point` is on the triangle (v0, v2, v3)
 };
 
 /// How far beyond a border a direction still counts as one of the light, relative: samples are rounded, and none may

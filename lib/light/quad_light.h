@@ -1,29 +1,43 @@
 /// The quadrilateral as a light: the triangles (v0, v1, v2) and (v0, v2, v3), each sampled by its solid angle.
 #pragma once
 
+#include "tandem/geometry/face_sides.h"
 #include "tandem/light/triangle_light.h"
 
 namespace tandem {
+
+/// How a quad that glows is made.
+struct QuadLightShape {
+    FaceSides sides = FaceSides::double_sided;
+    bool overlaps = true;  ///< one half may hide the other from some points
+};
 
 template <class Real>
 struct QuadLightView {
     TriangleLightView<Real> first;
     TriangleLightView<Real> second;
-    Double<Real> solid_angle;  ///< sr: of both; folded halves that hide each other count twice
+    Double<Real> solid_angle;  ///< sr: of the halves that shine towards the point
+    QuadLightShape shape;
 };
 
-/// Needs and gives: as view_triangle_light() of the halves. A rectangle has a map of its own (C. Urena, M. Fajardo,
-/// A. King, "An Area-Preserving Parametrization for Spherical Rectangles", EGSR 2013); two spherical triangles do for
-/// every quad, and for one whose corners are not in a plane too.
-/// Held by tests/unit/light/quad_light_test.cpp, also of all below.
+/// Needs and gives: as view_triangle_light() of the halves. Each half shines from its own front, or from both sides.
+/// A rectangle has a map of its own (C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical
+/// Rectangles", EGSR 2013); two spherical triangles do for every quad, and for one that is folded too.
+/// Held by tests/unit/light/quad_light_test.cpp, also of all below, and by the case M15 of the hard corpus.
 template <class Real>
 TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
                                               const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
-                                              const Vec3<Double<Real>>& v3) {
+                                              const Vec3<Double<Real>>& v3, const QuadLightShape& shape = {}) {
+    using D = Double<Real>;
     QuadLightView<Real> view;
     view.first = view_triangle_light<Real>(point, v0, v1, v2);
     view.second = view_triangle_light<Real>(point, v0, v2, v3);
+    if (shape.sides != FaceSides::double_sided) {
+        view.first.solid_angle = select(view.first.shows_front, view.first.solid_angle, D(0.0F));
+        view.second.solid_angle = select(view.second.shows_front, view.second.solid_angle, D(0.0F));
+    }
     view.solid_angle = view.first.solid_angle + view.second.solid_angle;
+    view.shape = shape;
     return view;
 }
 
@@ -43,7 +57,8 @@ TANDEM_HD TriangleLightView<Real> choose(const Mask<Real>& mask, const TriangleL
             select(mask, a.cosine, b.cosine),
             select(mask, a.cotangent, b.cotangent),
             select(mask, a.cross2, b.cross2),
-            select(mask, a.solid_angle, b.solid_angle)};
+            select(mask, a.solid_angle, b.solid_angle),
+            select(mask, a.shows_front, b.shows_front)};
 }
 
 /// Probability of one half.
@@ -53,10 +68,29 @@ TANDEM_HD Double<Real> share(const QuadLightView<Real>& view, const TriangleLigh
     return half.solid_angle / select(view.solid_angle > D(0.0F), view.solid_angle, D(1.0F));
 }
 
+/// Two distances that differ by less than this, relative, belong to one point: on the diagonal, or where the halves
+/// coincide. Rays meet the first half there.
+template <class Real>
+inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
+
+/// Where the other half hides a point of one half at `distance`, metres. A back that is culled hides nothing, and on
+/// the diagonal neither half hides the other.
+template <class Real>
+TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const TriangleLightView<Real>& other,
+                               const Vec3<Double<Real>>& direction, const Double<Real>& distance,
+                               const Mask<Real>& other_is_first) {
+    using D = Double<Real>;
+    const TriangleLightHit<Real> hit = find_on_light(other, direction, direction_slack<Real>);
+    const D slack = constant<D>(same_distance<Real>);
+    const D reach = distance * select(other_is_first, D(1.0F) + slack, D(1.0F) - slack);
+    const Mask<Real> is_there = Mask<Real>(view.shape.sides != FaceSides::culled) || other.shows_front;
+    return hit.meets && is_there && hit.distance * other.unit < reach;
+}
+
 }  // namespace quad_light_detail
 
-/// Uniform among the directions that meet the quad: u chooses a half in proportion to its solid angle and is stretched
-/// again to [0, 1].
+/// Uniform among the directions of both halves that shine towards the point: u chooses a half in proportion to its
+/// solid angle and is stretched again to [0, 1]. The density is 0 where the other half hides the point that was drawn.
 template <class Real>
 TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const Double<Real>& u,
                                          const Double<Real>& v) {
@@ -69,19 +103,33 @@ TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const 
     const D stretched = lesser(rest / select(half.solid_angle > D(0.0F), half.solid_angle, one), one);
     LightSample<Real> sample = sample_light(half, stretched, v);
     sample.pdf = sample.pdf * quad_light_detail::share(view, half);
+    sample.in_second_half = !is_first;
+    if (view.shape.overlaps) {
+        const auto other = quad_light_detail::choose<Real>(is_first, view.second, view.first);
+        const Mask<Real> hidden =
+            quad_light_detail::is_hidden(view, other, sample.direction, sample.distance, !is_first);
+        sample.pdf = select(hidden, D(0.0F), sample.pdf);
+    }
     return sample;
 }
 
-/// Density of sample_light() for a unit direction: 0 beside the quad. On the diagonal it is that of the first half.
+/// Density of sample_light() for a unit direction: that of the half that is seen there, on the diagonal the first one;
+/// 0 beside the quad.
 template <class Real>
 TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
-    const D first = pdf_of(view.first, direction);
-    const D second = pdf_of(view.second, direction);
-    const Mask<Real> is_first = first > D(0.0F);
-    const D share_first = quad_light_detail::share(view, view.first);
-    const D share_second = quad_light_detail::share(view, view.second);
-    return select(is_first, first * share_first, second * share_second);
+    const TriangleLightHit<Real> first = find_on_light(view.first, direction, -direction_slack<Real>);
+    const TriangleLightHit<Real> second = find_on_light(view.second, direction, -direction_slack<Real>);
+    const D reach = first.distance * view.first.unit * (D(1.0F) - constant<D>(quad_light_detail::same_distance<Real>));
+    const Mask<Real> is_there = Mask<Real>(view.shape.sides != FaceSides::culled) || view.second.shows_front;
+    const Mask<Real> in_second =
+        second.meets && (!first.meets || (is_there && second.distance * view.second.unit < reach) ||
+                         !(Mask<Real>(view.shape.sides != FaceSides::culled) || view.first.shows_front));
+    const D of_first =
+        triangle_light_detail::density(view.first, first.distance) * quad_light_detail::share(view, view.first);
+    const D of_second =
+        triangle_light_detail::density(view.second, second.distance) * quad_light_detail::share(view, view.second);
+    return select(in_second, of_second, select(first.meets, of_first, D(0.0F)));
 }
 
 }  // namespace tandem

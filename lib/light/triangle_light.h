@@ -20,9 +20,10 @@ struct TriangleLightView {
     // of the angle at a between the planes (a, b) and (a, c), both times |a x b| |a x c|
     D sine;
     D cosine;
-    D cotangent;    ///< |a| |b| + a . b: cotangent of half the angle between a and b, times |a x b|
-    D cross2;       ///< |a x c|
-    D solid_angle;  ///< sr; 0 where the triangle is seen edge on
+    D cotangent;             ///< |a| |b| + a . b: cotangent of half the angle between a and b, times |a x b|
+    D cross2;                ///< |a x c|
+    D solid_angle;           ///< sr; 0 where the triangle is seen edge on
+    Mask<Real> shows_front;  ///< it is seen from the side that its normal points to
 };
 
 namespace triangle_light_detail {
@@ -93,7 +94,9 @@ TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> 
     const D product_ab = length_a * square_root(dot(b, b));
     const D product_ac = length_a * square_root(dot(c, c));
     const D cross2_ac = dot(plane2, plane2);
-    view.volume = absolute(dot(a, normal));
+    const D facing = dot(a, normal);
+    view.shows_front = facing < zero;
+    view.volume = absolute(facing);
     view.sine = view.volume * length_a;
     view.cosine = dot(plane1, plane2);
     view.cotangent = one_plus_cosine(product_ab, dot(a, b), dot(plane1, plane1));
@@ -181,23 +184,35 @@ TANDEM_HD_SHARED LightSample<Real> sample_light(TriangleLightView<Real> view, Do
     return sample;
 }
 
-/// Density of sample_light() for a unit direction: 0 beside the triangle.
+/// Where a line from the point meets a triangle.
 template <class Real>
-TANDEM_HD_SHARED Double<Real> pdf_of(TriangleLightView<Real> view, Vec3<Double<Real>> direction) {
+struct TriangleLightHit {
+    Mask<Real> meets;
+    Double<Real> distance;  ///< in units of the view
+};
+
+/// For a unit direction. `within`: how far inside the border a hit has to be, relative; below 0 it may be outside.
+template <class Real>
+TANDEM_HD_SHARED TriangleLightHit<Real> find_on_light(TriangleLightView<Real> view, Vec3<Double<Real>> direction,
+                                                      double within) {
     using D = Double<Real>;
-    const D zero(0.0F);
     const Vec3<D> normal = accurate_cross(view.edge1, view.edge2);
-    const D facing = dot(view.corner, normal);
-    const D sign = select(facing < zero, D(-1.0F), D(1.0F));
+    const D sign = select(view.shows_front, D(-1.0F), D(1.0F));
     // volumes with the edges, of one sign where the line crosses the triangle, as in geometry/triangle.h
     const D speed = sign * dot(direction, normal);
     const D w2 = sign * dot(direction, accurate_cross(view.corner, view.edge1));
     const D w1 = -sign * dot(direction, accurate_cross(view.corner, view.edge2));
     const D w0 = speed - w1 - w2;
-    const D slack = -constant<D>(direction_slack<Real>) * (norm1(view.edge1) + norm1(view.edge2));
-    const Mask<Real> meets = speed > zero && w0 >= slack && w1 >= slack && w2 >= slack;
-    const D distance = view.volume / select(meets, speed, D(1.0F));
-    return select(meets, triangle_light_detail::density(view, distance), zero);
+    const D least = constant<D>(within) * (norm1(view.edge1) + norm1(view.edge2));
+    const Mask<Real> meets = speed > D(0.0F) && w0 >= least && w1 >= least && w2 >= least;
+    return {meets, view.volume / select(meets, speed, D(1.0F))};
+}
+
+/// Density of sample_light() for a unit direction: 0 beside the triangle.
+template <class Real>
+TANDEM_HD Double<Real> pdf_of(const TriangleLightView<Real>& view, const Vec3<Double<Real>>& direction) {
+    const TriangleLightHit<Real> hit = find_on_light(view, direction, -direction_slack<Real>);
+    return select(hit.meets, triangle_light_detail::density(view, hit.distance), Double<Real>(0.0F));
 }
 
 }  // namespace tandem

@@ -9,9 +9,11 @@
 
 #include "tandem/error/error.h"
 #include "tandem/integrator/pixel_job.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/oracle/oracle_path.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/seconds.h"
+#include "tandem/render/traced_job.h"
 
 namespace tandem {
 
@@ -34,9 +36,11 @@ bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
 
 class OracleScene final : public ResidentScene {
   public:
-    OracleScene(const PreparedScene& scene, Tier tier) : ResidentScene(tier), prepared(scene) {}
+    OracleScene(const PreparedScene& scene, Tier tier)
+        : ResidentScene(tier), prepared(without_copies(scene)), copies(scene.copies) {}
     [[nodiscard]] PhaseTimes load_times() const override { return {}; }
     PreparedScene prepared;
+    std::vector<PrimitiveCopy> copies;  ///< that it is without
 };
 
 class OracleBackend final : public Backend {
@@ -57,34 +61,16 @@ class OracleBackend final : public Backend {
     }
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job);
-        const SceneView scene_view = view(dynamic_cast<const OracleScene&>(scene).prepared);
-        const Stopwatch watch;
-        std::atomic<std::uint64_t> rejected = 0;
-        for_each_block(job.rays.size(), 256, [&](std::size_t i) {
-            const RaySource source = job.sources.empty() ? RaySource{} : job.sources[i];
-            const std::uint32_t except = job.ends.empty() ? no_primitive : job.ends[i].light;
-            NearestSurface nearest;
-            if (is_traceable(job.rays[i])) {
-                nearest = nearest_surface(scene_view, line_of(job.rays[i]), source, except);
-            } else {
-                ++rejected;
-            }
-            const Real t = nearest.surface.t;
-            if (!job.ends.empty()) {
-                const bool occluded = nearest.primitive != no_primitive && t < Real{job.ends[i].t};
-                job.hits[i] = {0, occluded ? some_primitive : no_primitive};
-            } else {
-                job.hits[i] = {static_cast<float>(t), nearest.primitive};
-            }
-            if (!job.wide_t.empty()) job.wide_t[i] = job.ends.empty() ? static_cast<double>(t) : 0;
-        });
-        if (job.counters != nullptr) job.counters->rejected_rays += rejected;
-        return watch.seconds();
+        const auto& resident = dynamic_cast<const OracleScene&>(scene);
+        return trace_without_copies(resident.copies, job,
+                                    [&](const TraceJob& traced) { return trace(view(resident.prepared), traced); });
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                        const RenderJob& job) override {
+        const DefaultFpEnvironment guard;
         check(job, scene->tier());
         const PreparedScene& prepared = dynamic_cast<const OracleScene&>(*scene).prepared;
         const PixelJob pixel_job = make_pixel_job(prepared, job);
@@ -104,11 +90,37 @@ class OracleBackend final : public Backend {
         result.stats.effects = prepared.effects;
         result.stats.counters.invalid_samples = invalid;
         result.stats.counters.dropped_primitives = prepared.dropped_primitives;
+        result.stats.counters.dropped_lights = prepared.dropped_lights;
         result.stats.variant = "brute force";
         return std::make_unique<ReadyFrame>(std::move(result));
     }
 
   private:
+    [[nodiscard]] double trace(const SceneView& scene, const TraceJob& job) const {
+        const Stopwatch watch;
+        std::atomic<std::uint64_t> rejected = 0;
+        for_each_block(job.rays.size(), 256, [&](std::size_t i) {
+            const RaySource source = job.sources.empty() ? RaySource{} : job.sources[i];
+            const std::uint32_t except = job.ends.empty() ? no_primitive : job.ends[i].light;
+            NearestSurface nearest;
+            if (is_traceable(job.rays[i])) {
+                nearest = nearest_surface(scene, line_of(job.rays[i]), source, except);
+            } else {
+                ++rejected;
+            }
+            const Real t = nearest.surface.t;
+            if (!job.ends.empty()) {
+                const bool occluded = nearest.primitive != no_primitive && t < Real{job.ends[i].t};
+                job.hits[i] = {0, occluded ? some_primitive : no_primitive};
+            } else {
+                job.hits[i] = {static_cast<float>(t), nearest.primitive};
+            }
+            if (!job.wide_t.empty()) job.wide_t[i] = job.ends.empty() ? static_cast<double>(t) : 0;
+        });
+        if (job.counters != nullptr) job.counters->rejected_rays += rejected;
+        return watch.seconds();
+    }
+
     /// `T`: what the tier's camera rays are given in.
     template <class T>
     static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel,

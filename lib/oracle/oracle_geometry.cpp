@@ -28,9 +28,13 @@ std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Triangle& tria
     return hit_face({{triangle.v0, triangle.v1, triangle.v2}, {0, 1, 2}}, triangle.attributes, scene.normals, line);
 }
 std::optional<SurfaceHit> hit_shape(const SceneView& scene, const Quad& quad, const Line& line, Start start) {
-    if (start != Start::anywhere) return std::nullopt;
+    if (start != Start::anywhere && start != Start::before_first) return std::nullopt;
     const auto first = hit_face({{quad.v0, quad.v1, quad.v2}, {0, 1, 2}}, quad.attributes, scene.normals, line);
     const auto second = hit_face({{quad.v0, quad.v2, quad.v3}, {0, 2, 3}}, quad.attributes, scene.normals, line);
+    if (start == Start::before_first) {
+        if (!first || !second) return std::nullopt;
+        return first->t < second->t ? second : first;
+    }
     return !first || (second && second->t < first->t) ? second : first;
 }
 
@@ -48,7 +52,7 @@ std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Li
     const Vector foot = from_centre + along * to_foot;
     const Real height2 = radius * radius - inner(foot, foot);
     if (!(height2 >= 0)) {
-        if (start == Start::anywhere) return std::nullopt;
+        if (start != Start::leaving_inward) return std::nullopt;
         return SurfaceHit{ahead(to_foot / speed), unit(foot)};  // it goes by, a rounding error outside
     }
     const Real half_chord = std::sqrt(height2);
@@ -60,7 +64,7 @@ std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Li
     const Real entry = std::min(far_root, other);
     const Real exit = std::max(far_root, other);
     if (start == Start::leaving_inward) return SurfaceHit{ahead(exit / speed), unit(from_centre + along * exit)};
-    const Real s = entry > 0 ? entry : exit;
+    const Real s = entry > 0 && start == Start::anywhere ? entry : exit;
     if (!(s > 0)) return std::nullopt;
     return SurfaceHit{s / speed, unit(from_centre + along * s)};
 }
@@ -93,7 +97,7 @@ std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, cons
     if (start == Start::leaving_inward) return SurfaceHit{ahead(exit), exit_normal};
     const bool crosses = in_x && in_y && in_z && entry <= exit;
     if (!crosses) return std::nullopt;
-    if (entry > 0) return SurfaceHit{entry, entry_normal};
+    if (entry > 0 && start == Start::anywhere) return SurfaceHit{entry, entry_normal};
     if (exit > 0) return SurfaceHit{exit, exit_normal};
     return std::nullopt;
 }

@@ -38,8 +38,9 @@ struct SurfaceHit {
     FaceSides sides = FaceSides::single_sided;
 };
 
-/// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in.
-enum class Start { anywhere, leaving_outward, leaving_inward };
+/// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in; or anywhere, but its
+/// second crossing is asked for.
+enum class Start { anywhere, leaving_outward, leaving_inward, before_first };
 
 /// The nearest crossing in front of the origin. One that leaves the body outward has none; one that leaves it inward
 /// has its far side, at the smallest t there is if rounding has put the origin behind that.

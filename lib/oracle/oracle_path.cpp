@@ -54,7 +54,8 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
         return texture_point(scene, nearest.primitive, vertex.point, nearest.surface, slot);
     };
     vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
-    vertex.is_hole = vertex.is_hole || Real{textures.alpha} * vertex.picture.a < Real{textures.alpha_cutoff};
+    vertex.is_hole =
+        vertex.is_hole || product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
     const Texel glow =
         optics.unlit != 0 ? vertex.picture : sample_texture(scene, textures.emission, at(textures.emission.slot));
     vertex.emission = times(vertex.emission, {glow.r, glow.g, glow.b});
@@ -74,22 +75,27 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     return vertex;
 }
 
+/// What lies within this of the end of a way, relative to its length, lies at the end.
+constexpr Real rounding = 0x1p-45L;
+
 /// Does anything but holes and `except` stand on the way from `vertex`, up to `to` times `way`?
 bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
                 std::uint32_t except = no_primitive) {
-    Line ray = {vertex.point, way};
-    RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
-    Real done = 0;
+    const Line ray = {vertex.point, way};
+    const RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
+    Passed passed;
     while (true) {
-        const NearestSurface between = nearest_surface(scene, ray, source, except);
-        if (between.primitive == no_primitive) return false;
-        done += between.surface.t;
-        if (done >= to) return false;
-        const Vertex met = vertex_at(scene, ray, between);
-        if (!met.is_hole) return true;
-        ray.origin = met.point;
-        source = {met.primitive, !met.from_inside};
+        const NearestSurface between = nearest_surface(scene, ray, source, except, passed);
+        if (between.primitive == no_primitive || between.surface.t >= to) return false;
+        if (!vertex_at(scene, ray, between).is_hole) return true;
+        passed = {between.surface.t, between.primitive};
     }
+}
+
+/// Is a light in the direction l on the side of the surface that is looked at, and before the normal for shading?
+bool is_in_front(const Vertex& vertex, const Vector& l) {
+    const Real side = vertex.from_inside ? -1 : 1;
+    return inner(l, vertex.facet) * side > 0 && inner(l, vertex.normal) > 0;
 }
 
 /// Numbers of its own in [0, 1), for what it estimates otherwise than the backends.
@@ -121,8 +127,8 @@ Vector on_hemisphere(const Vector& n, Chance& chance) {
 bool is_shadowed(const SceneView& scene, const PunctualLight& light, const Vertex& vertex) {
     const bool directional = light.kind == PunctualKind::directional;
     const Vector to_light = directional ? to_vector(light.direction) * -1 : to_vector(light.position) - vertex.point;
-    if (inner(to_light, to_light) == 0) return true;  // at the very light
-    return is_stopped(scene, vertex, to_light, directional ? HUGE_VALL : 1);
+    if (!is_in_front(vertex, to_light)) return true;  // behind the surface itself, or at the very point
+    return is_stopped(scene, vertex, to_light, directional ? HUGE_VALL : 1 - rounding);
 }
 
 /// What a light brings to a point, without regard to shadows, and the unit direction to it.
@@ -133,10 +139,13 @@ Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_ligh
         return intensity;
     }
     const Vector offset = to_vector(light.position) - point;
+    to_light = offset;
+    if (inner(offset, offset) == 0) return light.inverse_square != 0 ? Vector{0, 0, 0} : intensity;
     to_light = unit(offset);
     if (light.kind == PunctualKind::spot) {
-        const Real cosine = -inner(to_light, to_vector(light.direction));
-        const Real share = (cosine - Real{light.cos_outer}) * Real{light.cone_scale};
+        const Vector axis = to_vector(light.direction);
+        const Vector chord = to_light + axis;  // from the axis to the light's way to the point; 2 - 2 cos is its square
+        const Real share = (Real{light.cone_height} - inner(chord, chord) / 2) * Real{light.cone_scale};
         intensity = intensity * std::pow(std::clamp<Real>(share, 0, 1), 2);
     }
     if (light.inverse_square != 0) intensity = intensity * (1 / inner(offset, offset));
@@ -226,6 +235,25 @@ bool is_double_sided(const SceneView& scene, std::uint32_t id) {
     return result;
 }
 
+/// Does the other half of a quad stand before the point that was drawn on one, or lie upon it with the lower number?
+bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex& vertex, const Vector& way,
+                          const LightPoint& light) {
+    bool behind = false;
+    visit_primitive(scene, id, [&](const auto& body) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(body)>, Quad>) {
+            const bool is_second = light.hit.corner[1] == 2;
+            const FaceCorners first = {{body.v0, body.v1, body.v2}, {0, 1, 2}};
+            const FaceCorners second = {{body.v0, body.v2, body.v3}, {0, 2, 3}};
+            const auto other =
+                hit_face(is_second ? first : second, body.attributes, scene.normals, {vertex.point, way});
+            if (!other) return;
+            const bool is_there = body.attributes.sides != FaceSides::culled || inner(other->facet, way) < 0;
+            behind = is_there && other->t < 1 + (is_second ? rounding : -rounding);
+        }
+    });
+    return behind;
+}
+
 /// From all surfaces that glow: a point of each, by area.
 Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
     Vector sum{0, 0, 0};
@@ -240,8 +268,11 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
         if (is_double_sided(scene, id)) cosine = std::abs(cosine);
         if (!(cosine > 0)) continue;
         const Vector reflected = phong(material, vertex, l) * (cosine * light.area / (pi * distance2));
-        if (!(largest(reflected) > 0)) continue;
-        if (scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, way, 1, id)) continue;
+        if (!(largest(reflected) > 0) || is_behind_other_half(scene, id, vertex, way, light)) continue;
+        if (scene.area_lights_cast_shadows != 0 &&
+            (!is_in_front(vertex, l) || is_stopped(scene, vertex, way, 1 - rounding, id))) {
+            continue;
+        }
         sum = sum + times(reflected, emission_at(scene, id, light));
     }
     return sum;
@@ -329,15 +360,22 @@ Vector mirrored(const Vector& d, const Vector& n) { return unit(d - n * (2 * inn
 
 }  // namespace
 
-NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
-                               std::uint32_t except) {
+NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source, std::uint32_t except,
+                               const Passed& passed) {
     NearestSurface nearest;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         if (id == except) continue;
+        const auto is_beyond = [&](const SurfaceHit& hit) {
+            return hit.t > passed.t || (hit.t == passed.t && id > passed.primitive);
+        };
         const Start start = id != source.primitive ? Start::anywhere
                             : source.inside        ? Start::leaving_inward
                                                    : Start::leaving_outward;
-        const auto hit = hit_primitive(scene, id, line, start);
+        auto hit = hit_primitive(scene, id, line, start);
+        // what it has met before it may cross once more: a body, or a folded quad
+        if (hit && !is_beyond(*hit) && start == Start::anywhere)
+            hit = hit_primitive(scene, id, line, Start::before_first);
+        if (hit && !is_beyond(*hit)) continue;
         // ids ascend, so a tie keeps the lower one
         if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
     }
@@ -348,12 +386,13 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
                   const Line& camera_ray) {
     Line ray = camera_ray;
     RaySource source;
+    Passed passed;
     Vector radiance{0, 0, 0}, throughput{1, 1, 1};
     Media media(scene);
     std::uint32_t reflections = 0, refractions = 0, scatterings = 0;
     bool was_scattered = false;  // by a matt surface, at the vertex before
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
-        const NearestSurface nearest = nearest_surface(scene, ray, source);
+        const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, passed);
         if (nearest.primitive == no_primitive) {
             const bool shows = !was_scattered || scene.environment.illuminates != 0;
             const Vector seen = background_towards(scene.environment, ray.direction);
@@ -367,14 +406,12 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const std::uint32_t medium = scene.media_overlap != 0 ? media.current() : own;
         if (medium != no_medium) {
             const Vector a = to_vector(scene.optics[medium].absorption);
-            const Vector way = vertex.point - ray.origin;
-            const Real distance = std::sqrt(inner(way, way));
+            const Real distance = (nearest.surface.t - passed.t) * std::sqrt(inner(ray.direction, ray.direction));
             throughput =
                 times(throughput, {std::exp(-a.x * distance), std::exp(-a.y * distance), std::exp(-a.z * distance)});
         }
         if (vertex.is_hole) {
-            ray.origin = vertex.point;
-            source = {vertex.primitive, !vertex.from_inside};
+            passed = {nearest.surface.t, nearest.primitive};
             continue;
         }
         // what is drawn from lights at one vertex is not found again at the next
@@ -431,6 +468,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         }
         ray = {vertex.point, onward};
         source = {vertex.primitive, through ? !vertex.from_inside : vertex.from_inside};
+        passed = {};
     }
 }
 

@@ -14,9 +14,16 @@ struct NearestSurface {
     std::uint32_t primitive = no_primitive;
 };
 
-/// In front of a line that comes from `source`; ties go to the lower id. Hits on `except` do not count.
+/// Up to where a line has met all that counts, in the order of hits: by t, then by id.
+struct Passed {
+    Real t = 0;
+    std::uint32_t primitive = no_primitive;
+};
+
+/// In front of a line that comes from `source`, beyond `passed`; ties go to the lower id. Hits on `except` do not
+/// count.
 [[nodiscard]] NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
-                                             std::uint32_t except = no_primitive);
+                                             std::uint32_t except = no_primitive, const Passed& passed = {});
 
 /// Radiance along a camera ray.
 [[nodiscard]] Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,

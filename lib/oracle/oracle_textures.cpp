@@ -164,6 +164,8 @@ Texel sample_texture(const SceneView& scene, const TextureUse& use, const Textur
     return sum;
 }
 
+Real product_of_alphas(Real a, Real b) { return static_cast<float>(a) * static_cast<float>(b); }
+
 Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& point, const SurfaceHit& hit) {
     const MaterialTextures& textures = scene.textures.materials[scene.material_of[id]];
     Texel colour = sample_texture(scene, textures.diffuse, texture_point(scene, id, point, hit, textures.diffuse.slot));
@@ -174,7 +176,7 @@ Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& poi
     if (!on_face || textures.colour_slot == no_slot) return colour;
     const TexturePoint rg = texture_point(scene, id, point, hit, textures.colour_slot);
     const TexturePoint ba = texture_point(scene, id, point, hit, textures.colour_slot + 1);
-    return {colour.r * rg.u, colour.g * rg.v, colour.b * ba.u, colour.a * ba.v};
+    return {colour.r * rg.u, colour.g * rg.v, colour.b * ba.u, product_of_alphas(colour.a, ba.v)};
 }
 
 }  // namespace tandem::oracle

@@ -21,6 +21,9 @@ struct Texel {
 };
 [[nodiscard]] Texel sample_texture(const SceneView& scene, const TextureUse& use, const TexturePoint& at);
 
+/// As floats: alphas are compared with one.
+[[nodiscard]] Real product_of_alphas(Real a, Real b);
+
 /// The base colour of the material of primitive `id`: its texture times the colours of a face's corners.
 [[nodiscard]] Texel base_colour_at(const SceneView& scene, std::uint32_t id, const Vector& point,
                                    const SurfaceHit& hit);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tandem/math/fp_environment.h"
+
 namespace tandem {
 
 namespace {
@@ -29,6 +31,7 @@ Backdrop::Backdrop(const PreparedScene& scene, int width, int height)
     : camera_(camera_view(scene, width, height)), environment_(scene.environment) {}
 
 FloatImage Backdrop::foreground(const Film& film) const {
+    const DefaultFpEnvironment guard;
     FloatImage image = film_to_image(film);
     std::size_t i = 0;
     for (int y = 0; y < image.height; ++y) {

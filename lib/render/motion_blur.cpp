@@ -7,6 +7,7 @@
 
 #include "tandem/effects/derive.h"
 #include "tandem/film/sha256.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/render/seconds.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"
@@ -33,10 +34,12 @@ void add_once(std::string& list, const std::string& text) {
 
 void add(RenderStats& total, const RenderStats& part) {
     add(total.seconds, part.seconds);
-    // a fact of the scene, not something that happened to a sample
-    const std::uint64_t dropped = std::max(total.counters.dropped_primitives, part.counters.dropped_primitives);
+    // facts of the scene, not something that happened to a sample
+    const std::uint64_t primitives = std::max(total.counters.dropped_primitives, part.counters.dropped_primitives);
+    const std::uint64_t lights = std::max(total.counters.dropped_lights, part.counters.dropped_lights);
     total.counters += part.counters;
-    total.counters.dropped_primitives = dropped;
+    total.counters.dropped_primitives = primitives;
+    total.counters.dropped_lights = lights;
     total.rays += part.rays;
     total.device_bytes = std::max(total.device_bytes, part.device_bytes);
     total.registers = std::max(total.registers, part.registers);
@@ -112,6 +115,7 @@ class Exposure {
 }  // namespace
 
 FramePlan plan_frame(const Scene& scene, const PrepareOptions& options, const RenderJob& job) {
+    const DefaultFpEnvironment guard;
     const EffectMask forced = options.effects.on & host_effects;
     FramePlan at_once{{{options, job}}, forced};
     if (options.time || options.effects.off.has(Effect::motion_blur)) return at_once;
@@ -154,6 +158,7 @@ std::string frame_hash(const Scene& scene, const FramePlan& plan) {
 }
 
 RenderedFrame render_frame(Backend& backend, const Scene& scene, const FramePlan& plan, FrameHash* hash) {
+    const DefaultFpEnvironment guard;
     return Exposure(backend, plan).render(scene, hash);
 }
 

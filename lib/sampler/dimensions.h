@@ -11,10 +11,10 @@ enum class Dimension : std::uint32_t {
     film = 0,         ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
     scatter = 1,      ///< number 0: how a path goes on; 1: reflected or refracted; 2: Russian roulette
     lens = 2,         ///< numbers 0 and 1: point of the lens. Of the path, at vertex 0.
-    area_light = 3,   ///< number 0: which light; 1 and 2: where on it
+    area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: where on it
     hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a matt surface
     environment = 5,  ///< numbers 0 and 1: direction to the background
-    light = 6,        ///< number 0: which of the lights has a shadow ray
+    light = 6,        ///< all four: which of the lights has a shadow ray (light_choice.h)
 };
 
 namespace sampler_detail {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tandem/math/fp_environment.h"
+
 namespace tandem {
 
 namespace {
@@ -101,6 +103,7 @@ bool stays(const AnimationChannel& channel, std::size_t key) {
 }  // namespace
 
 bool changes_between(const AnimationChannel& channel, double from, double to) {
+    const DefaultFpEnvironment guard;
     for (std::size_t key = 0; key + 1 < channel.times.size(); ++key) {
         const double start = double{channel.times[key]}, end = double{channel.times[key + 1]};
         if (channel.interpolation == Interpolation::step) {
@@ -130,6 +133,7 @@ std::vector<std::size_t> parents_first(const Scene& scene) {
 }
 
 std::vector<Transform> parents_from_nodes(const Scene& scene, double time) {
+    const DefaultFpEnvironment guard;
     std::vector<Trs> poses;
     poses.reserve(scene.nodes.size());
     for (const Node& node : scene.nodes) poses.push_back(node.trs);
@@ -157,6 +161,7 @@ std::vector<Transform> parents_from_nodes(const Scene& scene, double time) {
 }
 
 std::vector<Transform> world_from_nodes(const Scene& scene, double time) {
+    const DefaultFpEnvironment guard;
     const std::vector<Transform> local = parents_from_nodes(scene, time);
     std::vector<Transform> world(local.size());
     for (const std::size_t at : parents_first(scene)) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "tandem/scene/emissive_texture.h"
 
@@ -21,13 +22,36 @@ double area_of(const Body&) {
     return 0;
 }
 
+/// This part of the chances is shared equally, and the rest by power, since a weak light may be near and a strong one
+/// hidden.
+constexpr double shared_alike = 1.0 / 8;
+
+/// Gives every light its range of the numbers of 64 bits. `powers`: of each, above 0; their sum is finite.
+void share_out(std::vector<AreaLight>& lights, const std::vector<double>& powers) {
+    if (lights.empty()) return;
+    const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
+    const auto by_power = [&](double power) {
+        return static_cast<std::uint64_t>(power / total * ((1 - shared_alike) * 0x1p64));
+    };
+    std::uint64_t rest = 0;  // 2^64 less what is shared by power, modulo 2^64
+    for (const double power : powers) rest -= by_power(power);
+    const std::uint64_t count = lights.size();
+    const std::uint64_t each = rest / count, left_over = rest % count;
+    std::uint64_t end = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const std::uint64_t numbers = by_power(powers[i]) + each + (i < left_over ? 1 : 0);
+        end += numbers;
+        lights[i].last = end - 1;
+        lights[i].chance = count == 1 ? 1 : static_cast<double>(numbers) * 0x1p-64;
+    }
+}
+
 }  // namespace
 
 void find_area_lights(PreparedScene& prepared) {
     const SceneView scene = view(prepared);
     EmissiveTextures textures(scene);
     std::vector<double> powers;
-    double total = 0;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         const Optics& optics = scene.optics[scene.material_of[id]];
         if (optics.unlit != 0) continue;
@@ -43,20 +67,10 @@ void find_area_lights(PreparedScene& prepared) {
         if (power > 0) power *= textures.brightness(id);
         if (!(power > 0)) continue;
         prepared.area_light_kinds |= kind;
-        total += power;
         powers.push_back(power);
-        prepared.area_lights.push_back({id, 0, 0});
+        prepared.area_lights.push_back({0, 0, id});
     }
-    // The chances are the steps between the sums that are compared, as rounding has left them.
-    double sum = 0;
-    float before = 0;
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-        sum += powers[i];
-        AreaLight& light = prepared.area_lights[i];
-        light.chance_upto = static_cast<float>(sum / total);
-        light.chance = light.chance_upto - before;
-        before = light.chance_upto;
-    }
+    share_out(prepared.area_lights, powers);
 }
 
 }  // namespace tandem

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/frame.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"
@@ -110,6 +111,7 @@ bool has_light(const Scene& scene) {
 }
 
 void add_default_light(Scene& scene, std::size_t camera) {
+    const DefaultFpEnvironment guard;
     scene.environment = sky;
     const Transform world_from_camera = world_from_nodes(scene, time_of_frame(scene, 0))[camera];
     const Matrix3 axes = camera_axes(world_from_camera).value_or(Matrix3{});

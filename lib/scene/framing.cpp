@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tandem/error/error.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/surface_reach.h"
 
@@ -168,6 +169,7 @@ std::string view_names() {
 bool is_view(const std::string& name) { return find_view(name) != nullptr; }
 
 Framing frame_scene(const Scene& scene, const std::string& name, double aspect) {
+    const DefaultFpEnvironment guard;
     const View* view = find_view(name);
     if (view == nullptr) throw InputError(fmt::format("there is no view '{}'; take one of {}", name, view_names()));
     if (!(aspect > 0 && std::isfinite(aspect))) {

@@ -7,9 +7,12 @@
 #include <map>
 #include <numbers>
 
+#include "tandem/math/fp_environment.h"
+
 namespace tandem {
 
 Mesh icosphere(int level) {
+    const DefaultFpEnvironment guard;
     Mesh mesh;
     mesh.name = fmt::format("icosphere {}", level);
     std::vector<Vec3d> points;

@@ -7,6 +7,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/gltf/import.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/default_light.h"
 #include "tandem/scene/framing.h"
@@ -42,6 +43,7 @@ std::size_t take_camera(ImportResult& file, const LoadOptions& options) {
 }  // namespace
 
 Scene load_scene(const std::string& specification, ImportReport* report, const LoadOptions& options) {
+    const DefaultFpEnvironment guard;
     constexpr std::string_view prefix = "named:";
     ImportResult result;
     const bool is_file = !specification.starts_with(prefix);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tandem/math/fp_environment.h"
 #include "tandem/scene/animation.h"
 
 namespace tandem {
@@ -20,6 +21,7 @@ bool has_primitives(const Scene& scene, const Node& node) {
 }  // namespace
 
 std::vector<std::size_t> nodes_in_motion(const Scene& scene, std::size_t camera, double time) {
+    const DefaultFpEnvironment guard;
     const Shutter& shutter = shutter_of(*scene.nodes[camera].camera);
     if (!is_open(shutter)) return {};
     std::vector<bool> moves(scene.nodes.size(), false);

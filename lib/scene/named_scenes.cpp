@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "tandem/error/error.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/sampler/philox.h"
 #include "tandem/scene/icosphere.h"
 
@@ -253,6 +254,7 @@ std::vector<std::string> scene_names() {
 }
 
 Scene named_scene(std::string_view name) {
+    const DefaultFpEnvironment guard;
     if (name == "paper") return paper();
     if (name == "hard/planet") return planet();
     if (name == "hard/telescope") return telescope();

@@ -8,9 +8,11 @@
 
 #include "tandem/effects/derive.h"
 #include "tandem/error/error.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/area_lights.h"
 #include "tandem/scene/camera_node.h"
+#include "tandem/scene/light_cone.h"
 #include "tandem/scene/media.h"
 #include "tandem/scene/place_mesh.h"
 #include "tandem/scene/prepare_textures.h"
@@ -41,6 +43,28 @@ bool is_diagonal(const Matrix3& m) {
     return m.row[0].y == 0 && m.row[0].z == 0 && m.row[1].x == 0 && m.row[1].z == 0 && m.row[2].x == 0 &&
            m.row[2].y == 0;
 }
+
+/// A unit vector, also for lengths whose squares underflow; zero stays zero.
+Vec3d unit_axis(const Vec3d& a) {
+    const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+    return largest > 0 ? normalize(a / largest) : a;
+}
+
+/// Does a transform shrink a body to a line or a point, up to rounding? Animations hide things in this way.
+bool is_hidden(const Matrix3& m) {
+    double largest = 0;
+    for (const Vec3d& row : m.row) largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+    if (largest == 0) return true;
+    const Matrix3 columns = transpose(m);
+    const auto area2 = [&](int i, int k) {
+        const Vec3d normal = cross(columns.row[i] / largest, columns.row[k] / largest);
+        return dot(normal, normal);
+    };
+    return std::max({area2(0, 1), area2(1, 2), area2(2, 0)}) <= 1e-30;
+}
+
+/// Is a body that has a size in float smaller under its transform than any float?
+bool vanishes_in_float(double size, double transformed) { return narrow(size) > 0 && !(narrow(transformed) > 0); }
 
 /// Does it only scale, without mirroring?
 bool is_upright(const Matrix3& m) { return is_diagonal(m) && m.row[0].x >= 0 && m.row[1].y >= 0 && m.row[2].z >= 0; }
@@ -119,8 +143,8 @@ class Preparer {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
         move_to_origin();
         join_kinds();
-        find_media(result_);
-        if (scene_.area_lights) find_area_lights(result_);
+        result_.copies = find_copies(result_);
+        find_what_glows_and_refracts();
         result_.area_light_shadows = scene_.area_light_shadows;
         for (const MaterialTextures& material : result_.textures.materials) {
             result_.has_cutouts = result_.has_cutouts || material.alpha_cutoff > 0;
@@ -132,6 +156,23 @@ class Preparer {
     }
 
   private:
+    /// Without copies, which are neither lights nor bodies to a ray.
+    void find_what_glows_and_refracts() {
+        const auto find = [this](PreparedScene& scene) {
+            find_media(scene);
+            if (scene_.area_lights) find_area_lights(scene);
+        };
+        if (result_.copies.empty()) return find(result_);
+        PreparedScene traced = without_copies(result_);
+        find(traced);
+        result_.camera_media = traced.camera_media;
+        result_.media_overlap = traced.media_overlap;
+        result_.area_lights = std::move(traced.area_lights);
+        result_.area_light_kinds = traced.area_light_kinds;
+        const TracedIds ids(result_.copies);
+        for (AreaLight& light : result_.area_lights) light.primitive = ids.of_scene(light.primitive);
+    }
+
     /// World space, double, until the origin is known.
     struct PlacedSurface {
         const Mesh* mesh;
@@ -158,19 +199,25 @@ class Preparer {
 
     void add_light(const LightSource& source, const Transform& world_from_node, std::size_t node) {
         check_reach(world_from_node.translation, {0, 0, 0}, node);
-        const Vec3d axis = -transpose(world_from_node.linear).row[2];
-        const double length = std::sqrt(dot(axis, axis));
+        const Vec3d axis = unit_axis(-transpose(world_from_node.linear).row[2]);
         const bool directed = source.kind != LightKind::point;
-        if (directed && !(length > 0)) fail(node, "a light with a direction under a transform that takes it");
         if (!is_lit(source)) return;
+        if (directed && is_hidden(world_from_node.linear)) {
+            ++result_.dropped_lights;
+            return;
+        }
+        if (directed && axis == Vec3d{0, 0, 0}) {
+            fail(node, "a light with a direction under a transform that takes it");
+        }
         PunctualLight light{};
         const bool falls_off = source.inverse_square && source.kind != LightKind::directional;
         light.kind = static_cast<PunctualKind>(source.kind);
         light.intensity = source.colour * source.intensity;
-        light.direction = directed ? narrow(axis * (1 / length)) : Vec3f{0, 0, -1};
+        light.direction = directed ? axis : Vec3d{0, 0, -1};
         if (source.kind == LightKind::spot) {
-            light.cos_outer = static_cast<float>(std::cos(source.outer_cone));
-            light.cone_scale = static_cast<float>(1 / (std::cos(source.inner_cone) - std::cos(source.outer_cone)));
+            const LightCone cone = light_cone(source.inner_cone, source.outer_cone);
+            light.cone_height = cone.height;
+            light.cone_scale = cone.scale;
         }
         light.inverse_square = falls_off ? 1U : 0U;
         light.casts_shadows = source.casts_shadows ? 1U : 0U;
@@ -178,6 +225,10 @@ class Preparer {
     }
 
     void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
+        if (!std::holds_alternative<MeshShape>(geometry.shape) && is_hidden(world_from_object.linear)) {
+            ++result_.dropped_primitives;
+            return;
+        }
         if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
             add_sphere(*sphere, geometry.material, world_from_object, node);
         } else if (const auto* box = std::get_if<BoxShape>(&geometry.shape)) {
@@ -208,6 +259,10 @@ class Preparer {
         const double scale = uniform_scale(world_from_object.linear);
         if (scale > 0 && keeps_its_picture(world_from_object, material)) {
             const double radius = scale * shape.radius;
+            if (vanishes_in_float(shape.radius, radius)) {
+                ++result_.dropped_primitives;
+                return;
+            }
             if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
             check_reach(world_from_object.translation, {radius, radius, radius}, node);
             balls_.push_back({world_from_object.translation, radius});
@@ -224,6 +279,10 @@ class Preparer {
         if (is_diagonal(m) && keeps_its_picture(world_from_object, material)) {
             const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
                                   std::abs(m.row[2].z) * half.z};
+            if (vanishes_in_float(norm1(half), norm1(extent))) {
+                ++result_.dropped_primitives;
+                return;
+            }
             check_reach(world_from_object.translation, extent, node);
             blocks_.push_back({world_from_object.translation, extent});
             boxes_.add(material, node);
@@ -244,6 +303,10 @@ class Preparer {
         for (Vec3d& row : world_from_unit.linear.row) row = row * size;
         const double volume = std::abs(determinant(world_from_unit.linear));
         const Matrix3& m = world_from_unit.linear;
+        if (vanishes_in_float(norm1(size), norm1(m.row[0]) + norm1(m.row[1]) + norm1(m.row[2]))) {
+            ++result_.dropped_primitives;
+            return;
+        }
         const double lengths = std::sqrt(dot(m.row[0], m.row[0]) * dot(m.row[1], m.row[1]) * dot(m.row[2], m.row[2]));
         // below this the inverse has no digits left; a NaN fails as well
         if (!(volume > 1e-12 * lengths) || !std::isnormal(volume)) {
@@ -427,11 +490,13 @@ class Preparer {
 }  // namespace
 
 void check(const Scene& scene) {
+    const DefaultFpEnvironment guard;
     const std::vector<std::string> problems = validate(scene);
     if (!problems.empty()) throw InputError(fmt::format("the scene is not valid: {}", fmt::join(problems, "; ")));
 }
 
 PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
+    const DefaultFpEnvironment guard;
     check(scene);
     if (options.effects.off.empty()) return Preparer(scene, options).run();
     return Preparer(without_effects(scene, options.effects.off), options).run();

@@ -2,6 +2,7 @@
 
 #include "tandem/error/error.h"
 #include "tandem/film/sha256.h"
+#include "tandem/math/fp_environment.h"
 #include "tandem/scene/scene_view.h"
 
 namespace tandem {
@@ -37,6 +38,7 @@ SceneView view(const PreparedScene& scene) {
 }
 
 CameraView camera_view(const PreparedScene& scene, int width, int height) {
+    const DefaultFpEnvironment guard;
     // one pixel on the plane at distance 1, or in metres for an orthographic camera
     const double pixel = 2 * scene.half_height / height;
     const Matrix3 axes = transpose(scene.render_from_camera.linear);

@@ -12,6 +12,7 @@
 #include "tandem/light/environment.h"
 #include "tandem/light/punctual_light.h"
 #include "tandem/material/phong.h"
+#include "tandem/scene/copies.h"
 #include "tandem/scene/prepared_textures.h"
 #include "tandem/scene/scene_view.h"
 
@@ -32,6 +33,7 @@ struct PreparedScene {
     std::vector<Vec2f> texcoords;            ///< values of the corners of faces, by slot: texture coordinates, colours
     std::vector<std::uint32_t> material_of;  ///< by primitive id
     std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
+    std::vector<PrimitiveCopy> copies;       ///< primitives that are not traced, because they are in another's place
     std::vector<PhongMaterial> materials;
     PreparedTextures textures;
     std::vector<Optics> optics;  ///< by material
@@ -46,7 +48,9 @@ struct PreparedScene {
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
     EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
-    std::uint64_t dropped_primitives = 0;  ///< faces of the Scene without area: no ray hits them
+    /// Of the Scene, because no ray hits them: faces without area, and bodies that their transforms hide (scale 0).
+    std::uint64_t dropped_primitives = 0;
+    std::uint64_t dropped_lights = 0;  ///< spot and directional lights that a scale of 0 leaves without direction
 
     Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
 
@@ -80,8 +84,8 @@ struct PreparedScene {
 [[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
 
 /// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
-/// node_of and dropped_primitives, which serve messages, nor over origin, effects, time and shutter: a frame with
-/// motion blur has a hash of its own (render/motion_blur.h).
+/// node_of and the numbers of what was dropped, which serve messages, nor over copies, which follow from the rest, nor
+/// over origin, effects, time and shutter: a frame with motion blur has a hash of its own (render/motion_blur.h).
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

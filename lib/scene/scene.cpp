@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "tandem/math/fp_environment.h"
 #include "tandem/math/ray.h"
+#include "tandem/scene/light_cone.h"
 #include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
@@ -61,10 +63,18 @@ class Problems {
             require(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0 && c.y >= 0 && c.z >= 0,
                     where, "has a light whose colour is not three numbers of 0 or more");
             require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a number of 0 or more");
+            const auto overflows = [i](float colour) { return std::isfinite(colour) && std::isinf(colour * i); };
+            require(!std::isfinite(i) || !(overflows(c.x) || overflows(c.y) || overflows(c.z)), where,
+                    "has a light whose colour times intensity is beyond 3.4e38");
             require(node.light->kind != LightKind::spot ||
                         (node.light->inner_cone >= 0 && node.light->inner_cone < node.light->outer_cone &&
                          node.light->outer_cone <= 1.5707963267948967),
                     where, "has a spot light whose angles are not 0 <= inner < outer <= pi / 2");
+            require(
+                node.light->kind != LightKind::spot ||
+                    std::isfinite(light_cone(node.light->inner_cone, node.light->outer_cone).scale),
+                where,
+                "has a spot light whose cone is narrower than 1e-150, or whose two angles are too near to each other");
         }
     }
 
@@ -251,10 +261,12 @@ void set_shutter_instants(Scene& scene, int instants) {
 }
 
 double time_of_frame(const Scene& scene, std::int32_t frame) {
+    const DefaultFpEnvironment guard;
     return double{static_cast<float>(frame / scene.frames_per_second)};
 }
 
 std::int32_t frame_count(const Scene& scene) {
+    const DefaultFpEnvironment guard;
     float end = 0;
     for (const AnimationChannel& channel : scene.animation) {
         if (!channel.times.empty()) end = std::max(end, channel.times.back());
@@ -265,6 +277,7 @@ std::int32_t frame_count(const Scene& scene) {
 }
 
 std::vector<std::string> validate(const Scene& scene) {
+    const DefaultFpEnvironment guard;
     Problems problems(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) problems.check_node(i);
     problems.check_hierarchy();

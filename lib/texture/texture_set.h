@@ -76,10 +76,22 @@ TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, D
     return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
 }
 
-/// Where the material is there at all, given the alpha of its diffuse texture.
+/// The product of two alphas. It is a float in every tier, as what it is compared with is: k / 255 against a cutoff of
+/// k / 255 is opaque.
 template <class Real>
-TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& texture_alpha) {
-    return Real(material.alpha) * texture_alpha >= Real(material.alpha_cutoff);
+TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
+    const Float<Real> product = narrow(a) * narrow(b);
+    if constexpr (std::is_same_v<Real, Float<Real>>) {
+        return product;
+    } else {
+        return widen(product);
+    }
+}
+
+/// Where the material is there at all, given the alpha of its base colour.
+template <class Real>
+TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& alpha) {
+    return times_alpha(Real(material.alpha), alpha) >= Real(material.alpha_cutoff);
 }
 
 }  // namespace tandem

@@ -116,10 +116,13 @@ TEST_P(FilmBits, LeaveOutSamplesThatAreNotNumbers) {
     }
 }
 
-TEST_P(FilmBits, SayHowManyPrimitivesWereDropped) {
+TEST_P(FilmBits, SayHowMuchWasDropped) {
     PreparedScene scene = prepare(named_scene("paper"));
     scene.dropped_primitives = 3;
-    EXPECT_EQ(backend_->render(load(scene), job()).stats.counters.dropped_primitives, 3U);
+    scene.dropped_lights = 2;
+    const RenderCounters counters = backend_->render(load(scene), job()).stats.counters;
+    EXPECT_EQ(counters.dropped_primitives, 3U);
+    EXPECT_EQ(counters.dropped_lights, 2U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, FilmBits, ::testing::ValuesIn(test::exact_renderers()), test::test_name);

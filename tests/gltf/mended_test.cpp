@@ -27,6 +27,7 @@ TEST_P(MendedDocument, IsDrawnWithANote) {
     EXPECT_TRUE(is_noted) << sentences(result.report);
     const auto has_geometry = [](const Node& node) { return !node.geometry.empty(); };
     EXPECT_TRUE(std::any_of(result.scene.nodes.begin(), result.scene.nodes.end(), has_geometry));
+    EXPECT_TRUE(validate(result.scene).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -97,6 +98,26 @@ INSTANTIATE_TEST_SUITE_P(
                      "animations[0].channels[0].sampler", "the animation has 1 samplers"},
         DocumentFlaw{"triangle", [](Json& d) { d["meshes"][0]["primitives"][0]["indices"] = 99; },
                      "meshes[0].primitives[0].indices", "use 0 to 3"}),
+    flaw_name);
+
+// Each factor is a float, and the product is not.
+INSTANTIATE_TEST_SUITE_P(
+    Products, MendedDocument,
+    testing::Values(
+        DocumentFlaw{"light",
+                     [](Json& d) {
+                         Json& light = d["extensions"]["KHR_lights_punctual"]["lights"][0];
+                         light["color"] = {1e30, 1, 0};
+                         light["intensity"] = 1e30;
+                     },
+                     "nodes[3].extensions.KHR_lights_punctual", "color times its intensity is beyond"},
+        DocumentFlaw{
+            "emission",
+            [](Json& d) {
+                d["materials"][0]["emissiveFactor"] = {1e30, 1, 0};
+                d["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 1e30}};
+            },
+            "materials[0].emissiveFactor", "times the emissiveStrength it is beyond"}),
     flaw_name);
 
 INSTANTIATE_TEST_SUITE_P(

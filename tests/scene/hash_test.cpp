@@ -102,6 +102,7 @@ TEST(SceneHash, LeavesOutWhatOnlyServesMessages) {
     const std::string before = scene_hash(scene);
     scene.node_of[2] = 9;
     scene.dropped_primitives = 9;
+    scene.dropped_lights = 9;
     EXPECT_EQ(scene_hash(scene), before);
 }
 

@@ -74,6 +74,31 @@ TEST(Prepare, ABoxMayBeFlatButNotWhenRotated) {
                          "node 1 'body' has a sphere that its transform flattens"));
 }
 
+TEST(Prepare, DropsAndCountsWhatATransformHides) {
+    for (const Shape& shape : {Shape(SphereShape{1}), Shape(BoxShape{})}) {
+        for (const Quaternion& turn : {Quaternion{}, about_z(0.3)}) {
+            for (const Vec3d& scale : {Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1e-60, 1e-60, 1e-60}}) {
+                const auto prepared = prepare_body(shape, {{1, 2, 3}, turn, scale});
+                EXPECT_EQ(prepared.dropped_primitives, 1U);
+                EXPECT_TRUE(prepared.spheres.empty() && prepared.boxes.empty() && prepared.ellipsoids.empty() &&
+                            prepared.parallelepipeds.empty());
+            }
+        }
+    }
+}
+
+TEST(Prepare, DirectionsOfLightsAreUnitVectorsOfDoubles) {
+    Scene scene = small_scene();
+    for (const double scale : {1.0, 1e-200, 1e17}) {
+        Node lamp{.name = "lamp", .trs = {{0, 3, 0}, {0.3, -0.2, 0.5, 0.7}, Vec3d{1, 1, 1} * scale}};
+        lamp.light = LightSource{.kind = LightKind::directional};
+        scene.nodes.push_back(lamp);
+        const Vec3d direction = prepare(scene).lights.back().direction;
+        EXPECT_NEAR(dot(direction, direction), 1, 1e-15) << scale;
+        scene.nodes.pop_back();
+    }
+}
+
 TEST(Prepare, RefusesWhatIsTooFarOrTooSmallForFloats) {
     EXPECT_TRUE(contains(input_error([&] {
                              (void)prepare_body(SphereShape{6e17}, {{6e17, 0, 0}, {}, {1, 1, 1}});

@@ -202,6 +202,39 @@ Score one_or_many(const Subject& subject, Random& random, std::size_t count) {
     return score;
 }
 
+/// From outside of the bounds, with directions down to 2^-140 of small integers: what the same direction of ordinary
+/// length meets, at a t that is 2^k times as large, and may be beyond float.
+Score minute_directions(const Subject& subject, Random& random, std::size_t count) {
+    const PreparedScene prepared =
+        prepare(scene_of(spheres_around(random, {0, 0, 0}, 10, 1, 64)), {.origin = Vec3d{0, 0, 0}});
+    const auto resident = subject.backend.load(prepared, subject.tier);
+    Score score;
+    for (const int k : {0, 40, 100, 128, 140}) {
+        const auto scale = static_cast<float>(std::exp2(-k));
+        std::vector<Ray<float>> rays = make_rays(count / 5, [&] {
+            const auto step = [&] { return static_cast<float>(random.below(17)) - 8; };
+            const Vec3f direction = {step(), step(), step() + 0.5F};
+            const Vec3f target = narrow(in_cube(random, 10));
+            return Ray<float>{target - direction * static_cast<float>(8 << random.below(12)), direction};
+        });
+        const auto trace = [&](std::vector<double>& t) {
+            std::vector<Hit> hits(rays.size());
+            t.resize(rays.size());
+            subject.backend.trace(*resident, TraceJob{.rays = rays, .hits = hits, .wide_t = t});
+            return hits;
+        };
+        std::vector<double> right_t, t;
+        const std::vector<Hit> right = trace(right_t);
+        for (Ray<float>& ray : rays) ray.direction = ray.direction * scale;
+        const std::vector<Hit> hits = trace(t);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            score.decide(hits[i].primitive != right[i].primitive || t[i] != right_t[i] * std::exp2(k),
+                         [&] { return fmt::format("2^-{}: {}", k, to_literal(rays[i])); });
+        }
+    }
+    return score;
+}
+
 /// Scattered frames of an animation, each against its own bodies.
 std::vector<Lot> frames(Random& random, std::size_t rays) {
     std::vector<Lot> lots;
@@ -241,6 +274,9 @@ std::vector<HardCase> structure_cases() {
          "a root that is a leaf has no bounds, and hides what is wrong there", "metamorphosis: equal bits",
          RenderCase{one_or_many}},
         {"D11", "Frames of an animation", "bounds of another frame", brute_force, RayCase{frames}},
+        {"D12", "Directions down to 2^-140, from outside",
+         "the distance over the length is beyond float, the ray starts at infinity, and Embree aborts",
+         "metamorphosis: the same direction, 2^k times as long", RenderCase{minute_directions}},
     };
 }
 

@@ -101,10 +101,9 @@ Score enormous_fireflies(const Subject& subject, Random&, std::size_t rays) {
 Score not_finite(const Subject& subject, Random&, std::size_t) {
     Scene scene = scene_of({{{0, 0, -5}, 1}});
     // without shadows the kernel is that of the empty scene, so that the tier fast draws the same sky
-    Node lamp{.name = "lamp",
-              .light = LightSource{.colour = {3e38F, 3e38F, 3e38F}, .intensity = 3e38F, .casts_shadows = false}};
-    scene.nodes.push_back(lamp);
-    const PreparedScene prepared = prepare(scene);
+    scene.nodes.push_back({.name = "lamp", .light = LightSource{.casts_shadows = false}});
+    PreparedScene prepared = prepare(scene);
+    prepared.lights.at(0).intensity = Vec3f{1, 1, 1} * HUGE_VALF;  // which prepare() refuses
     const PreparedScene empty = prepare(scene_of({}));
     RenderJob job = small_picture(subject);
     const auto resident = subject.backend.load(prepared, subject.tier);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hard/corpus/groups.h"
 #include "tandem/error/error.h"
@@ -19,6 +20,11 @@ Random random_for(const HardCase& hard_case) {
     return Random(seed);
 }
 
+/// Letter and number.
+std::pair<char, int> place(const HardCase& hard_case) {
+    return {hard_case.id.front(), std::stoi(hard_case.id.substr(1))};
+}
+
 bool matches(const std::string& id, const std::string& pattern) {
     if (!pattern.empty() && pattern.back() == '*') return id.starts_with(pattern.substr(0, pattern.size() - 1));
     return id == pattern;
@@ -31,9 +37,12 @@ const std::vector<HardCase>& corpus() {
         std::vector<HardCase> list;
         for (const auto& group :
              {sphere_cases(), box_cases(), face_cases(), structure_cases(), leaving_cases(), dielectric_cases(),
-              shading_cases(), camera_cases(), film_cases(), transform_cases(), input_cases(), parity_cases()}) {
+              shading_cases(), camera_cases(), film_cases(), transform_cases(), input_cases(), parity_cases(),
+              light_cases(), light_surface_cases(), light_obstacle_cases()}) {
             list.insert(list.end(), group.begin(), group.end());
         }
+        // the cases of a group may stand in several files
+        std::sort(list.begin(), list.end(), [](const HardCase& a, const HardCase& b) { return place(a) < place(b); });
         return list;
     }();
     return all;
@@ -45,7 +54,8 @@ std::vector<const HardCase*> select_cases(const std::vector<std::string>& patter
         const bool any = std::any_of(corpus().begin(), corpus().end(),
                                      [&](const HardCase& hard_case) { return matches(hard_case.id, pattern); });
         if (!any) {
-            throw InputError(fmt::format("no hard case is named '{}'; the cases are A1 to L8, A* is a group", pattern));
+            throw InputError(fmt::format("no hard case is named '{}'; the cases are {} to {}, A* is a group", pattern,
+                                         corpus().front().id, corpus().back().id));
         }
     }
     for (const HardCase& hard_case : corpus()) {

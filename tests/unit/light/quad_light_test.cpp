@@ -102,6 +102,54 @@ TEST(QuadLight, TheDensityIntegratesToOne) {
     }
 }
 
+TEST(QuadLight, EachHalfShinesFromItsOwnFront) {
+    const Vec3d v0 = {-1, 0, 2}, v2 = {1, 0, 2}, up = {0, 1, 2.5}, down = {0, -1, 2.5}, aside = {0, 3, 2.2};
+    int one_half = 0;
+    for (const auto& [v1, v3] : {std::pair{up, down}, {down, up}, {up, aside}, {aside, up}, {down, aside}}) {
+        const auto view = view_quad_light<float>(origin, v0, v1, v2, v3, {FaceSides::single_sided, true});
+        const auto is_front = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+            return dot(cross(b - a, c - a), origin - a) > 0;
+        };
+        const bool first = is_front(v0, v1, v2), second = is_front(v0, v2, v3);
+        EXPECT_EQ(view.first.solid_angle > 0, first);
+        EXPECT_EQ(view.second.solid_angle > 0, second);
+        const auto both = view_quad_light<float>(origin, v0, v1, v2, v3, {FaceSides::double_sided, true});
+        EXPECT_GT(both.first.solid_angle * both.second.solid_angle, 0);
+        if (!first && !second) continue;
+        one_half += first != second;
+        test::Random random(4);
+        for (int i = 0; i < 1000; ++i) {
+            const auto s = sample_light(view, random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
+            ASSERT_TRUE(s.in_second_half ? second : first);
+        }
+    }
+    EXPECT_GT(one_half, 0);
+}
+
+// One half before a part of the other: what is drawn there is not seen, and what is seen is drawn with the whole
+// density.
+TEST(QuadLight, AHalfHidesTheOther) {
+    const Vec3d v0 = {-1, 0, 2}, v1 = {0, 1, 2}, v2 = {1, 0, 2}, v3 = {0, 0.8, 1.2};
+    for (const FaceSides sides : {FaceSides::double_sided, FaceSides::culled}) {
+        const auto view = view_quad_light<float>(origin, v0, v1, v2, v3, {sides, true});
+        const bool is_there = sides == FaceSides::double_sided || view.second.shows_front;
+        test::Random random(5);
+        int hidden = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const auto s = sample_light(view, random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));
+            const bool before = find_on_light(view.second, s.direction, 1e-12).meets;
+            if (s.in_second_half || !before || !is_there) {
+                ASSERT_NEAR(s.pdf * view.solid_angle, 1, 1e-14);
+                ASSERT_NEAR(pdf_of(view, s.direction) * view.solid_angle, 1, 1e-14);
+            } else {
+                ASSERT_EQ(s.pdf, 0);
+                ++hidden;
+            }
+        }
+        EXPECT_EQ(hidden > 1000, is_there);
+    }
+}
+
 TEST(QuadLight, SeenEdgeOnItHasNoSamples) {
     const Case degenerate[] = {
         {"in its plane", {1, -1, 0}, {2, -1, 0}, {2, 1, 0}, {1, 1, 0}},

@@ -1,0 +1,33 @@
+/// Floating-point control of a thread: round to nearest, subnormals kept. Host only.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cfenv>
+
+namespace tandem {
+
+/// Sets the default floating-point state of the thread, and restores the previous state at the end of its lifetime.
+/// Every public function that computes has one, since the caller may have set another rounding or flush-to-zero. Every
+/// task has one too, because Embree's commit can leave flush-to-zero on in TBB's worker threads (docs/numerics.md).
+class DefaultFpEnvironment {
+  public:
+    DefaultFpEnvironment() : mxcsr_(_mm_getcsr()) {
+        std::fegetenv(&environment_);  // for long double, which the oracle computes with
+        std::fesetenv(FE_DFL_ENV);
+        _mm_setcsr(default_mxcsr);
+    }
+    ~DefaultFpEnvironment() {
+        std::fesetenv(&environment_);
+        _mm_setcsr(mxcsr_);
+    }
+    DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
+    DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
+
+  private:
+    static constexpr unsigned int default_mxcsr = 0x1F80;  // all exceptions masked, round to nearest even
+    unsigned int mxcsr_;
+    std::fenv_t environment_{};
+};
+
+}  // namespace tandem

@@ -1,0 +1,17 @@
+/// Tracing of rays by a backend that has left out a scene's copies (scene/copies.h), so that its ids differ from the
+/// caller's.
+#pragma once
+
+#include <functional>
+
+#include "tandem/render/trace_job.h"
+#include "tandem/scene/copies.h"
+
+namespace tandem {
+
+/// Calls trace() with the job in the backend's ids, and changes its hits to the caller's. `copies`: of the scene as it
+/// was prepared. Returns what trace() returns.
+double trace_without_copies(std::span<const PrimitiveCopy> copies, const TraceJob& job,
+                            const std::function<double(const TraceJob&)>& trace);
+
+}  // namespace tandem

@@ -1,0 +1,19 @@
+/// The cone of a spot light as kernels read it (light/punctual_light.h).
+#pragma once
+
+#include <cmath>
+
+namespace tandem {
+
+struct LightCone {
+    double height;  ///< 1 - cosine of the outer angle
+    double scale;   ///< 1 / (cosine of the inner angle - cosine of the outer one); infinite if nothing is between them
+};
+
+/// Angles from the axis, radians. Every digit of them counts, however narrow the cone is: nothing cancels.
+[[nodiscard]] inline LightCone light_cone(double inner, double outer) {
+    const double half = std::sin(outer / 2);
+    return {2 * half * half, 1 / (2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2))};
+}
+
+}  // namespace tandem
