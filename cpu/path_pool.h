@@ -130,6 +130,8 @@ class PathPool {
             moved |= to ^ i;
         }
         if (moved == 0) return;
+        const bool has_holes = scene.has_cutouts != 0;
+        const bool shares_light = scene.area_light_count > 0 && scene.environment.indirect != 0;
         for (int i = 0; i < packet_count; ++i) {
             Word path;
             std::memcpy(&path, from + i * Real::size, sizeof(path));
@@ -137,18 +139,20 @@ class PathPool {
             LanePlaces<Isa> places;
             places.lane = path & Word(size - 1);
             places.packet = (path >> std::countr_zero(size)) * Word(static_cast<std::uint32_t>(sizeof(Packet)));
-            fetch(places, next_[i], now_[0]);
+            fetch(places, next_[i].per_lane(), now_[0].per_lane());
+            if (has_holes) fetch(places, next_[i].walk.per_lane_of_holes(), now_[0].walk.per_lane_of_holes());
+            if (shares_light) fetch(places, next_[i].walk.per_lane_of_lights(), now_[0].walk.per_lane_of_lights());
         }
         std::swap(now_, next_);
     }
 
-    TANDEM_HD static void fetch(const LanePlaces<Isa>& places, Packet& packet, Packet& first) {
-        auto to = packet.per_lane();
-        const auto from = first.per_lane();
+    /// `to`, `from`: references to values of the packet and of the first one.
+    template <class Values>
+    TANDEM_HD static void fetch(const LanePlaces<Isa>& places, Values to, Values from) {
         [&]<std::size_t... i>(std::index_sequence<i...>) TANDEM_INLINE_LAMBDA {
             ((std::get<i>(to) = places.gather(std::get<i>(from))), ...);
         }
-        (std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
+        (std::make_index_sequence<std::tuple_size_v<Values>>());
     }
 
     TANDEM_HD static void add(const Vec3<Real>& radiance, const Word& pixel, const Mask<Real>& ended, Vec3d* sums,

@@ -207,14 +207,15 @@ TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive&
                                 Double<Real>& t) {
     const UInt<Real> number(id);
     const Source<Real>& surface = source;
+    Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
+    if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
+        return hit;
     if constexpr (std::is_same_v<Primitive, Triangle>) {
-        const Mask<Real> other = active && source.passed.primitive != number;
-        return first_from(surface, primitive, id, ray, other, farthest, t) && is_beyond<Real>(source.passed, t, number);
+        return hit && is_beyond<Real>(source.passed, t, number);
     } else {
-        Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
         const Mask<Real> before =
             hit && source.passed.t > Double<Real>(0.0) && !is_beyond<Real>(source.passed, t, number);
-        if (any(before)) [[unlikely]] {
+        if (any(before)) {
             Double<Real> again;
             if constexpr (std::is_same_v<Primitive, Quad>) {
                 again = source_detail::second_crossing_of_quad<Real>(primitive, ray, before);

@@ -69,15 +69,17 @@ struct PathState<Effects, Real, true> {
         source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
     }
 
-    /// References to all that has a value per lane.
+    /// References to all that has a value per lane, but for what only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [origin, direction] = ray;
-        return std::tuple_cat(
-            std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive, source.primitive,
-                     source.inside, source.passed.t, source.passed.primitive, throughput.x, throughput.y, throughput.z,
-                     reflections, refractions, scatterings, holes, pdf, drawn_at.x, drawn_at.y, drawn_at.z),
-            media.per_lane());
+        return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
+                                       source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
+                                       reflections, refractions, scatterings, holes, pdf),
+                              media.per_lane());
     }
+    /// Those of scenes with cutouts, and of scenes whose paths and lights with an area share light.
+    TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
+    TANDEM_HD auto per_lane_of_lights() { return std::tie(drawn_at.x, drawn_at.y, drawn_at.z); }
 
     /// Over the segment of `ray` from the last hole to t, in the lanes of `active`. `own`: the medium that the path is
     /// in if bodies lie apart.

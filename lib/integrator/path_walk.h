@@ -51,11 +51,13 @@ class PathWalk {
         return ended;
     }
 
-    /// References to all that has a value per lane.
+    /// References to all that has a value per lane, but for what only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [r, g, b] = radiance_;
         return std::tuple_cat(std::tie(x_, y_, sample_, vertex_, working_, r, g, b), path_.per_lane());
     }
+    TANDEM_HD auto per_lane_of_holes() { return path_.per_lane_of_holes(); }
+    TANDEM_HD auto per_lane_of_lights() { return path_.per_lane_of_lights(); }
 
   private:
     [[nodiscard]] TANDEM_HD SampleId<Real> id(const PixelJob& job) const {

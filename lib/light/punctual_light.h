@@ -56,7 +56,7 @@ TANDEM_HD LightRay<Real> light_at(const PunctualLight& light, const Vec3<Double<
     if (Effects::has(Effect::spot_lights) && light.kind == PunctualKind::spot) {
         const Vec3<D> axis = constant<D>(light.direction);
         const D cosine = -dot(ray.to_light, axis);
-        const Vec3<D> sine = accurate_cross(ray.to_light, axis);
+        const Vec3<D> sine = cross(ray.to_light, axis);
         const D height = dot(sine, sine) / (one + greater(cosine, zero));
         const D share = (constant<D>(light.cone_height) - height) * constant<D>(light.cone_scale);
         const D clamped = select(cosine > zero, lesser(greater(share, zero), one), zero);

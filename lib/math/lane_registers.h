@@ -256,7 +256,7 @@ TANDEM_HD V gather(const void* base, Offsets offsets) {
     } else
 #endif
     {
-        V result;
+        V result{};
         for (unsigned i = 0; i < sizeof(V) / sizeof(result[0]); ++i) {
             auto element = result[0];
             std::memcpy(&element, static_cast<const char*>(base) + offsets[i], sizeof(element));
