@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scene/scenes.h"
 #include "support/random.h"
 #include "tandem/render/traced_job.h"

@@ -2,6 +2,7 @@
 // to try; orders of summation (I5, I6) are those of group L.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hard/corpus/groups.h"

@@ -2,6 +2,7 @@
 // before them, are in group_m_surfaces.cpp.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

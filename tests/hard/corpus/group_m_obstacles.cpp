@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
 
