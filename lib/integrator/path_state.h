@@ -52,7 +52,7 @@ struct PathState<Effects, Real, true> {
         alive = alive || active;
         source.primitive = select(active, Word(no_primitive), source.primitive);
         source.inside = source.inside && !active;
-        forget_holes(active);
+        forget_holes(scene, active);
         throughput = select(active, Vec3<Real>{one, one, one}, throughput);
         reflections = select(active, none, reflections);
         refractions = select(active, none, refractions);
@@ -63,8 +63,8 @@ struct PathState<Effects, Real, true> {
     }
 
     /// Of a new ray, in the lanes of `active`.
-    TANDEM_HD void forget_holes(const Mask<Real>& active) {
-        if (!Effects::has(Effect::cutouts)) return;
+    TANDEM_HD void forget_holes(const SceneView& scene, const Mask<Real>& active) {
+        if (!Effects::has(Effect::cutouts) || (!is_linked && scene.has_cutouts == 0)) return;
         source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
         source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
     }

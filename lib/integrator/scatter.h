@@ -162,7 +162,9 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     }
     if (Effects::has(Effect::indirect)) {
         path.pdf = select(active, D(0.0), path.pdf);
-        if (Effects::has(Effect::area_lights)) path.drawn_at = select(active, point.position, path.drawn_at);
+        if (Effects::has(Effect::area_lights) && scene.area_light_count > 0) {
+            path.drawn_at = select(active, point.position, path.drawn_at);
+        }
         if (any(takes_matt)) {
             const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
             const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
@@ -196,7 +198,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
     path.source.primitive = select(active, point.primitive, path.source.primitive);
     path.source.inside = select(active, inside, path.source.inside);
-    path.forget_holes(active);
+    path.forget_holes(scene, active);
     // a ray of the tier fast may have left the range of float
     if (is_fast<Real>) path.alive = path.alive && is_traceable(path.ray);
     return lost && path.alive;
