@@ -16,7 +16,8 @@ template <class Real>
 struct QuadLightView {
     TriangleLightView<Real> first;
     TriangleLightView<Real> second;
-    Double<Real> solid_angle;  ///< sr: of the halves that shine towards the point
+    Double<Real> solid_angle;      ///< sr: of the halves that shine towards the point
+    Vec3<Double<Real>> corner[4];  ///< metres
     QuadLightShape shape;
 };
 
@@ -37,6 +38,10 @@ TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, c
         view.second.solid_angle = select(view.second.shows_front, view.second.solid_angle, D(0.0F));
     }
     view.solid_angle = view.first.solid_angle + view.second.solid_angle;
+    view.corner[0] = v0;
+    view.corner[1] = v1;
+    view.corner[2] = v2;
+    view.corner[3] = v3;
     view.shape = shape;
     return view;
 }
@@ -73,18 +78,25 @@ TANDEM_HD Double<Real> share(const QuadLightView<Real>& view, const TriangleLigh
 template <class Real>
 inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 
-/// Where the other half hides a point of one half at `distance`, metres. A back that is culled hides nothing, and on
-/// the diagonal neither half hides the other.
+/// Does a half stop rays from the point? A back that is culled does not.
 template <class Real>
-TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const TriangleLightView<Real>& other,
-                               const Vec3<Double<Real>>& direction, const Double<Real>& distance,
-                               const Mask<Real>& other_is_first) {
+TANDEM_HD Mask<Real> stops_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
+    return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
+}
+
+/// Where the other half hides a point of one half at `distance`, metres. On the diagonal neither half hides the other.
+/// The other half is viewed a second time here: to keep its view costs a flat quad more than this costs a folded one.
+template <class Real>
+TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction,
+                               const Double<Real>& distance, const Mask<Real>& other_is_first) {
     using D = Double<Real>;
+    const TriangleLightView<Real> other = view_triangle_light<Real>(
+        view.first.point, view.corner[0], select(other_is_first, view.corner[1], view.corner[2]),
+        select(other_is_first, view.corner[2], view.corner[3]));
     const TriangleLightHit<Real> hit = find_on_light(other, direction, direction_slack<Real>);
     const D slack = constant<D>(same_distance<Real>);
     const D reach = distance * select(other_is_first, D(1.0F) + slack, D(1.0F) - slack);
-    const Mask<Real> is_there = Mask<Real>(view.shape.sides != FaceSides::culled) || other.shows_front;
-    return hit.meets && is_there && hit.distance * other.unit < reach;
+    return hit.meets && stops_rays(view, other) && hit.distance * other.unit < reach;
 }
 
 }  // namespace quad_light_detail
@@ -105,9 +117,7 @@ TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const 
     sample.pdf = sample.pdf * quad_light_detail::share(view, half);
     sample.in_second_half = !is_first;
     if (view.shape.overlaps) {
-        const auto other = quad_light_detail::choose<Real>(is_first, view.second, view.first);
-        const Mask<Real> hidden =
-            quad_light_detail::is_hidden(view, other, sample.direction, sample.distance, !is_first);
+        const Mask<Real> hidden = quad_light_detail::is_hidden(view, sample.direction, sample.distance, !is_first);
         sample.pdf = select(hidden, D(0.0F), sample.pdf);
     }
     return sample;
@@ -121,10 +131,10 @@ TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double
     const TriangleLightHit<Real> first = find_on_light(view.first, direction, -direction_slack<Real>);
     const TriangleLightHit<Real> second = find_on_light(view.second, direction, -direction_slack<Real>);
     const D reach = first.distance * view.first.unit * (D(1.0F) - constant<D>(quad_light_detail::same_distance<Real>));
-    const Mask<Real> is_there = Mask<Real>(view.shape.sides != FaceSides::culled) || view.second.shows_front;
+    const Mask<Real> is_nearer =
+        quad_light_detail::stops_rays(view, view.second) && second.distance * view.second.unit < reach;
     const Mask<Real> in_second =
-        second.meets && (!first.meets || (is_there && second.distance * view.second.unit < reach) ||
-                         !(Mask<Real>(view.shape.sides != FaceSides::culled) || view.first.shows_front));
+        second.meets && (!first.meets || is_nearer || !quad_light_detail::stops_rays(view, view.first));
     const D of_first =
         triangle_light_detail::density(view.first, first.distance) * quad_light_detail::share(view, view.first);
     const D of_second =
