@@ -9,6 +9,10 @@ namespace tandem {
 
 /// Id of no primitive.
 inline constexpr std::uint32_t no_primitive = 0xFFFFFFFFU;
+/// Id that says "occluded": by which primitive, a shadow ray does not ask.
+inline constexpr std::uint32_t some_primitive = 0xFFFFFFFEU;
+/// From here on ids stand for no primitive of a scene.
+inline constexpr std::uint32_t first_special_id = some_primitive;
 
 /// The nearest hit found so far. t is double and positive: candidates are compared before the one rounding to
 /// float that a caller sees, so that two surfaces less than a float apart still come in their true order.

@@ -17,9 +17,6 @@ struct RayEnd {
     std::uint32_t unused = 0;
 };
 
-/// Id that says "occluded": by which primitive, a shadow ray does not ask.
-inline constexpr std::uint32_t some_primitive = 0xFFFFFFFEU;
-
 /// All spans but rays and hits are empty or as long as those.
 struct TraceJob {
     std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)

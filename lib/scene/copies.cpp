@@ -5,14 +5,12 @@
 #include <bit>
 #include <cstring>
 
+#include "tandem/geometry/hit.h"
 #include "tandem/scene/prepared_scene.h"
 
 namespace tandem {
 
 namespace {
-
-/// From here on numbers stand for no primitive, or for some (render/trace_job.h).
-constexpr std::uint32_t first_special_id = 0xFFFFFFF0U;
 
 /// What primitives are compared by, beside their materials: words without a gap.
 const Sphere& shape_of(const Sphere& sphere) { return sphere; }

@@ -1,5 +1,5 @@
-// Group M: lights. Here those without extent, and which of several is drawn; those that are surfaces, and what stands
-// before them, are in group_m_surfaces.cpp.
+// Group M: lights. Here those without extent, and which of several is drawn. Those that are surfaces are in
+// group_m_surfaces.cpp; what stands before lights is in group_m_obstacles.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
