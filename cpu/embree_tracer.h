@@ -133,6 +133,7 @@ void filter_callback(const RTCFilterFunctionNArguments* args) {
 
 struct EmbreeTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+    static constexpr bool has_hierarchy = true;
 
     const CpuSceneView& view;
 

@@ -37,6 +37,7 @@ TANDEM_HD_CALL Mask<Real> any_hit(const Tracer& tracer, const Ray<Real>& ray, co
 /// trace(). The plain path loop has its own, inline.
 struct CalledTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+    static constexpr bool has_hierarchy = true;
     const CpuSceneView& view;
 
     template <class Real, class From>

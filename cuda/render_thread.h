@@ -7,19 +7,6 @@
 
 namespace tandem::cuda {
 
-template <class Tracer>
-inline constexpr bool has_hierarchy = false;
-template <std::uint32_t kinds>
-inline constexpr bool has_hierarchy<BvhTracerFor<kinds>> = true;
-
-/// `Effects` of a kernel, and whether its threads wait for their block in gather_block(). Not where rays go through a
-/// hierarchy: there a barrier of the block ended in "illegal instruction" on an H200 where shadow rays pass holes
-/// (docs/performance.md, "Barriers").
-template <class Effects, class Tracer>
-struct Gathered : Effects {
-    static constexpr bool waits_for_block = !has_hierarchy<Tracer>;
-};
-
 template <class Effects, class Real>
 __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at, Vec3d* __restrict__ sums,
                                      DeviceCounters* __restrict__ counters) {
@@ -40,7 +27,7 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     const std::uint32_t y =
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
     if (x >= job.width || y >= height) return;
-    const auto pixel = render_pixel<Gathered<Effects, Tracer>, Real>(tracer, tracer.scene, job, x, y, true);
+    const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true);
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
@@ -54,7 +41,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     const std::uint32_t tiles_across = (job.width + warp_width - 1) / warp_width;
     const std::uint32_t tiles_down = (height + warp_height - 1) / warp_height;
     const std::uint32_t end = tiles_across * tiles_down * 32;
-    PathWalk<Gathered<Effects, Tracer>, Real> walk;
+    PathWalk<Effects, Real> walk;
     PixelSum<Real> pixel;
     bool is_open = true;
     while (true) {
@@ -66,11 +53,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
             is_open = place < end;
             if (is_open && x < job.width && y < height) walk.take(job, x, y, true);
         }
-        if constexpr (Gathered<Effects, Tracer>::waits_for_block) {
-            if (__syncthreads_or(walk.working()) == 0) return;
-        } else if (!walk.working()) {
-            return;
-        }
+        if (__syncthreads_or(walk.working()) == 0) return;
         const Closest<Real> hit = walk.find(tracer, tracer.scene, job, pixel.tally);
         if (!walk.leave(tracer, tracer.scene, job, hit, pixel.tally)) continue;
         add(walk.radiance(), pixel);

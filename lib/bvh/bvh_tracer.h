@@ -64,6 +64,7 @@ TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source
 template <std::uint32_t kind_set>
 struct BvhTracerFor {
     static constexpr std::uint32_t kinds = kind_set;
+    static constexpr bool has_hierarchy = true;
 
     SceneView scene;
     BvhView bvh;

@@ -9,6 +9,7 @@ namespace tandem {
 /// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
 struct FewTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
+    static constexpr bool has_hierarchy = false;
     static constexpr std::uint32_t max_spheres = 8;
     static constexpr std::uint32_t max_boxes = 4;
 

@@ -103,6 +103,7 @@ TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
 template <std::uint32_t kind_set>
 struct LoopTracerFor {
     static constexpr std::uint32_t kinds = kind_set;
+    static constexpr bool has_hierarchy = false;
 
     SceneView scene;
 

@@ -15,13 +15,13 @@ TANDEM_HD bool keeps_together() {
     return TANDEM_ON_DEVICE && Effects::has_any(gathering_effects);
 }
 
-/// In kernels with such effects the threads of a block wait here for each other, if Effects::waits_for_block (that is
-/// for kernels to say: cuda/render_thread.h). Warps that come to a part of the code together fetch it once, others wait
-/// for it most of their time (docs/performance.md). All threads of a block have to come here, their paths alive or not.
+/// In kernels with such effects the threads of a block wait here for each other. Warps that come to a part of the code
+/// together fetch it once, others wait for it most of their time (docs/performance.md). All threads of a block have to
+/// come here, their paths alive or not.
 template <class Effects>
 TANDEM_HD void gather_block() {
 #if TANDEM_ON_DEVICE
-    if (keeps_together<Effects>() && Effects::waits_for_block) __syncthreads();
+    if (keeps_together<Effects>()) __syncthreads();
 #endif
 }
 

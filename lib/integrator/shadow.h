@@ -25,11 +25,20 @@ TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> r
 
 }  // namespace shadow_detail
 
-/// Tracer::closest(). Where it is asked from two places, by paths and by their shadow rays, these share one copy.
+/// Tracer::closest(), for paths and for their shadow rays.
+///
+/// Paths that only pass through holes share one copy with their shadow rays, if the tracer tries all primitives. For
+/// other effects two copies are faster. A tracer with a hierarchy is never called: its rays leave the loop apart, and
+/// ptxas 13.0 does not bring the threads of a warp together again behind such a call (docs/performance.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active) {
-    if (Effects::has(Effect::cutouts)) return shadow_detail::closest_by_call<Real>(tracer, ray, source, active);
+    constexpr EffectMask scattering = Effect::reflection | Effect::refraction | Effect::indirect;
+    if constexpr (!Tracer::has_hierarchy) {
+        if (Effects::has(Effect::cutouts) && !Effects::has_any(scattering)) {
+            return shadow_detail::closest_by_call<Real>(tracer, ray, source, active);
+        }
+    }
     return tracer.closest(ray, source, active);
 }
 

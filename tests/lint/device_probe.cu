@@ -48,7 +48,7 @@ __global__ void warps(int blades, double u, double v, double* out) {
 }
 
 __global__ void one_pixel(SceneView scene, PixelJob job, double* out) {
-    using Effects = cuda::Gathered<EffectSet<all_effects.bits()>, LoopTracer>;
+    using Effects = EffectSet<all_effects.bits()>;
     const auto pixel = render_pixel<Effects, float>(LoopTracer{scene}, scene, job, blockIdx.x, threadIdx.x, true);
     out[0] = pixel.sum.x;
     out[1] = pixel.sum.y;
