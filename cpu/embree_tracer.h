@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "cpu/kernels.h"
+#include "cpu/query_source.h"
 #include "tandem/geometry/intersect.h"
 #include "tandem/math/lanes.h"
 
@@ -17,20 +18,8 @@ struct QueryContext {
     FilterRay<Real> filter;  ///< the true ray
     Proposal<Real> proposal;
     Closest<Real> best;
-    const PathSource<Real>* source;           ///< for the nearest hit; null for rays that leave no surface
-    const ShadowSource<Real>* shadow_source;  ///< for any hit
+    const QuerySource<Real>* source;
 };
-
-/// The decision on a candidate for the nearest hit.
-template <class Real>
-TANDEM_HD void offer_candidate(const SceneView& scene, std::uint32_t primitive, const Mask<Real>& active,
-                               QueryContext<Real>& query) {
-    if (query.source == nullptr) {
-        intersect_primitive<Real>(scene, primitive, query.filter, NoSource{}, active, query.best);
-    } else {
-        intersect_primitive<Real>(scene, primitive, query.filter, *query.source, active, query.best);
-    }
-}
 
 /// `One` and `Packet`: the Reals of the tier, for one ray and for many.
 template <class One, class Packet>
@@ -40,7 +29,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
         if (args->valid[0] == 0) return;
         auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
         const Double<One> before = query.best.t;
-        offer_candidate<One>(view.scene, args->primID, true, query);
+        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.source, true, query.best);
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
         // never beyond a face that Embree found
         if (query.best.t < before) ray.tfar = lesser(to_plain(query.proposal.limit(query.best.t)), ray.tfar);
@@ -49,7 +38,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
     const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
     const Double<Packet> before = query.best.t;
-    offer_candidate<Packet>(view.scene, args->primID, active, query);
+    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) {
         auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
@@ -67,14 +56,14 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
         if (args->valid[0] == 0) return;
         auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
         const Double<One> before = query.best.t;
-        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.shadow_source, true, query.best);
+        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.source, true, query.best);
         if (query.best.t < before) reinterpret_cast<RTCRay*>(args->ray)->tfar = found;
         return;
     }
     auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
     const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
     const Double<Packet> before = query.best.t;
-    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.shadow_source, active, query.best);
+    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) {
         auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
@@ -88,11 +77,10 @@ namespace embree_detail {
 /// Which of the hits that Embree found on its own faces do not count. `s`: where they are, `id`: on which primitive.
 template <Search search, class Real>
 TANDEM_HD Mask<Real> is_excluded(const QueryContext<Real>& query, const Float<Real>& s, const UInt<Real>& id) {
+    const QuerySource<Real>& source = *query.source;
     if constexpr (search == Search::nearest) {
-        if (query.source == nullptr) return Mask<Real>(false);
-        return query.source->primitive == id || !is_beyond<Real>(query.source->passed, query.proposal.parameter(s), id);
+        return source.primitive == id || !is_beyond<Real>(source.passed, query.proposal.parameter(s), id);
     } else {
-        const ShadowSource<Real>& source = *query.shadow_source;
         return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);
     }
 }
@@ -138,11 +126,12 @@ struct EmbreeTracer {
     const CpuSceneView& view;
 
     /// As LoopTracer::closest().
-    template <class Real, class From>
-    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+    template <class Real>
+    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
+                                                  bool active) const {
         QueryContext<Real> query;
         query.best = no_hit<Real>();
-        set_source(query, source);
+        query.source = &source;
         if (!start(query, ray, active, false)) return query.best;
         RTCRayHit rayhit;
         rayhit.ray = single_ray(query, to_plain(query.proposal.start_for(source)), 3e38F);
@@ -158,13 +147,14 @@ struct EmbreeTracer {
         return query.best;
     }
 
-    template <class T, class Isa, class From>
-    [[nodiscard]] TANDEM_HD Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray, const From& source,
+    template <class T, class Isa>
+    [[nodiscard]] TANDEM_HD Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray,
+                                                           const QuerySource<Lanes<T, Isa>>& source,
                                                            const LaneMask<Isa>& active) const {
         using Real = Lanes<T, Isa>;
         QueryContext<Real> query;
         query.best = no_hit<Real>();
-        set_source(query, source);
+        query.source = &source;
         if (!start(query, ray, active, true)) return query.best;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
         set_packet(rayhit.ray, query, query.proposal.start_for(source), Float<Real>(3e38F));
@@ -187,10 +177,10 @@ struct EmbreeTracer {
     /// As LoopTracer::occluded().
     template <class Real>
     [[nodiscard]] TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                          const ShadowSource<Real>& source, bool active) const {
+                                          const QuerySource<Real>& source, bool active) const {
         QueryContext<Real> query;
         query.best = before<Real>(t_max);
-        query.shadow_source = &source;
+        query.source = &source;
         if (!start(query, ray, active, false)) return false;
         const float limit = to_plain(query.proposal.limit(t_max));
         if (!(limit >= 0)) return false;
@@ -201,13 +191,13 @@ struct EmbreeTracer {
 
     template <class T, class Isa>
     [[nodiscard]] TANDEM_HD LaneMask<Isa> occluded(const Ray<Lanes<T, Isa>>& ray, const Double<Lanes<T, Isa>>& t_max,
-                                                   const ShadowSource<Lanes<T, Isa>>& source,
+                                                   const QuerySource<Lanes<T, Isa>>& source,
                                                    const LaneMask<Isa>& active) const {
         using Real = Lanes<T, Isa>;
         using F = Float<Real>;
         QueryContext<Real> query;
         query.best = before<Real>(t_max);
-        query.shadow_source = &source;
+        query.source = &source;
         if (!start(query, ray, active, true)) return LaneMask<Isa>(false);
         const F limit = query.proposal.limit(t_max);
         query.proposal.active = query.proposal.active && limit >= F(0.0F);
@@ -220,15 +210,6 @@ struct EmbreeTracer {
     }
 
   private:
-    template <class Real>
-    TANDEM_HD static void set_source(QueryContext<Real>& query, const NoSource&) {
-        query.source = nullptr;
-    }
-    template <class Real>
-    TANDEM_HD static void set_source(QueryContext<Real>& query, const PathSource<Real>& source) {
-        query.source = &source;
-    }
-
     /// Fills what all queries have; false if no lane can hit anything.
     template <class Real>
     TANDEM_HD bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,

@@ -3,29 +3,52 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "tandem/error/error.h"
+#include "tandem/math/lane_registers.h"
 #include "tandem/report/processor_level.h"
 
 namespace tandem {
 
 namespace {
 
+template <class Isa, Tier tier>
+constexpr TierKernels tier_kernels() {
+    using Kernels = CpuKernels<Isa, tier>;
+    TierKernels kernels = {{}, Kernels::trace, Kernels::intersect, Kernels::occluded, nullptr, nullptr};
+    [&]<std::size_t... variant>(std::index_sequence<variant...>) {
+        ((kernels.render_tile[variant] = Kernels::template render_tile<variant>), ...);
+    }
+    (std::make_index_sequence<variant_count>());
+    if constexpr (tier == Tier::fast) {
+        kernels.filter_nearest = Kernels::filter_nearest;
+        kernels.filter_any = Kernels::filter_any;
+    }
+    return kernels;
+}
+
+template <class Isa>
+constexpr std::array all_tiers = {
+#define TANDEM_TIER(name, promise) tier_kernels<Isa, Tier::name>(),
+#include "tandem/accuracy/tiers.def"
+#undef TANDEM_TIER
+};
+
 bool has_v2() { return x86_64_level() >= 2; }
 bool has_v3() { return x86_64_level() >= 3; }
 #if defined(TANDEM_ONE_INSTRUCTION_SET)
-// without kernels in such a build
-bool has_v4() { return false; }
-constexpr auto exact_kernels_v4 = exact_kernels_v3;
-constexpr auto fast_kernels_v4 = fast_kernels_v3;
+bool has_v4() { return false; }  // such a build has no kernels for it
+using SetV4 = Avx2;
 #else
 bool has_v4() { return x86_64_level() >= 4; }
+using SetV4 = Avx512;
 #endif
 
 constexpr std::array sets = {
-    InstructionSet{"x86-64-v2", has_v2, exact_kernels_v2, fast_kernels_v2},
-    InstructionSet{"x86-64-v3", has_v3, exact_kernels_v3, fast_kernels_v3},
-    InstructionSet{"x86-64-v4", has_v4, exact_kernels_v4, fast_kernels_v4},
+    InstructionSet{"x86-64-v2", has_v2, all_tiers<Sse4>.data()},
+    InstructionSet{"x86-64-v3", has_v3, all_tiers<Avx2>.data()},
+    InstructionSet{"x86-64-v4", has_v4, all_tiers<SetV4>.data()},
 };
 
 }  // namespace

@@ -11,12 +11,9 @@ namespace tandem {
 struct InstructionSet {
     const char* name;
     bool (*is_supported)();
-    const TierKernels& (*exact_kernels)(Tier tier);
-    const TierKernels& (*fast_kernels)();
+    const TierKernels* by_tier;
 
-    [[nodiscard]] const TierKernels& kernels(Tier tier) const {
-        return tier == Tier::fast ? fast_kernels() : exact_kernels(tier);
-    }
+    [[nodiscard]] const TierKernels& kernels(Tier tier) const { return by_tier[static_cast<std::size_t>(tier)]; }
 };
 
 /// From the least to the most capable.

@@ -1,9 +1,10 @@
-/// The CPU's kernels, compiled once per instruction set, behind plain function pointers.
+/// The CPU's kernels, compiled once per tier and instruction set.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <string_view>
 
 #include "cpu/embree_api.h"
 #include "tandem/accuracy/tier.h"
@@ -55,27 +56,40 @@ inline constexpr KernelVariant variants[] = {
 };
 inline constexpr std::size_t variant_count = std::size(variants);
 
-/// The kernels of one tier for one instruction set.
-struct TierKernels {
-    /// Writes the sums of the tile's pixels into the film (rows of job.width). By variant.
-    TileStats (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
-                                            Vec3d* sums);
+/// The number of a variant.
+[[nodiscard]] consteval std::size_t variant_named(std::string_view name) {
+    for (std::size_t i = 0; i < variant_count; ++i) {
+        if (variants[i].name == name) return i;
+    }
+    throw "no variant has this name";
+}
+
+/// The kernels of one tier for one instruction set (math/lane_registers.h). Each entry is compiled in a file of its own
+/// (cpu/kernels/).
+template <class Isa, Tier tier>
+struct CpuKernels {
+    /// Writes the sums of the tile's pixels into the film (rows of job.width).
+    template <std::size_t variant>
+    static TileStats render_tile(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
     /// Returns how many rays were not traceable.
-    std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
-    /// Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.
-    RTCIntersectFunctionN intersect;
-    RTCOccludedFunctionN occluded;
-    /// Embree's filters of hits on its own faces, in the tier fast; else null.
-    RTCFilterFunctionN filter_nearest;
-    RTCFilterFunctionN filter_any;
+    static std::uint64_t trace(const CpuSceneView& scene, const TraceJob& job);
+    // Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.
+    static void intersect(const RTCIntersectFunctionNArguments* args);
+    static void occluded(const RTCOccludedFunctionNArguments* args);
+    // Embree's filters of hits on its own faces, in the tier fast.
+    static void filter_nearest(const RTCFilterFunctionNArguments* args);
+    static void filter_any(const RTCFilterFunctionNArguments* args);
 };
 
-// By instruction set; the fast tier's are compiled apart, with other flags.
-[[nodiscard]] const TierKernels& exact_kernels_v2(Tier tier);
-[[nodiscard]] const TierKernels& exact_kernels_v3(Tier tier);
-[[nodiscard]] const TierKernels& exact_kernels_v4(Tier tier);
-[[nodiscard]] const TierKernels& fast_kernels_v2();
-[[nodiscard]] const TierKernels& fast_kernels_v3();
-[[nodiscard]] const TierKernels& fast_kernels_v4();
+/// The same as plain function pointers.
+struct TierKernels {
+    TileStats (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
+                                            Vec3d* sums);
+    std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
+    RTCIntersectFunctionN intersect;
+    RTCOccludedFunctionN occluded;
+    RTCFilterFunctionN filter_nearest;  ///< null but in the tier fast
+    RTCFilterFunctionN filter_any;      ///< the same
+};
 
 }  // namespace tandem

@@ -52,7 +52,7 @@ struct Proposal {
     }
     template <class From>
     TANDEM_HD Float<Real> start_for(const From& source) const {
-        if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        if constexpr (std::is_base_of_v<PathSource<Real>, From>) {
             if (any(source.passed.t > Double<Real>(0.0))) [[unlikely]]
                 return start(source.passed.t);
         }

@@ -116,8 +116,8 @@ struct LoopTracerFor {
     }
 
     /// Is anything hit at some t < t_max? The comparison is exact, in the type of decisions.
-    template <class Real>
-    TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+    template <class Real, class From>
+    TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
                                   const Mask<Real>& active) const {
         Closest<Real> best = before<Real>(t_max);
         find<Search::any>(ray, source, active, best);

@@ -6,7 +6,7 @@
 ///                         compiles kernels once per instruction set: an out-of-line copy built with AVX-512 could
 ///                         be the one that the linker keeps for a machine without it. Not forced in a build for one
 ///                         instruction set (TANDEM_ONE_INSTRUCTION_SET).
-/// TANDEM_HD_RARE          the same for what one ray in many needs: a call on the device, so that it takes no registers
+/// TANDEM_HD_RARE          host and device, never inline: for what one ray in many needs, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
 /// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
 ///                         a copy of its own, for the reason above. Pass arguments by value.
@@ -58,14 +58,14 @@
 #define TANDEM_INLINE_LAMBDA
 #elif defined(TANDEM_ONE_INSTRUCTION_SET)
 #define TANDEM_HD inline
-#define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_RARE TANDEM_HD_CALL
 #define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
 #define TANDEM_HD_STEP TANDEM_HD_CALL
 #define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline
-#define TANDEM_HD_RARE TANDEM_HD
+#define TANDEM_HD_RARE TANDEM_HD_CALL
 #define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
 #define TANDEM_HD_STEP TANDEM_HD_CALL

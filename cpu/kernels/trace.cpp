@@ -1,115 +1,10 @@
-/// The kernels of the exact tiers for one instruction set. Included by kernels_v2.cpp, kernels_v3.cpp and
-/// kernels_v4.cpp, each compiled for its own.
-#pragma once
-
-#include "cpu/embree_tracer.h"
-#include "cpu/kernels.h"
-#include "cpu/path_pool.h"
-#include "cpu/tile_pixels.h"
-#include "tandem/math/lanes.h"
+// trace() of one tier, for one instruction set.
+#include "cpu/kernels/called_tracer.h"
+#include "cpu/kernels/tier_reals.h"
 
 namespace tandem {
 
-/// The Reals of a tier: for one ray and for a packet.
-template <class OneReal, class PacketReal>
-struct TierReals {
-    using One = OneReal;
-    using Packet = PacketReal;
-};
-template <class Isa>
-using Strict = TierReals<float, Lanes<float, Isa>>;
-template <class Isa>
-using Precise = TierReals<double, Lanes<double, Isa>>;
-
-// Calls, in this file's own copy: their names do not always tell the instruction set.
-template <class Real, class From, class Tracer>
-TANDEM_HD_CALL Closest<Real> closest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
-                                         const Mask<Real>& active) {
-    return tracer.closest(ray, source, active);
-}
-template <class Real, class Tracer>
-TANDEM_HD_CALL Mask<Real> any_hit(const Tracer& tracer, const Ray<Real>& ray, const Double<Real>& t_max,
-                                  const ShadowSource<Real>& source, const Mask<Real>& active) {
-    return tracer.occluded(ray, t_max, source, active);
-}
-
-/// The tracer of a scene, whichever that is, by calls: one copy of each serves the path loop, wherever it asks, and
-/// trace(). The plain path loop has its own, inline.
-struct CalledTracer {
-    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
-    static constexpr bool has_hierarchy = true;
-    const CpuSceneView& view;
-
-    template <class Real, class From>
-    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source,
-                                                  const Mask<Real>& active) const {
-        if (view.embree != nullptr) return closest_hit<Real, From>(EmbreeTracer{view}, ray, source, active);
-        return closest_hit<Real, From>(LoopTracer{view.scene}, ray, source, active);
-    }
-    template <class Real>
-    [[nodiscard]] TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                const ShadowSource<Real>& source, const Mask<Real>& active) const {
-        if (view.embree != nullptr) return any_hit<Real>(EmbreeTracer{view}, ray, t_max, source, active);
-        return any_hit<Real>(LoopTracer{view.scene}, ray, t_max, source, active);
-    }
-};
-
-/// Paths of one vertex: a pixel per lane.
-template <class Effects, class Real, class Tracer>
-TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
-                        Vec3d* sums) {
-    using Word = UInt<Real>;
-    TileStats stats;
-    TilePixels<Real> pixels(tile);
-    Word x(0U), y(0U);
-    while (true) {
-        const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
-        if (!any(used)) return stats;
-        const auto pixel = render_pixel<Effects, Real>(tracer, scene, job, x, y, used);
-        const Word at = y * Word(job.width) + x;
-        for (int i = 0; i < Real::size; ++i) {
-            if (!used[i]) continue;
-            sums[at[i]] = {pixel.sum.x[i], pixel.sum.y[i], pixel.sum.z[i]};
-            stats.counters.invalid_samples += pixel.invalid[i];
-        }
-        stats.add(pixel.tally);
-    }
-}
-
-/// Paths that go on: a lane that is done takes the next pixel of the tile.
-template <class Effects, class Real, class Tracer>
-TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
-                       Vec3d* sums) {
-    TileStats stats;
-    TilePixels<Real> pixels(tile);
-    PathPool<Effects, Real> pool;
-    do {
-        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) TANDEM_INLINE_LAMBDA {
-            const Mask<Real> taken = pixels.next(free, x, y);
-            for (int i = 0; i < Real::size; ++i) {
-                if (taken[i]) sums[y[i] * job.width + x[i]] = {0.0, 0.0, 0.0};
-            }
-            return taken;
-        });
-    } while (pool.step(tracer, scene, job, sums, stats));
-    return stats;
-}
-
-template <class Reals, std::size_t variant>
-TileStats render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile, Vec3d* sums) {
-    using Effects = EffectSet<variants[variant].effects.bits()>;
-    using Real = typename Reals::Packet;
-    if constexpr (can_bounce<Effects>()) {
-        return follow_paths<Effects, Real>(CalledTracer{view}, view.scene, job, tile, sums);
-    } else if constexpr (can_leave_surfaces<Effects>()) {
-        return render_pixels<Effects, Real>(CalledTracer{view}, view.scene, job, tile, sums);
-    } else {
-        if (view.embree != nullptr) {
-            return render_pixels<Effects, Real>(EmbreeTracer{view}, view.scene, job, tile, sums);
-        }
-        return render_pixels<Effects, Real>(LoopTracer{view.scene}, view.scene, job, tile, sums);
-    }
-}
+namespace {
 
 /// Do the rays run alike? Then a packet is faster than its rays one by one. One origin, and directions whose signs
 /// agree: true of camera rays, and cheap to see.
@@ -254,38 +149,24 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
     return rejected;
 }
 
-template <class Reals, class Ask>
+template <class Isa, class Reals, class Ask>
 std::uint64_t trace_as(const CpuSceneView& view, const TraceJob& job) {
-    const CalledTracer tracer{view};
+    const CalledTracer<Isa> tracer{view};
     return view.embree != nullptr ? trace_rays<Reals, Ask, false>(tracer, job)
                                   : trace_rays<Reals, Ask, true>(tracer, job);
 }
 
-template <class Reals>
-std::uint64_t trace(const CpuSceneView& view, const TraceJob& job) {
-    if (!job.ends.empty()) return trace_as<Reals, AskOccluded<Reals>>(view, job);
-    if (!job.sources.empty()) return trace_as<Reals, AskNearestFromSurface<Reals>>(view, job);
-    return trace_as<Reals, AskNearest<Reals>>(view, job);
+}  // namespace
+
+template <class Isa, Tier tier>
+std::uint64_t CpuKernels<Isa, tier>::trace(const CpuSceneView& view, const TraceJob& job) {
+    using Reals = TierReals<Isa, tier>;
+    if (!job.ends.empty()) return trace_as<Isa, Reals, AskOccluded<Reals>>(view, job);
+    if (!job.sources.empty()) return trace_as<Isa, Reals, AskNearestFromSurface<Reals>>(view, job);
+    return trace_as<Isa, Reals, AskNearest<Reals>>(view, job);
 }
 
-template <class Reals>
-constexpr TierKernels make_tier_kernels() {
-    using One = typename Reals::One;
-    using Packet = typename Reals::Packet;
-    TierKernels kernels = {{},      trace<Reals>, intersect_callback<One, Packet>, occluded_callback<One, Packet>,
-                           nullptr, nullptr};
-    [&]<std::size_t... variant>(std::index_sequence<variant...>) {
-        ((kernels.render_tile[variant] = render_tile<Reals, variant>), ...);
-    }
-    (std::make_index_sequence<variant_count>());
-    if constexpr (is_fast<One>) {
-        kernels.filter_nearest = filter_callback<Search::nearest, One, Packet>;
-        kernels.filter_any = filter_callback<Search::any, One, Packet>;
-    }
-    return kernels;
-}
-
-template <class Reals>
-inline constexpr TierKernels tier_kernels = make_tier_kernels<Reals>();
+template std::uint64_t CpuKernels<TANDEM_KERNEL_ISA, Tier::TANDEM_KERNEL_TIER>::trace(const CpuSceneView&,
+                                                                                      const TraceJob&);
 
 }  // namespace tandem

@@ -1,0 +1,38 @@
+/// The tracer of a scene, whichever that is, by calls.
+#pragma once
+
+#include "cpu/kernels.h"
+#include "cpu/query_source.h"
+
+namespace tandem {
+
+// In a file of their own (trace_entry.h). `Isa` is there for its name: that of Real does not always tell the
+// instruction set.
+template <class Isa, class Real>
+[[nodiscard]] Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
+                                        const Mask<Real>& active);
+template <class Isa, class Real>
+[[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
+                                 const QuerySource<Real>& source, const Mask<Real>& active);
+
+/// One copy of each call serves the path loop, wherever it asks, and trace(). The plain path loop has its own tracer,
+/// inline.
+template <class Isa>
+struct CalledTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+    static constexpr bool has_hierarchy = true;
+    const CpuSceneView& view;
+
+    template <class Real, class From>
+    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source,
+                                                  const Mask<Real>& active) const {
+        return closest_hit<Isa, Real>(view, ray, QuerySource<Real>(source), active);
+    }
+    template <class Real>
+    [[nodiscard]] TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                const ShadowSource<Real>& source, const Mask<Real>& active) const {
+        return any_hit<Isa, Real>(view, ray, t_max, QuerySource<Real>(source), active);
+    }
+};
+
+}  // namespace tandem

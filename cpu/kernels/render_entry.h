@@ -1,0 +1,69 @@
+/// The path loop, for the files of its variants.
+#pragma once
+
+#include "cpu/kernels/called_tracer.h"
+#include "cpu/kernels/tier_reals.h"
+#include "cpu/path_pool.h"
+#include "cpu/tile_pixels.h"
+
+namespace tandem {
+
+/// Paths of one vertex: a pixel per lane.
+template <class Effects, class Real, class Tracer>
+TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                        Vec3d* sums) {
+    using Word = UInt<Real>;
+    TileStats stats;
+    TilePixels<Real> pixels(tile);
+    Word x(0U), y(0U);
+    while (true) {
+        const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
+        if (!any(used)) return stats;
+        const auto pixel = render_pixel<Effects, Real>(tracer, scene, job, x, y, used);
+        const Word at = y * Word(job.width) + x;
+        for (int i = 0; i < Real::size; ++i) {
+            if (!used[i]) continue;
+            sums[at[i]] = {pixel.sum.x[i], pixel.sum.y[i], pixel.sum.z[i]};
+            stats.counters.invalid_samples += pixel.invalid[i];
+        }
+        stats.add(pixel.tally);
+    }
+}
+
+/// Paths that go on: a lane that is done takes the next pixel of the tile.
+template <class Effects, class Real, class Tracer>
+TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                       Vec3d* sums) {
+    TileStats stats;
+    TilePixels<Real> pixels(tile);
+    PathPool<Effects, Real> pool;
+    do {
+        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) TANDEM_INLINE_LAMBDA {
+            const Mask<Real> taken = pixels.next(free, x, y);
+            for (int i = 0; i < Real::size; ++i) {
+                if (taken[i]) sums[y[i] * job.width + x[i]] = {0.0, 0.0, 0.0};
+            }
+            return taken;
+        });
+    } while (pool.step(tracer, scene, job, sums, stats));
+    return stats;
+}
+
+template <class Isa, Tier tier>
+template <std::size_t variant>
+TileStats CpuKernels<Isa, tier>::render_tile(const CpuSceneView& view, const PixelJob& job, const Tile& tile,
+                                             Vec3d* sums) {
+    using Effects = EffectSet<variants[variant].effects.bits()>;
+    using Real = typename TierReals<Isa, tier>::Packet;
+    const CalledTracer<Isa> tracer{view};
+    if constexpr (can_bounce<Effects>()) {
+        return follow_paths<Effects, Real>(tracer, view.scene, job, tile, sums);
+    } else {
+        if (can_leave_surfaces<Effects>() || view.embree != nullptr) {
+            return render_pixels<Effects, Real>(tracer, view.scene, job, tile, sums);
+        }
+        return render_pixels<Effects, Real>(LoopTracer{view.scene}, view.scene, job, tile, sums);
+    }
+}
+
+}  // namespace tandem

@@ -1,8 +1,0 @@
-#include "cpu/kernel_variant.h"
-#include "tandem/math/fast_math.h"
-
-namespace tandem {
-
-const TierKernels& fast_kernels_v3() { return tier_kernels<TierReals<FastFloat, Lanes<float, Fast<Avx2>>>>; }
-
-}  // namespace tandem

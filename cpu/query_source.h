@@ -1,0 +1,48 @@
+/// What a ray of the CPU's tracers leaves and runs to: one type for all rays, so that each decision is compiled once.
+#pragma once
+
+#include "tandem/geometry/intersect.h"
+
+namespace tandem {
+
+/// A PathSource that is a ShadowSource too: no hit on `light` counts.
+template <class Real>
+struct QuerySource : PathSource<Real> {
+    UInt<Real> light = UInt<Real>(no_primitive);
+
+    TANDEM_HD QuerySource() = default;
+    TANDEM_HD explicit QuerySource(const NoSource&) {}
+    TANDEM_HD explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source) {}
+    TANDEM_HD explicit QuerySource(const ShadowSource<Real>& source) : PathSource<Real>{source}, light(source.light) {}
+};
+
+namespace query_detail {
+
+/// first_from() of rays that start on the primitive itself, or that have passed a hole.
+template <class Real, class Primitive>
+TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
+                                             const PathSource<Real>& source, const Mask<Real>& active,
+                                             const Double<Real>& farthest, Double<Real>& t) {
+    return first_from(source, primitive, id, ray, active, farthest, t);
+}
+
+}  // namespace query_detail
+
+/// decide() as a call: so many places ask for it that the compiler would take minutes to inline it everywhere.
+template <class Real, class Primitive>
+TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
+                           const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {
+    const UInt<Real> number(id);
+    const Mask<Real> active = candidate && source.light != number;
+    const Mask<Real> special = source.primitive == number || source.passed.t > Double<Real>(0.0);
+    Double<Real> t(0.0);
+    Mask<Real> hit;
+    if (any(active && special)) {
+        hit = query_detail::first_from_surface<Real>(primitive, id, ray, source, active, best.t, t);
+    } else {
+        hit = first_from(NoSource{}, primitive, id, ray, active, best.t, t);
+    }
+    offer<Real>(hit, t, number, best);
+}
+
+}  // namespace tandem
