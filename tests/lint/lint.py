@@ -9,8 +9,10 @@ KERNEL_ROOMS = ("math", "geometry", "material", "light", "camera", "sampler", "t
 CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 # The paper's method re-created to be measured, not used: its arithmetic is its own.
 BASELINE = "apps/bench/baseline/"
-# The tier fast: its files, and no others, may use what the exact tiers must not (docs/tiers.md).
-FAST_TIER = re.compile(r"^(?:cpu|cuda)/kernels_fast\w*\.(?:cpp|cu)$|^lib/math/fast_\w+\.h$")
+# The tier fast: its files, and no others, may use what the exact tiers must not (docs/tiers.md). The CPU's kernels of all
+# tiers are the same files; a definition tells them apart.
+FAST_TIER = re.compile(r"^cuda/kernels_fast\w*\.cu$|^lib/math/fast_\w+\.h$")
+FAST_KERNEL = "-DTANDEM_KERNEL_TIER=fast "
 FAST_FLAGS = {"cpu/CMakeLists.txt": {"-ffp-contract=fast"}, "cuda/CMakeLists.txt": {"--use_fast_math"}}
 FAST_MATH = re.compile(
     r"-ffast-math|-Ofast\b|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"

@@ -36,7 +36,7 @@ def main():
     for path in objects:
         name = path.relative_to(build).as_posix()
         count = len(FUSED.findall(run(objdump, "-d", "--no-show-raw-insn", str(path))))
-        if not NEWER.search(path.name):
+        if not NEWER.search(name):
             if count:
                 report.add(name, f"{count} fused multiply-adds in an object for the baseline instruction set")
             continue
