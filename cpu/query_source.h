@@ -33,11 +33,13 @@ template <class Real, class Primitive>
 TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                            const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {
     const UInt<Real> number(id);
-    const Mask<Real> active = candidate && source.light != number;
-    const Mask<Real> special = source.primitive == number || source.passed.t > Double<Real>(0.0);
+    const Mask<Real> active =
+        candidate && source.light != number && can_meet<Real, Primitive>(source, id, Mask<Real>(false));
+    if (!any(active)) return;
+    const Mask<Real> starts_here = source.primitive == number;
     Double<Real> t(0.0);
     Mask<Real> hit;
-    if (any(active && special)) {
+    if (any(active && (starts_here || source.passed.t > Double<Real>(0.0)))) {
         hit = query_detail::first_from_surface<Real>(primitive, id, ray, source, active, best.t, t);
     } else {
         hit = first_from(NoSource{}, primitive, id, ray, active, best.t, t);
