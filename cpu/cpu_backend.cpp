@@ -225,7 +225,7 @@ class CpuBackend final : public Backend {
         check(job, scene->tier());
         const auto& resident = dynamic_cast<const CpuScene&>(*scene);
         const TierKernels& kernels = set_.kernels(job.tier);
-        const PixelJob pixel_job = make_pixel_job(resident.prepared(), job);
+        const PixelJob pixel_job = make_pixel_job(resident.prepared().camera, job);
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples);
         Vec3d* sums = result.film.sums().data();

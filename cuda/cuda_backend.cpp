@@ -134,7 +134,7 @@ class CudaBackend final : public Backend {
         memory->counters_on_host.reserve(counter_bytes);
         std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
 
-        const EffectMask effects = resident.camera().effects;
+        const EffectMask effects = resident.effects();
         const std::size_t variant = variant_for(variants, effects);
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
@@ -169,8 +169,8 @@ class CudaBackend final : public Backend {
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums));
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
-        result.stats.counters.dropped_primitives = resident.camera().dropped_primitives;
-        result.stats.counters.dropped_lights = resident.camera().dropped_lights;
+        result.stats.counters.dropped_primitives = resident.dropped_primitives();
+        result.stats.counters.dropped_lights = resident.dropped_lights();
         result.stats.device_bytes = resident.bytes() + bytes;
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;

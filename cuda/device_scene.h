@@ -27,8 +27,11 @@ class DeviceScene final : public ResidentScene {
     [[nodiscard]] PhaseTimes load_times() const override;
     [[nodiscard]] const DeviceSceneView& view() const { return view_; }
     [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }
-    /// For the camera and the numbers of what was dropped; arrays are not kept.
-    [[nodiscard]] const PreparedScene& camera() const { return camera_; }
+    // Of the prepared scene, which is not kept:
+    [[nodiscard]] const PreparedCamera& camera() const { return camera_; }
+    [[nodiscard]] EffectMask effects() const { return effects_; }
+    [[nodiscard]] std::uint64_t dropped_primitives() const { return dropped_primitives_; }
+    [[nodiscard]] std::uint64_t dropped_lights() const { return dropped_lights_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
     /// Copies that had been taken out of the scene; none unless set_copies() was called.
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
@@ -36,7 +39,10 @@ class DeviceScene final : public ResidentScene {
 
   private:
     std::shared_ptr<SceneMemory> memory_;
-    PreparedScene camera_;
+    PreparedCamera camera_;
+    EffectMask effects_;
+    std::uint64_t dropped_primitives_;
+    std::uint64_t dropped_lights_;
     DeviceSceneView view_{};
     std::size_t bytes_ = 0;
     double build_seconds_ = 0;

@@ -75,9 +75,9 @@ void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& 
         const bool by_shadow_rays = scene.environment.indirect == 0 && prepared.area_light_shadows;
         if (by_shadow_rays) needs.add(Effect::shadows, "the environment casts shadows");
     }
-    if (prepared.lens.aperture_radius > 0 && !prepared.orthographic) {
+    if (prepared.camera.lens.aperture_radius > 0 && !prepared.camera.orthographic) {
         needs.add(Effect::lens,
-                  fmt::format("the camera has an aperture of radius {:g} m", prepared.lens.aperture_radius));
+                  fmt::format("the camera has an aperture of radius {:g} m", prepared.camera.lens.aperture_radius));
     }
 }
 

@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-[[nodiscard]] inline PixelJob make_pixel_job(const PreparedScene& scene, const RenderJob& job) {
-    return {.camera = camera_view(scene, job.width, job.height),
+[[nodiscard]] inline PixelJob make_pixel_job(const PreparedCamera& camera, const RenderJob& job) {
+    return {.camera = camera_view(camera, job.width, job.height),
             .seed = job.seed,
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),

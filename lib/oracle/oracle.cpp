@@ -73,7 +73,7 @@ class OracleBackend final : public Backend {
         const DefaultFpEnvironment guard;
         check(job, scene->tier());
         const PreparedScene& prepared = dynamic_cast<const OracleScene&>(*scene).prepared;
-        const PixelJob pixel_job = make_pixel_job(prepared, job);
+        const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
         const SceneView scene_view = view(prepared);
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples);

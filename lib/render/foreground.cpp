@@ -28,7 +28,7 @@ struct ColourRange {
 }  // namespace
 
 Backdrop::Backdrop(const PreparedScene& scene, int width, int height)
-    : camera_(camera_view(scene, width, height)), environment_(scene.environment) {}
+    : camera_(camera_view(scene.camera, width, height)), environment_(scene.environment) {}
 
 FloatImage Backdrop::foreground(const Film& film) const {
     const DefaultFpEnvironment guard;

@@ -103,7 +103,7 @@ void find_media(PreparedScene& prepared) {
     for (std::uint32_t id = 0; id < count; ++id) {
         if (scene.optics[scene.material_of[id]].transmission > 0) glass.push_back(id);
     }
-    const std::vector<Body> around = bodies_around(scene, glass, prepared.render_from_camera.translation);
+    const std::vector<Body> around = bodies_around(scene, glass, prepared.camera.render_from_camera.translation);
     prepared.camera_media = {};
     for (const Body& body : around) {
         if (prepared.camera_media.count == std::size(prepared.camera_media.material)) break;

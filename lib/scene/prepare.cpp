@@ -337,7 +337,7 @@ class Preparer {
     void move_to_origin() {
         const Vec3d origin = options_.origin ? *options_.origin : precise_origin();
         result_.origin = origin;
-        result_.render_from_camera.translation -= origin;
+        result_.camera.render_from_camera.translation -= origin;
         for (const Light& light : lights_) {
             result_.lights.push_back(light.light);
             result_.lights.back().position = narrow(light.position - origin);
@@ -396,14 +396,14 @@ class Preparer {
 
     /// Do the camera's rays start outside of the box? Those of an orthographic one start all over its plane.
     bool sees_outside_of(const Aabb& box) const {
-        const Vec3d eye = result_.render_from_camera.translation;
+        const Vec3d eye = result_.camera.render_from_camera.translation;
         const Vec3d lower = widen(box.lower) - eye, upper = widen(box.upper) - eye;
-        if (!result_.orthographic) {
-            const double reach = result_.lens.aperture_radius;
+        if (!result_.camera.orthographic) {
+            const double reach = result_.camera.lens.aperture_radius;
             const auto holds = [&](double from, double to) { return from <= reach && to >= -reach; };
             return !(holds(lower.x, upper.x) && holds(lower.y, upper.y) && holds(lower.z, upper.z));
         }
-        const Vec3d forward = -transpose(result_.render_from_camera.linear).row[2];
+        const Vec3d forward = -transpose(result_.camera.render_from_camera.linear).row[2];
         const auto least = [](double a, double from, double to) { return std::min(a * from, a * to); };
         return least(forward.x, lower.x, upper.x) + least(forward.y, lower.y, upper.y) +
                    least(forward.z, lower.z, upper.z) >
@@ -411,7 +411,7 @@ class Preparer {
     }
 
     Vec3d precise_origin() const {
-        RenderOrigin origin(result_.render_from_camera.translation);
+        RenderOrigin origin(result_.camera.render_from_camera.translation);
         for (const Ball& ball : balls_) origin.add_sphere(ball.centre, ball.radius);
         for (const Block& block : blocks_) origin.add_box(block.centre - block.extent, block.centre + block.extent);
         for (const Placed& body : placed_balls_) origin.add_placed(body.world_from_unit, body.unit_from_world, false);
@@ -439,13 +439,13 @@ class Preparer {
         if (!axes) fail(node, "a camera under a transform that is not invertible");
         check_reach(world_from_node.translation, {0, 0, 0}, node);
         // in world space until the origin is chosen
-        result_.render_from_camera = {transpose(*axes), world_from_node.translation};
+        result_.camera.render_from_camera = {transpose(*axes), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
-            result_.half_height = std::tan(perspective->yfov / 2);
-            result_.lens = perspective->lens;
+            result_.camera.half_height = std::tan(perspective->yfov / 2);
+            result_.camera.lens = perspective->lens;
         } else {
-            result_.orthographic = true;
-            result_.half_height = std::get<OrthographicCamera>(camera).ymag;
+            result_.camera.orthographic = true;
+            result_.camera.half_height = std::get<OrthographicCamera>(camera).ymag;
         }
     }
 

@@ -12,22 +12,11 @@ std::size_t primitive_count(const PreparedScene& scene) { return scene.material_
 SceneView view(const PreparedScene& scene) {
     const auto count = [](const auto& array) { return static_cast<std::uint32_t>(array.size()); };
     return {
-#define TANDEM_PRIMITIVE(Type, name, names) .names = scene.names.data(),
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-        .normals = scene.normals.data(),
-        .material_of = scene.material_of.data(),
-        .materials = scene.materials.data(),
-        .optics = scene.optics.data(),
-        .lights = scene.lights.data(),
-        .area_lights = scene.area_lights.data(),
-        .texcoords = scene.texcoords.data(),
+#define TANDEM_SCENE_ARRAY(Type, names) .names = scene.names.data(),
+#include "tandem/scene/scene_arrays.def"
         .textures = view(scene.textures),
-#define TANDEM_PRIMITIVE(Type, name, names) .name##_count = count(scene.names),
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-        .light_count = count(scene.lights),
-        .area_light_count = count(scene.area_lights),
+#define TANDEM_COUNTED_SCENE_ARRAY(Type, name, names) .name##_count = count(scene.names),
+#include "tandem/scene/scene_arrays.def"
         .area_light_kinds = scene.area_light_kinds,
         .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
         .has_cutouts = scene.has_cutouts ? 1U : 0U,
@@ -37,33 +26,33 @@ SceneView view(const PreparedScene& scene) {
         .environment = scene.environment};
 }
 
-CameraView camera_view(const PreparedScene& scene, int width, int height) {
+CameraView camera_view(const PreparedCamera& camera, int width, int height) {
     const DefaultFpEnvironment guard;
     // one pixel on the plane at distance 1, or in metres for an orthographic camera
-    const double pixel = 2 * scene.half_height / height;
-    const Matrix3 axes = transpose(scene.render_from_camera.linear);
+    const double pixel = 2 * camera.half_height / height;
+    const Matrix3 axes = transpose(camera.render_from_camera.linear);
     const Vec3d right = axes.row[0] * pixel;
     const Vec3d down = axes.row[1] * -pixel;
     const Vec3d to_corner = right * (-0.5 * width) + down * (-0.5 * height);
     const Vec3d forward = -axes.row[2];
-    const Vec3d eye = scene.render_from_camera.translation;
+    const Vec3d eye = camera.render_from_camera.translation;
     const Vec3d zero{0, 0, 0};
-    CameraView view = scene.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
-                                         : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
-    if (scene.lens.aperture_radius > 0 && !scene.orthographic) {
+    CameraView view = camera.orthographic ? CameraView{eye + to_corner, right, down, forward, zero, zero, true}
+                                          : CameraView{eye, zero, zero, forward + to_corner, right, down, false};
+    if (camera.lens.aperture_radius > 0 && !camera.orthographic) {
         view.has_lens = true;
-        view.lens_x = axes.row[0] * scene.lens.aperture_radius;
-        view.lens_y = axes.row[1] * scene.lens.aperture_radius;
-        view.inverse_focus = 1 / scene.lens.focus_distance;
-        view.rotation = scene.lens.rotation / (2 * pi);
-        view.blades = scene.lens.blades;
+        view.lens_x = axes.row[0] * camera.lens.aperture_radius;
+        view.lens_y = axes.row[1] * camera.lens.aperture_radius;
+        view.inverse_focus = 1 / camera.lens.focus_distance;
+        view.rotation = camera.lens.rotation / (2 * pi);
+        view.blades = camera.lens.blades;
     }
     // rays are affine in the film position: if those of the corners can be traced, all can
     for (const double x : {0.0, double(width)}) {
         for (const double y : {0.0, double(height)}) {
             if (is_traceable(camera_ray<float>(view, x, y, 0.0F, 0.0F))) continue;
             throw InputError(
-                scene.orthographic
+                camera.orthographic
                     ? "the orthographic camera shows points farther than 1e18 from the origin; make ymag smaller"
                     : "the camera sends rays that cannot be traced: it is farther than 1e18 from the origin, or not a "
                       "number");
@@ -78,32 +67,24 @@ std::string scene_hash(const PreparedScene& scene) {
         hash.update_value(std::uint64_t{array.size()});
         hash.update(array.data(), array.size() * sizeof(array[0]));
     };
-#define TANDEM_PRIMITIVE(Type, name, names) add(scene.names);
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-    add(scene.normals);
-    add(scene.texcoords);
-    add(scene.material_of);
-    add(scene.materials);
-    add(scene.optics);
-    add(scene.lights);
-    add(scene.area_lights);
+#define TANDEM_SCENE_ARRAY(Type, names) add(scene.names);
+#include "tandem/scene/scene_arrays.def"
     hash.update_value(std::uint8_t{scene.area_light_shadows});
     hash.update_value(scene.roulette_from);
     hash.update_value(scene.camera_media);
     hash.update_value(std::uint8_t{scene.media_overlap});
     hash.update_value(scene.environment);
-    hash.update_value(scene.render_from_camera);
-    hash.update_value(std::uint8_t{scene.orthographic});
-    hash.update_value(scene.half_height);
-    hash.update_value(scene.lens.aperture_radius);
-    hash.update_value(scene.lens.focus_distance);
-    hash.update_value(scene.lens.blades);
-    hash.update_value(scene.lens.rotation);
+    hash.update_value(scene.camera.render_from_camera);
+    hash.update_value(std::uint8_t{scene.camera.orthographic});
+    hash.update_value(scene.camera.half_height);
+    hash.update_value(scene.camera.lens.aperture_radius);
+    hash.update_value(scene.camera.lens.focus_distance);
+    hash.update_value(scene.camera.lens.blades);
+    hash.update_value(scene.camera.lens.rotation);
     if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
         add(scene.textures.texels);
         add(scene.textures.textures);
-        add(scene.textures.materials);
+        add(scene.textures.materials);  // levels are always the same
     }
     return hash.hex();
 }

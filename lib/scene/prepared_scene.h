@@ -18,6 +18,14 @@
 
 namespace tandem {
 
+/// Where the camera stands, without the size of a film; camera_view() sets it up for one.
+struct PreparedCamera {
+    Transform render_from_camera;
+    bool orthographic = false;
+    Lens lens{};
+    double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
+};
+
 /// All coordinates are in render space: world space moved by `origin`, so that float is precise where the camera looks
 /// (scene/render_origin.h). The axes are those of the world.
 ///
@@ -26,20 +34,12 @@ namespace tandem {
 struct PreparedScene {
     static constexpr std::uint32_t never = 0xFFFFFFFFU;
 
-#define TANDEM_PRIMITIVE(Type, name, names) std::vector<Type> names;
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-    std::vector<Vec3f> normals;  ///< shading normals of the corners of faces (FaceAttributes): unit, world space, or 0
-    std::vector<Vec2f> texcoords;            ///< values of the corners of faces, by slot: texture coordinates, colours
-    std::vector<std::uint32_t> material_of;  ///< by primitive id
-    std::vector<std::uint32_t> node_of;      ///< by primitive id: index into Scene::nodes, for messages
-    std::vector<PrimitiveCopy> copies;       ///< primitives that are not traced, because they are in another's place
-    std::vector<PhongMaterial> materials;
+#define TANDEM_SCENE_ARRAY(Type, names) std::vector<Type> names;
+#include "tandem/scene/scene_arrays.def"
     PreparedTextures textures;
-    std::vector<Optics> optics;  ///< by material
-    std::vector<PunctualLight> lights;
-    std::vector<AreaLight> area_lights;  ///< spheres, triangles and quads that glow, in the order of their ids
-    std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of those
+    std::vector<std::uint32_t> node_of;  ///< by primitive id: index into Scene::nodes, for messages
+    std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they are in another's place
+    std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
     bool area_light_shadows = true;
     bool has_cutouts = false;             ///< some material is cut out by its alpha, or some faces are culled
     std::uint32_t culled_node = never;    ///< the first node whose faces are culled from behind
@@ -54,11 +54,7 @@ struct PreparedScene {
 
     Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
 
-    /// Where the camera stands, without the size of a film; camera_view() sets it up for one.
-    Transform render_from_camera;
-    bool orthographic = false;
-    Lens lens{};
-    double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
+    PreparedCamera camera;
 
     // when this is, and what the camera would see of motion: for derive_effects()
     double time = 0;              ///< seconds, of the animation
@@ -81,7 +77,7 @@ struct PreparedScene {
 
 /// The camera for a film of width x height pixels; pixels are square. All its rays are traceable and
 /// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
-[[nodiscard]] CameraView camera_view(const PreparedScene& scene, int width, int height);
+[[nodiscard]] CameraView camera_view(const PreparedCamera& camera, int width, int height);
 
 /// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
 /// node_of and the numbers of what was dropped, which serve messages, nor over copies, which follow from the rest, nor

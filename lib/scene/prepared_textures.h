@@ -10,10 +10,9 @@ namespace tandem {
 
 /// The arrays of a TextureSet. All are empty where no material has a texture or is cut out.
 struct PreparedTextures {
-    std::vector<std::uint32_t> texels;
-    std::vector<TextureDescriptor> textures;
-    std::vector<MaterialTextures> materials;  ///< one per material of the scene
-    std::vector<float> levels;                ///< texture_levels()
+#define TANDEM_TEXTURE_ARRAY(Type, names) std::vector<Type> names;
+#include "tandem/texture/texture_arrays.def"
+#undef TANDEM_TEXTURE_ARRAY
 };
 
 /// The window of the kernels onto the arrays, which must outlive it.

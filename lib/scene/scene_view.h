@@ -21,22 +21,11 @@ struct CameraMedia {
 
 /// Pointers are to memory of the side that reads them. Ids as in PreparedScene.
 struct SceneView {
-#define TANDEM_PRIMITIVE(Type, name, names) const Type* names;
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-    const Vec3f* normals;  ///< of the corners of faces (FaceAttributes)
-    const std::uint32_t* material_of;
-    const PhongMaterial* materials;
-    const Optics* optics;  ///< by material
-    const PunctualLight* lights;
-    const AreaLight* area_lights;  ///< by primitive id
-    const Vec2f* texcoords;        ///< values of the corners of faces, by slot (FaceAttributes)
+#define TANDEM_SCENE_ARRAY(Type, names) const Type* names;
+#include "tandem/scene/scene_arrays.def"
     TextureSet textures;
-#define TANDEM_PRIMITIVE(Type, name, names) std::uint32_t name##_count;
-#include "tandem/scene/primitives.def"
-#undef TANDEM_PRIMITIVE
-    std::uint32_t light_count;
-    std::uint32_t area_light_count;
+#define TANDEM_COUNTED_SCENE_ARRAY(Type, name, names) std::uint32_t name##_count;
+#include "tandem/scene/scene_arrays.def"
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
     std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha, and no face is culled

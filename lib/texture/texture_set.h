@@ -47,10 +47,9 @@ static_assert(sizeof(MaterialTextures) == 112 && sizeof(TextureDescriptor) == 28
 
 /// Pointers are to memory of the side that reads them.
 struct TextureSet {
-    const std::uint32_t* texels;
-    const TextureDescriptor* textures;
-    const MaterialTextures* materials;  ///< by index of the material; null if none has a texture or is cut out
-    const float* levels;                ///< 256 for ColourSpace::srgb, then 256 for ColourSpace::linear
+#define TANDEM_TEXTURE_ARRAY(Type, names) const Type* names;
+#include "tandem/texture/texture_arrays.def"
+#undef TANDEM_TEXTURE_ARRAY
 };
 
 TANDEM_HD bool has_textures(const TextureSet& set) { return set.materials != nullptr; }

@@ -75,7 +75,7 @@ TEST(Baseline, RaysThroughPixelCentresMeetWhatTandemSays) {
         const NaiveFrame moving = naive_frame(frame);
         const PreparedScene scene = prepare(named_scene("paper"), {frame, {}});
         const LoopTracer tracer{view(scene)};
-        const CameraView camera = camera_view(scene, job.width, job.height);
+        const CameraView camera = camera_view(scene.camera, job.width, job.height);
         int differing = 0;
         int met[5] = {};
         for (int y = 0; y < job.height; ++y) {

@@ -52,7 +52,7 @@ class LoopBackend final : public Backend {
         const PreparedScene& prepared = dynamic_cast<LoopScene&>(*scene).prepared;
         const SceneView window = view(prepared);
         const auto width = static_cast<std::uint32_t>(job.width);
-        const PixelJob pixel_job = make_pixel_job(prepared, job);
+        const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
         RenderResult result{Film(job.width, job.height, job.samples), {}};
         for (std::uint32_t i = 0; i < result.film.pixel_count(); ++i) {
             result.film.sums()[i] =

@@ -408,7 +408,7 @@ TEST_F(Import, NamelessNodesTakeTheNameOfWhatTheyCarry) {
     EXPECT_EQ(scene.nodes[1].name, "marble");
     EXPECT_EQ(scene.nodes[2].name, "");
     EXPECT_EQ(scene.nodes[3].name, "sun");
-    EXPECT_FALSE(prepare(scene, {0, "front"}).orthographic);
+    EXPECT_FALSE(prepare(scene, {0, "front"}).camera.orthographic);
 }
 
 TEST_F(Import, WholeNumbersMayBeWrittenWithAPoint) {

@@ -41,7 +41,7 @@ TEST_P(Foreground, IsWhatHidesTheBackground) {
     const std::unique_ptr<Backend> oracle = make_oracle_backend({});
     const Film film = oracle->render(oracle->load(prepared, job.tier), job).film;
     const FloatImage seen = Backdrop(prepared, job.width, job.height).foreground(film);
-    const CameraView camera = camera_view(prepared, job.width, job.height);
+    const CameraView camera = camera_view(prepared.camera, job.width, job.height);
     int bodies = 0, backgrounds = 0;
     for (int y = 0; y < job.height; ++y) {
         for (int x = 0; x < job.width; ++x) {

@@ -90,10 +90,11 @@ struct Seen {
 Seen look(const Scene& scene, const std::string& camera, double aspect) {
     const PreparedScene prepared = prepare(scene, {.camera = camera});
     Seen seen;
-    const Matrix3 camera_from_render = transpose(prepared.render_from_camera.linear);
+    const Matrix3 camera_from_render = transpose(prepared.camera.render_from_camera.linear);
     const auto add = [&](const Vec3d& point) {
-        const Vec3d p = camera_from_render * (point - prepared.render_from_camera.translation);
-        const Vec2<double> at = {p.x / (-p.z * prepared.half_height * aspect), p.y / (-p.z * prepared.half_height)};
+        const Vec3d p = camera_from_render * (point - prepared.camera.render_from_camera.translation);
+        const Vec2<double> at = {p.x / (-p.z * prepared.camera.half_height * aspect),
+                                 p.y / (-p.z * prepared.camera.half_height)};
         seen.nearest = std::min(seen.nearest, -p.z);
         for (int i = 0; i < 2; ++i) {
             seen.lower[i] = std::min(seen.lower[i], at[i]);

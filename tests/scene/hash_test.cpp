@@ -75,10 +75,10 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"background bottom", [](PreparedScene& s) { s.environment.bottom.x = 7; }},
         {"background top", [](PreparedScene& s) { s.environment.top.x = 7; }},
         {"ambient light", [](PreparedScene& s) { s.environment.ambient.x = 7; }},
-        {"camera axes", [](PreparedScene& s) { s.render_from_camera.linear.row[0].y = 7; }},
-        {"camera place", [](PreparedScene& s) { s.render_from_camera.translation.y = 7; }},
-        {"projection", [](PreparedScene& s) { s.orthographic = true; }},
-        {"field of view", [](PreparedScene& s) { s.half_height = 7; }},
+        {"camera axes", [](PreparedScene& s) { s.camera.render_from_camera.linear.row[0].y = 7; }},
+        {"camera place", [](PreparedScene& s) { s.camera.render_from_camera.translation.y = 7; }},
+        {"projection", [](PreparedScene& s) { s.camera.orthographic = true; }},
+        {"field of view", [](PreparedScene& s) { s.camera.half_height = 7; }},
     };
     std::map<std::string, std::string> name_of;
     for (const auto& [name, change] : changes) {

@@ -19,7 +19,7 @@ TEST(NamedScenes, PaperIsTheScenarioOfThePaper) {
     ASSERT_EQ(prepared.boxes.size(), 1U);
     EXPECT_NEAR(prepared.boxes[0].lower.y, 0.5, 1e-6);  // 0.8 up, half a side of 0.6 down
     EXPECT_NEAR(prepared.lights[0].position.z, -1, 1e-6);
-    EXPECT_NEAR(prepared.half_height, 1 / 1.5, 1e-15);
+    EXPECT_NEAR(prepared.camera.half_height, 1 / 1.5, 1e-15);
 }
 
 TEST(NamedScenes, CrowdsHaveWhatTheirNamesSay) {

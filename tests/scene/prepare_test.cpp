@@ -283,12 +283,12 @@ TEST(Prepare, FindsTheCameraByItsName) {
     scene.nodes[3].name = "other";
     scene.nodes[3].camera = OrthographicCamera{2.5};
     scene.nodes[3].trs.translation = {0, 0, 8};
-    EXPECT_FALSE(prepare(scene).orthographic);
-    EXPECT_DOUBLE_EQ(prepare(scene).half_height, std::tan(0.5));
+    EXPECT_FALSE(prepare(scene).camera.orthographic);
+    EXPECT_DOUBLE_EQ(prepare(scene).camera.half_height, std::tan(0.5));
     const auto other = prepare(scene, {0, "other"});
-    EXPECT_TRUE(other.orthographic);
-    EXPECT_EQ(other.half_height, 2.5);
-    EXPECT_EQ(other.render_from_camera.translation, Vec3d(0, 0, 8));
+    EXPECT_TRUE(other.camera.orthographic);
+    EXPECT_EQ(other.camera.half_height, 2.5);
+    EXPECT_EQ(other.camera.render_from_camera.translation, Vec3d(0, 0, 8));
     EXPECT_TRUE(contains(input_error([&] {
                              (void)prepare(scene, {0, "third"});
                          }),
@@ -307,7 +307,8 @@ TEST(Prepare, ScaleDoesNotChangeWhatACameraSees) {
     const auto scaled = prepare(scene);
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
-            EXPECT_NEAR(plain.render_from_camera.linear.row[i][k], scaled.render_from_camera.linear.row[i][k], 1e-15);
+            EXPECT_NEAR(plain.camera.render_from_camera.linear.row[i][k],
+                        scaled.camera.render_from_camera.linear.row[i][k], 1e-15);
         }
     }
     scene.nodes[0].trs.scale = {1, 0, 1};

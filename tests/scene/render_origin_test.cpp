@@ -127,7 +127,7 @@ TEST(Prepare, PutsEverythingIntoRenderSpace) {
     const auto in_world = [&](const Vec3f& p) { return world_from_render(prepared, widen(p)); };
     EXPECT_EQ(in_world(prepared.spheres[0].centre), at + Vec3d(0, 0, -3));
     EXPECT_EQ(in_world(prepared.lights[0].position), at + Vec3d(1, 2, 3));
-    EXPECT_EQ(world_from_render(prepared, prepared.render_from_camera.translation), at);
+    EXPECT_EQ(world_from_render(prepared, prepared.camera.render_from_camera.translation), at);
     EXPECT_LE(std::abs(prepared.spheres[0].centre.x), 32);
     const PreparedScene fixed = prepare(scene, {.origin = Vec3d{1, 2, 3}});
     EXPECT_EQ(fixed.origin, Vec3d(1, 2, 3));

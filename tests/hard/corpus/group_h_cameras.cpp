@@ -31,7 +31,7 @@ template <class Real>
 void narrow_view(const Quaternion& rotation, Score& score) {
     constexpr int size = 4096;
     for (const double degrees : {1e-3, 1e-4}) {
-        const CameraView view = camera_view(prepare(camera_scene(degrees * M_PI / 180, rotation)), size, size);
+        const CameraView view = camera_view(prepare(camera_scene(degrees * M_PI / 180, rotation)).camera, size, size);
         const double pixel = std::sqrt(dot(view.direction_dx, view.direction_dx));
         Vec3<Real> before = {2, 2, 2};
         for (int x = 0; x < size; ++x) {
@@ -72,7 +72,7 @@ Score degenerate_cameras(Random& random, std::size_t calls) {
         bool refused = false;
         CameraView view{};
         try {
-            view = camera_view(prepare(scene), 64, 64);
+            view = camera_view(prepare(scene).camera, 64, 64);
         } catch (const InputError&) {
             refused = true;
         }
@@ -106,7 +106,7 @@ Score unit_interval(Random&, std::size_t) {
 /// error counts in units of the direction's largest component.
 Score large_film(Random& random, std::size_t calls) {
     constexpr int size = 65536;
-    const CameraView view = camera_view(prepare(camera_scene(0.8, {0.3, 0.2, 0.1, 1})), size, size);
+    const CameraView view = camera_view(prepare(camera_scene(0.8, {0.3, 0.2, 0.1, 1})).camera, size, size);
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
         const double x = size - 1.0 - random.below(4), y = size - 1.0 - random.below(4);
@@ -151,7 +151,7 @@ Score counters(Random& random, std::size_t calls) {
 Score pixel_borders(Random& random, std::size_t calls) {
     Score score;
     for (const int size : {1, 100, 4096, 65536}) {
-        const CameraView view = camera_view(prepare(camera_scene(0.8, {})), size, size);
+        const CameraView view = camera_view(prepare(camera_scene(0.8, {})).camera, size, size);
         for (std::size_t i = 0; i < calls / 4; ++i) {
             const double x = random.below(static_cast<std::uint32_t>(size));
             const float last = camera_ray<float>(view, x, 0, 1 - 0x1p-24F, 0).direction.x;

@@ -54,7 +54,7 @@ Score uniform(const Subject& subject, Random&, std::size_t rays) {
     const RenderJob job = long_sum(subject, rays);
     const PreparedScene scene = prepare(sky({0, 0, 0}, {1, 1, 1}));
     const Film film = picture_of(subject.backend, scene, job, score);
-    const PixelJob pixel = make_pixel_job(scene, job);
+    const PixelJob pixel = make_pixel_job(scene.camera, job);
     long double right = 0;
     for (std::uint32_t sample = 0; sample < pixel.samples; ++sample) {
         const auto random = SampleId<float>{pixel.seed, pixel.frame, 0, sample}.block(Dimension::film);
