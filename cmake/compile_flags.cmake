@@ -11,7 +11,7 @@ target_compile_options(
 
 # The instruction set that every x86-64 machine of the last decade has. Kernels for newer ones: cpu/CMakeLists.txt.
 # With sanitizers g++ compiles a function into which everything is inlined for more than ten minutes, so inlining is not forced for them, and
-# without that all files have to be for one instruction set (lib/math/host_device.h).
+# without that all files have to be for one instruction set (lib/tandem/math/host_device.h).
 add_library(tandem_baseline_isa INTERFACE)
 if(TANDEM_SANITIZE)
   target_compile_definitions(tandem_baseline_isa INTERFACE TANDEM_ONE_INSTRUCTION_SET)
@@ -39,8 +39,3 @@ endif()
 
 add_library(tandem_private INTERFACE)
 target_link_libraries(tandem_private INTERFACE tandem_exact_flags tandem_baseline_isa tandem_diagnostics)
-
-# #include "tandem/..." in the build tree: lib/ under its installed name.
-set(TANDEM_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
-file(MAKE_DIRECTORY ${TANDEM_INCLUDE_DIR})
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/lib ${TANDEM_INCLUDE_DIR}/tandem SYMBOLIC)

@@ -9,7 +9,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 
 install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 install(
-  DIRECTORY lib/
+  DIRECTORY lib/tandem/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tandem
   COMPONENT library
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def"

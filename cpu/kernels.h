@@ -49,9 +49,11 @@ struct TileStats {
     }
 };
 
-/// The sets of effects that the path loop is compiled for.
+/// The sets of effects that the path loop is compiled for: chosen by what scenes of assets/scenes pay for effects that
+/// they do not call for (docs/performance.md, "CPU").
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
+    {"direct", all_effects - bouncing_effects},
     {"full", all_effects},
 };
 inline constexpr std::size_t variant_count = std::size(variants);

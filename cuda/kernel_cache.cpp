@@ -51,7 +51,8 @@ bool is_key(std::string_view text) {
     return text.size() == sizeof Header::key && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// An entry of any key, or the file of an interrupted store (lib/file/whole_file.cpp): .KEY.cubin.PROCESS-COUNT.tmp
+/// An entry of any key, or the file of an interrupted store (lib/tandem/file/whole_file.cpp):
+/// .KEY.cubin.PROCESS-COUNT.tmp
 enum class FileKind { entry, unfinished, other };
 FileKind kind_of(std::string_view name) {
     const bool hidden = name.starts_with('.');

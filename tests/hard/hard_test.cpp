@@ -1,4 +1,4 @@
-// Every hard case on every backend and tier, against the marks of lib/accuracy.
+// Every hard case on every backend and tier, against the marks of lib/tandem/accuracy.
 // Hard/HardCase.HoldsItsMark/A1_cpu_strict is one of them.
 #include <gtest/gtest.h>
 

@@ -39,12 +39,12 @@ def main():
     report = Report()
     compiler = "clang++" if shutil.which("clang++") else "g++"
     flags = include_flags(root, build)
-    headers = sorted(path.relative_to(root / "lib") for path in (root / "lib").rglob("*.h"))
+    headers = sorted(path.relative_to(root / "lib") for path in (root / "lib/tandem").rglob("*.h"))
 
     def compile_alone(header):
         result = subprocess.run(
             [compiler, "-std=c++20", "-march=x86-64-v2", "-ffp-contract=off", *WARNINGS, *flags, "-fsyntax-only", "-x", "c++", "-"],
-            input=f'#include "tandem/{header.as_posix()}"\n', capture_output=True, text=True)
+            input=f'#include "{header.as_posix()}"\n', capture_output=True, text=True)
         return header, result
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

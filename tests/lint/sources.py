@@ -12,11 +12,11 @@ from lint import BASELINE, CPP, FAST_FLAGS, FAST_KERNEL, FAST_MATH, FAST_TIER, K
 
 ALL_ROOMS = ("lib", "cpu", "cuda", "apps")
 
-# Square root, fma, rint and fabs are exact; they are wrapped in lib/math and called nowhere else.
+# Square root, fma, rint and fabs are exact; they are wrapped in lib/tandem/math and called nowhere else.
 EXACT_LIBM = {"sqrt", "sqrtf", "fma", "fmaf", "rint", "fabs", "fabsf"}
 # These differ between CPU and GPU for NaN and signed zeros; the file says why it may have them all the same.
 MIN_MAX = {"fminf", "fmaxf"}
-MIN_MAX_ALLOWED = {"lib/bvh/slab.h"}
+MIN_MAX_ALLOWED = {"lib/tandem/bvh/slab.h"}
 LIBM = re.compile(
     r"(?<![\w.>])(?:std::|::)?("
     r"(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p|b)?|pow|hypot|cbrt|erfc?|[lt]gamma|sqrt|rsqrt|rcbrt"
@@ -31,21 +31,21 @@ EPSILON = re.compile(
 
 # header: where it may be included
 LIBRARIES = {
-    "GLM": (r"glm/", lambda path: path == "lib/math/vec.h"),
+    "GLM": (r"glm/", lambda path: path == "lib/tandem/math/vec.h"),
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
-    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/film/")),
-    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/film/")),
+    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/film/")),
+    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/tandem/film/")),
 }
 
 
 def check_kernel_header(report, path, code):
     for line, match in search(code, LIBM):
-        if match.group(1) in EXACT_LIBM and path.startswith("lib/math/"):
+        if match.group(1) in EXACT_LIBM and path.startswith("lib/tandem/math/"):
             continue
         if match.group(1) in MIN_MAX and path in MIN_MAX_ALLOWED:
             continue
-        better = "lib/math/exact_math.h has it" if match.group(1) not in EXACT_LIBM else "lib/math/real.h wraps it"
+        better = "lib/tandem/math/exact_math.h has it" if match.group(1) not in EXACT_LIBM else "lib/tandem/math/real.h wraps it"
         report.add(f"{path}:{line}", f"calls {match.group(1)}() of the C library in a kernel header; {better}")
     for line, match in search(code, LIBRARY_MIN_MAX):
         report.add(f"{path}:{line}", f"{match.group(0)} in a kernel header; use lesser(), greater() or select()")
@@ -60,7 +60,7 @@ def main():
     for path, text in files(root, ALL_ROOMS, CPP):
         count += 1
         code = without_comments(text)
-        if path.startswith(tuple(f"lib/{room}/" for room in KERNEL_ROOMS)) and path.endswith(".h") and not FAST_TIER.match(path):
+        if path.startswith(tuple(f"lib/tandem/{room}/" for room in KERNEL_ROOMS)) and path.endswith(".h") and not FAST_TIER.match(path):
             check_kernel_header(report, path, code)
         if not path.startswith(BASELINE):
             for line, match in search(code, EPSILON):

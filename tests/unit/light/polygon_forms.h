@@ -1,4 +1,5 @@
-/// Closed forms for polygons seen from a point, in 400 digits, from the definitions: they share nothing with lib/light.
+/// Closed forms for polygons seen from a point, in 400 digits, from the definitions: they share nothing with
+/// lib/tandem/light.
 #pragma once
 
 #include <boost/math/constants/constants.hpp>

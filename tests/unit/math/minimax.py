@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the polynomial coefficients of lib/math/exact_math.h, turns.h and fast_math.h (angles) and the error of each
+"""Prints the polynomial coefficients of lib/tandem/math/exact_math.h, turns.h and fast_math.h (angles) and the error of each
 fit (needs mpmath).
 
 A Remez exchange on the weighted error; coefficients are then rounded to double one by one, lowest first, and the

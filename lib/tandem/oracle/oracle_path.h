@@ -1,5 +1,5 @@
-/// The oracle's own paths, in extended precision. What it shares with lib/integrator is the random numbers, and so the
-/// choices that hang on them.
+/// The oracle's own paths, in extended precision. What it shares with lib/tandem/integrator is the random numbers, and
+/// so the choices that hang on them.
 #pragma once
 
 #include "tandem/geometry/ray_source.h"
