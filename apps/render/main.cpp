@@ -45,7 +45,10 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                    "image file: .png, .ppm, .pfm or .exr; the name may hold the frame number as %04d or ####")
         ->required();
     app.add_option("--size", words.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-    app.add_option("--spp", sequence.job.samples, "samples per pixel")->capture_default_str();
+    auto* const samples = app.add_option("--spp", sequence.job.samples,
+                                         "samples per pixel; if not given, fewer where rays are very much work")
+                              ->capture_default_str();
+    app.callback([&sequence, samples] { sequence.fewer_samples = samples->empty(); });
     app.add_option("--seed", sequence.job.seed, "of the random numbers")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();

@@ -16,6 +16,7 @@
 #include "tandem/film/exposure.h"
 #include "tandem/render/foreground.h"
 #include "tandem/render/motion_blur.h"
+#include "tandem/render/ray_cost.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/version/version.h"
 
@@ -96,6 +97,8 @@ class Sequence {
           pattern_(options.output),
           format_(format_of(options.output, options.write)),
           write_(options.write),
+          samples_(options.job.samples),
+          samples_are_open_(options.fewer_samples),
           exposure_is_open_(options.exposure && options.exposure->automatic && !holds_floats(format_)),
           exposure_rule_(exposure_is_open_ ? automatic_exposure : ""),
           most_writing_(writer_count(options)) {
@@ -140,20 +143,35 @@ class Sequence {
         while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame has to decide
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
-        const FramePlan plan =
-            plan_frame(scene_, {.frame = frame, .camera = options_.camera, .effects = options_.effects}, job);
+        const PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = options_.effects};
+        Stopwatch watch;
+        std::optional<PreparedScene> prepared;
+        if (std::exchange(samples_are_open_, false)) prepared = choose_samples(prepare_options);
+        job.samples = samples_;
+        const FramePlan plan = plan_frame(scene_, prepare_options, job);
         FrameRecord record;
         record.file = pattern_.path(job.frame);
+        record.bounds_per_ray = bounds_per_ray_;
         if (is_blurred(plan)) {
             start_blurred(plan, job, std::move(record));
         } else {
-            start_still(plan, job, std::move(record));
+            if (!prepared) prepared = prepare(scene_, plan.instants.front().prepare);
+            start_still(*prepared, plan, job, std::move(record), watch);
         }
     }
 
-    void start_still(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
-        Stopwatch watch;
-        const PreparedScene prepared = prepare(scene_, plan.instants.front().prepare);
+    /// By the first frame, which comes back prepared.
+    PreparedScene choose_samples(const PrepareOptions& options) {
+        PreparedScene prepared = prepare(scene_, options);
+        const RenderJob& job = options_.job;
+        const double bounds = bounds_per_ray(prepared, job.width, job.height);
+        samples_ = affordable_samples(job.samples, bounds);
+        if (samples_ < job.samples) bounds_per_ray_ = bounds;
+        return prepared;
+    }
+
+    void start_still(const PreparedScene& prepared, const FramePlan& plan, const RenderJob& job, FrameRecord record,
+                     Stopwatch& watch) {
         record.metadata = describe(job, scene_hash(prepared));
         record.seconds.prepare = watch.lap();
         if (is_finished(record)) return;
@@ -288,6 +306,9 @@ class Sequence {
     FramePattern pattern_;
     ImageFormat format_;
     WriteOptions write_;
+    int samples_;
+    bool samples_are_open_;  ///< until the first frame is prepared
+    double bounds_per_ray_ = 0;
     bool exposure_is_open_;  ///< until the first frame is there
     std::string exposure_rule_;
     std::size_t most_writing_;

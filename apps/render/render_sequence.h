@@ -18,7 +18,9 @@ namespace tandem {
 struct SequenceOptions {
     std::string output;  ///< a FramePattern
     FrameRange frames;
-    RenderJob job;       ///< its frame is set for each frame
+    RenderJob job;  ///< its frame is set for each frame
+    /// The job's samples are nobody's wish: scenes whose rays are very much work get fewer (render/ray_cost.h).
+    bool fewer_samples = false;
     std::string camera;  ///< empty: the first of the scene
     ForcedEffects effects{};
     WriteOptions write;  ///< its display is the scene's, but for these two:
@@ -44,6 +46,7 @@ struct FrameRecord {
     FrameSeconds seconds;
     RenderCounters counters;
     std::size_t nan_values = 0;  ///< EncodedImage
+    double bounds_per_ray = 0;   ///< where fewer samples were taken for it, else 0
     // of RenderStats
     std::string variant{};
     EffectMask effects{}, carried{};
@@ -62,6 +65,8 @@ struct FrameRecord {
 ///
 /// With an automatic exposure the first frame decides for all, so that nothing flickers: auto_exposure() of its
 /// foreground. If its file is there already and says that its exposure was found so, it is taken from the file.
+///
+/// With `fewer_samples` the first frame decides for all how many there are.
 ///
 /// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible
 /// before the first frame; errors of backends and writers come out as they are. Then files that were written stay,

@@ -28,8 +28,8 @@ TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> r
 /// Tracer::closest(), for paths and for their shadow rays.
 ///
 /// Paths that only pass through holes share one copy with their shadow rays, if the tracer tries all primitives. For
-/// other effects two copies are faster. A tracer with a hierarchy is never called: behind such a call the barrier of the
-/// block ended in "illegal instruction" on an H200 (docs/performance.md, "Barriers").
+/// other effects two copies are faster. A tracer with a hierarchy is never called: behind such a call the barrier of
+/// the block ended in "illegal instruction" on an H200 (docs/performance.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/crowded_scene.h"
 #include "support/gradient_backend.h"
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
@@ -52,6 +53,25 @@ class RenderSequence : public testing::Test {
     std::atomic<bool> interrupted{false};
     std::vector<FrameRecord> records;
 };
+
+TEST_F(RenderSequence, TakesFewerSamplesWhereRaysAreVeryMuchWork) {
+    scene = crowded_scene(2'000);
+    options.frames = {0, 1};
+    render();
+    EXPECT_EQ(records.back().metadata.samples, 4);
+    options.fewer_samples = true;
+    options.force = true;
+    render();
+    ASSERT_EQ(records.size(), 2U);
+    for (const FrameRecord& record : records) {
+        EXPECT_EQ(record.metadata.samples, 2);
+        EXPECT_EQ(record.bounds_per_ray, 2'000);
+    }
+    scene = crowded_scene(100);
+    render();
+    EXPECT_EQ(records.back().metadata.samples, 4);
+    EXPECT_EQ(records.back().bounds_per_ray, 0);
+}
 
 TEST_F(RenderSequence, WritesEveryFrameAndReportsInOrder) {
     EXPECT_EQ(render(), 6U);
