@@ -130,7 +130,7 @@ class PathPool {
             moved |= to ^ i;
         }
         if (moved == 0) return;
-        const bool has_holes = scene.has_cutouts != 0;
+        const bool has_holes = scene.cutout_kinds != 0;
         const bool shares_light = scene.area_light_count > 0 && scene.environment.indirect != 0;
         for (int i = 0; i < packet_count; ++i) {
             Word path;

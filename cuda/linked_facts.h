@@ -13,6 +13,7 @@ struct LinkedFacts {
     std::uint32_t effects = 0;                                  ///< EffectMask::bits()
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
     std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the lights with an area
+    std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds that have holes
     std::uint32_t lights = 0;                                   ///< without one
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
 

@@ -58,6 +58,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 #include "tandem/scene/primitives.def"
 #undef TANDEM_PRIMITIVE
     if (effects.has(Effect::area_lights)) facts.light_kinds = scene.area_light_kinds;
+    if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
     const bool glass = effects.has(Effect::refraction);
     if (glass || effects.has(Effect::reflection)) facts.reflection = limits.reflection;

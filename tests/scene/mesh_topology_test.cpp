@@ -75,7 +75,7 @@ TEST(Culling, CostsNothingWhereNoBackCanBeSeen) {
         const PreparedScene prepared = prepare(seen_from(eye, camera, closed));
         const bool effect = prepared.effects.has(Effect::cutouts);
         EXPECT_EQ(effect, prepared.triangles[0].attributes.sides == FaceSides::culled);
-        EXPECT_EQ(effect, prepared.has_cutouts);
+        EXPECT_EQ(effect, prepared.cutout_kinds != 0);
         return effect;
     };
     EXPECT_FALSE(culls({0, 0, 3}, PerspectiveCamera{}, true));

@@ -145,6 +145,19 @@ TEST(PrepareTextures, KeepsPicturesOnTurnedAndMirroredBodies) {
                          "node 1 'body' has a mirrored box that is flat and has a texture"));
 }
 
+TEST(PrepareTextures, SaysWhichKindsHaveHoles) {
+    Scene scene = textured_scene(red, hole);
+    scene.nodes[1].geometry[0].material = 0;
+    EXPECT_EQ(prepare(scene).cutout_kinds, 0U) << "opaque";
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(prepare(scene).cutout_kinds, PrimitiveKinds::sphere);
+    scene.materials.push_back({"plain", {}});
+    scene.nodes[1].geometry.push_back({BoxShape{}, 1, {}});
+    EXPECT_EQ(prepare(scene).cutout_kinds, PrimitiveKinds::sphere) << "the box has another material";
+    scene.nodes[1].geometry[1].material = 0;
+    EXPECT_EQ(prepare(scene).cutout_kinds, PrimitiveKinds::sphere | PrimitiveKinds::box);
+}
+
 TEST(PrepareTextures, TurnsThePictureWithItsSphere) {
     // half a turn around x: the picture's top is below, and what looked to +z looks to -z
     Scene scene = textured_scene();

@@ -21,17 +21,25 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
     return may_touch_triangle(f, quad.v0, quad.v1, quad.v2) || may_touch_triangle(f, quad.v0, quad.v2, quad.v3);
 }
 
-/// The nearer of where a line meets the two triangles, which share the diagonal: as watertight there as two triangles
-/// of a mesh. Everything else as first_in_front() of a triangle. Held by tests/unit/geometry/quad_test.cpp.
+/// The nearer of where a line meets the two triangles, which share the diagonal, of the points whose t `counts`: as
+/// watertight there as two triangles of a mesh. Everything else as first_in_front() of a triangle. Held by
+/// tests/unit/geometry/quad_test.cpp.
+template <class Real, class Counts>
+TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                                       const Mask<Real>& active, const Double<Real>& farthest, const Counts& counts) {
+    Double<Real> t_second(0.0);
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest) && counts(t);
+    const Mask<Real> second =
+        first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest) && counts(t_second);
+    t = select(second && !(first && t <= t_second), t_second, t);
+    return first || second;
+}
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
                                     const Mask<Real>& active = Mask<Real>(true),
                                     const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
-    Double<Real> t_second(0.0);
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
-    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
-    t = select(second && !(first && t <= t_second), t_second, t);
-    return first || second;
+    const auto all = [](const Double<Real>&) TANDEM_INLINE_LAMBDA { return Mask<Real>(true); };
+    return first_that_counts(quad, ray, t, active, farthest, all);
 }
 
 /// Which of the two triangles a ray meets at t, in the lanes of `here`, where first_in_front() gave t: the first one on

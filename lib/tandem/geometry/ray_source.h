@@ -10,6 +10,7 @@
 #include "tandem/geometry/affine.h"
 #include "tandem/geometry/hit.h"
 #include "tandem/geometry/quad.h"
+#include "tandem/scene/scene_view.h"
 
 namespace tandem {
 
@@ -120,6 +121,14 @@ TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, cons
     if constexpr (is_face<Primitive>) return !own && !behind;
     return select(own, source.inside, !behind);
 }
+/// A triangle is not met again behind a hole in it.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+    const Source<Real>& surface = source;
+    const Mask<Real> meets = can_meet<Real, Primitive>(surface, id, behind);
+    if constexpr (!std::is_same_v<Primitive, Triangle>) return meets;
+    return meets && source.passed.primitive != UInt<Real>(id);
+}
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
     return !behind;
@@ -181,20 +190,13 @@ TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& pri
 
 namespace source_detail {
 
-// Where a ray crosses a primitive that it does not start on for the second time; 0 if it does not. Calls, since this is
-// rare: a ray has to pass a hole of a primitive and meet the same primitive again.
+// Where a ray crosses a body that it does not start on for the second time; 0 if it does not. A call, since this is
+// rare: a ray has to pass a hole of a body and meet the same body again.
 template <class Real, class Body>
 TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
     Double<Real> t(0.0);
     (void)first_or_far(body, ray, active, active, t);
     return t;
-}
-template <class Real>
-TANDEM_HD_CALL Double<Real> second_crossing_of_quad(Quad quad, Ray<Real> ray, Mask<Real> active) {
-    Double<Real> t_first(0.0), t_second(0.0);
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, active);
-    const Mask<Real> second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active);
-    return select(first && second, greater(t_first, t_second), Double<Real>(0.0));
 }
 
 }  // namespace source_detail
@@ -206,24 +208,23 @@ TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive&
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
                                 Double<Real>& t) {
     const UInt<Real> number(id);
-    const Source<Real>& surface = source;
-    Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
-    if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
-        return hit;
-    if constexpr (std::is_same_v<Primitive, Triangle>) {
-        return hit && is_beyond<Real>(source.passed, t, number);
+    const auto counts = [&](const Double<Real>& at)
+                            TANDEM_INLINE_LAMBDA { return is_beyond<Real>(source.passed, at, number); };
+    if constexpr (std::is_same_v<Primitive, Quad>) {
+        return first_that_counts(primitive, ray, t, active && source.primitive != number, farthest, counts);
     } else {
-        const Mask<Real> before =
-            hit && source.passed.t > Double<Real>(0.0) && !is_beyond<Real>(source.passed, t, number);
-        if (any(before)) {
-            Double<Real> again;
-            if constexpr (std::is_same_v<Primitive, Quad>) {
-                again = source_detail::second_crossing_of_quad<Real>(primitive, ray, before);
-            } else {
-                again = source_detail::second_crossing<Real>(primitive, ray, before);
+        const Source<Real>& surface = source;
+        Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
+        if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
+            return hit;
+        if constexpr (std::is_same_v<Primitive, Triangle>) {
+            hit = hit && counts(t);
+        } else {
+            const Mask<Real> before = hit && source.passed.t > Double<Real>(0.0) && !counts(t);
+            if (may_be_cut_out(kind_of<Primitive>) && any(before)) {
+                t = select(before, source_detail::second_crossing<Real>(primitive, ray, before), t);
+                hit = hit && (!before || counts(t));
             }
-            t = select(before, again, t);
-            hit = hit && (!before || is_beyond<Real>(source.passed, t, number));
         }
         return hit;
     }

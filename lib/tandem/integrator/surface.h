@@ -92,6 +92,7 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const R
     visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
         if constexpr (is_face<std::decay_t<decltype(body)>>) {
             on_face = true;
+            if (!may_be_cut_out(kind_of<std::decay_t<decltype(body)>>)) return;
             if (body.attributes.sides != FaceSides::culled) return;
             culled = surface_point(body, ray, t, Mask<Real>(false), here).from_inside;
         }

@@ -12,6 +12,7 @@
 #include "tandem/scene/animation.h"
 #include "tandem/scene/area_lights.h"
 #include "tandem/scene/camera_node.h"
+#include "tandem/scene/cutout_kinds.h"
 #include "tandem/scene/light_cone.h"
 #include "tandem/scene/media.h"
 #include "tandem/scene/place_mesh.h"
@@ -146,9 +147,7 @@ class Preparer {
         result_.copies = find_copies(result_);
         find_what_glows_and_refracts();
         result_.area_light_shadows = scene_.area_light_shadows;
-        for (const MaterialTextures& material : result_.textures.materials) {
-            result_.has_cutouts = result_.has_cutouts || material.alpha_cutoff > 0;
-        }
+        result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
         if (scene_.bodies_lie_apart) result_.media_overlap = false;
         result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;
@@ -361,9 +360,11 @@ class Preparer {
             const FaceSides sides = sides_of(surface, render_from_object);
             const PlacedMesh placed =
                 place_mesh(*surface.mesh, render_from_object, sides, slots[surface.material], result_);
-            if (sides == FaceSides::culled && placed.triangles + placed.quads > 0 && !result_.has_cutouts) {
-                result_.has_cutouts = true;
-                result_.culled_node = static_cast<std::uint32_t>(surface.node);
+            if (sides == FaceSides::culled && placed.triangles + placed.quads > 0) {
+                if (result_.culled_node == PreparedScene::never)
+                    result_.culled_node = static_cast<std::uint32_t>(surface.node);
+                if (placed.triangles > 0) result_.cutout_kinds |= PrimitiveKinds::triangle;
+                if (placed.quads > 0) result_.cutout_kinds |= PrimitiveKinds::quad;
             }
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);

@@ -41,7 +41,7 @@ struct PreparedScene {
     std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they are in another's place
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
     bool area_light_shadows = true;
-    bool has_cutouts = false;             ///< some material is cut out by its alpha, or some faces are culled
+    std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds of those that are cut out by their alpha, or culled
     std::uint32_t culled_node = never;    ///< the first node whose faces are culled from behind
     std::uint32_t roulette_from = never;  ///< vertex of a path
     CameraMedia camera_media{};

@@ -28,7 +28,7 @@ struct SceneView {
 #include "tandem/scene/scene_arrays.def"
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
-    std::uint32_t has_cutouts;    ///< 0: no material is cut out by its alpha, and no face is culled
+    std::uint32_t cutout_kinds;   ///< PrimitiveKinds of those that are cut out by their alpha, or culled
     std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
@@ -84,6 +84,15 @@ inline constexpr bool is_linked = false;
 TANDEM_HD bool may_have(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
+/// Can primitives of one of these kinds be cut out by their alpha, or culled?
+TANDEM_HD bool may_be_cut_out(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_CUTOUT_KINDS & kinds) != 0;
 #else
     return kinds != 0;
 #endif
