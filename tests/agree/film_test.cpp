@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "support/backend_list.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

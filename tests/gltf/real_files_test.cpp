@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "gltf/files.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/render/backend.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "tandem/accuracy/tier.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/stats.h"
+#include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
-#include "tandem/scene/prepared_scene.h"
 
 namespace tandem {
 
@@ -59,7 +59,7 @@ class Backend {
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
     /// Nearest hits of rays in front of their origins (t > 0), or whether shadow rays are stopped (trace_job.h). Rays
-    /// are in render space: a point of the world is there at render_from_world() (scene/prepared_scene.h). Rays that
+    /// are in render space: a point of the world is there at render_from_world() (compile/prepared_scene.h). Rays that
     /// are not traceable (math/ray.h) miss and are counted. Returns the seconds that the tracing itself took, without
     /// copies.
     virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;

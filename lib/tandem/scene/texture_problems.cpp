@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "tandem/compile/prepare_textures.h"
 #include "tandem/scene/corner_slots.h"
-#include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
 
