@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tandem/base/seconds.h"
-#include "tandem/kernel/traversal/bvh.h"
+#include "tandem/compile/build_bvh.h"
 
 namespace tandem::cuda {
 

@@ -9,6 +9,7 @@
 #include "common/run_main.h"
 #include "render/interrupt.h"
 #include "render/render_command.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"

@@ -15,6 +15,7 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "support/estimate.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/images/compare.h"

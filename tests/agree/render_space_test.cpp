@@ -7,6 +7,7 @@
 
 #include "support/backend_list.h"
 #include "support/under_parent.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"

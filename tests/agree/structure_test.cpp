@@ -8,9 +8,9 @@
 
 #include "support/hard_scenes.h"
 #include "support/random.h"
+#include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/spawn_ray.h"
-#include "tandem/kernel/traversal/bvh.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/few_tracer.h"
 #include "tandem/scene/named_scenes.h"

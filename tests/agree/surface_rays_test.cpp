@@ -7,6 +7,7 @@
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/kernel/spawn_ray.h"
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "gltf/files.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
-#include "tandem/render/backend.h"
 
 namespace tandem {
 namespace {

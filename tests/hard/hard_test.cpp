@@ -1,4 +1,4 @@
-// Every hard case on every backend and tier, against the marks of lib/tandem/render.
+// Every hard case on every backend and tier, against tests/hard/corpus/marks.def.
 // Hard/HardCase.HoldsItsMark/A1_cpu_strict is one of them.
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 
 #include "hard/corpus/hard_case.h"
 #include "hard/corpus/marks.h"
+#include "tandem/backends/make_backend.h"
 
 namespace tandem::hard {
 namespace {

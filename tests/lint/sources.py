@@ -34,8 +34,8 @@ LIBRARIES = {
     "GLM": (r"glm/", lambda path: path == "lib/tandem/math/vec.h"),
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
-    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/film/")),
-    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/tandem/film/")),
+    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/images/")),
+    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/tandem/images/")),
 }
 
 

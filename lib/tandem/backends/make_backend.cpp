@@ -1,4 +1,4 @@
-#include "tandem/render/backend.h"
+#include "tandem/backends/make_backend.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -26,12 +26,6 @@ const BackendEntry& find_entry(const std::string& name) {
 }  // namespace
 
 std::string why_unavailable(const std::string& name) { return find_entry(name).why_unavailable(); }
-
-Specialise parse_specialise(const std::string& text) {
-    if (text == "never") return Specialise::never;
-    if (text == "always") return Specialise::always;
-    throw InputError(fmt::format("kernels are specialised never or always, not '{}'", text));
-}
 
 std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options) {
     const BackendEntry& entry = find_entry(name);

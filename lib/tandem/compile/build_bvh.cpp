@@ -1,3 +1,5 @@
+#include "tandem/compile/build_bvh.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <numeric>
 
 #include "tandem/base/error.h"
-#include "tandem/kernel/traversal/bvh.h"
 
 namespace tandem {
 

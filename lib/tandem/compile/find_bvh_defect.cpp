@@ -1,6 +1,6 @@
-#include <fmt/format.h>
+#include "tandem/compile/build_bvh.h"
 
-#include "tandem/kernel/traversal/bvh.h"
+#include <fmt/format.h>
 
 namespace tandem {
 

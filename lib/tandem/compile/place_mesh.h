@@ -28,9 +28,6 @@ struct PlacedMesh {
 PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, FaceSides sides, const CornerSlots& slots,
                       PreparedScene& scene);
 
-/// det(m) * inverse(transpose(m)), up to a positive factor; of any m: it turns normals as m turns points.
-[[nodiscard]] Matrix3 normal_matrix(const Matrix3& m);
-
 /// The bounds of a placed mesh, but for the rounding of its corners.
 [[nodiscard]] Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object);
 

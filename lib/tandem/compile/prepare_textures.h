@@ -1,7 +1,6 @@
 /// From the author's textures to flat arrays.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "tandem/compile/prepared_textures.h"
@@ -16,8 +15,5 @@ namespace tandem {
 /// are more than 2^30 texels.
 [[nodiscard]] PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong,
                                                 std::vector<Optics>& optics);
-
-/// What is wrong with images, textures and their uses, one sentence each; for validate().
-[[nodiscard]] std::vector<std::string> find_texture_problems(const Scene& scene);
 
 }  // namespace tandem

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "tandem/base/error.h"
-#include "tandem/compile/place_mesh.h"
 #include "tandem/gltf/accessor.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/mesh_topology.h"
+#include "tandem/scene/normal_matrix.h"
 
 namespace tandem::gltf {
 

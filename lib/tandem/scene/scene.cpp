@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "tandem/compile/prepare_textures.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/ray.h"
 #include "tandem/scene/light_cone.h"
+#include "tandem/scene/texture_problems.h"
 
 namespace tandem {
 

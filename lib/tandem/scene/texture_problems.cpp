@@ -1,3 +1,5 @@
+#include "tandem/scene/texture_problems.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <set>
 
-#include "tandem/compile/prepare_textures.h"
 #include "tandem/scene/corner_slots.h"
 
 namespace tandem {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tandem/render/backend.h"
+#include "tandem/backends/make_backend.h"
 
 namespace tandem::bench {
 namespace {

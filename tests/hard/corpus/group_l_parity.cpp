@@ -11,6 +11,7 @@
 #include "hard/corpus/pictures.h"
 #include "support/correct_rounding.h"
 #include "support/hard_scenes.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -8,6 +8,7 @@
 #include "hard/corpus/lit_scenes.h"
 #include "hard/corpus/pictures.h"
 #include "support/polygon_forms.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
 
 namespace tandem::hard {

@@ -1,7 +1,7 @@
 #include <iostream>
 
+#include <tandem/backends/make_backend.h>
 #include <tandem/compile/prepare.h>
-#include <tandem/render/backend.h>
 #include <tandem/scene/named_scenes.h>
 
 int main() {

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "tandem/kernel/shapes/sphere.h"
 #include "tandem/kernel/view/scene_view.h"
@@ -33,21 +30,5 @@ TANDEM_HD std::uint32_t leaf_count(std::int32_t child) { return (static_cast<std
 
 /// No path from the root is longer, so a traversal stack of this size cannot overflow.
 inline constexpr int max_bvh_depth = 64;
-
-/// The structure in host memory. Leaf entries are in the order of the leaves: the bounding sphere of a primitive (of
-/// a sphere, the sphere itself), which rejects most rays, and the primitive's id.
-struct Bvh {
-    std::vector<BvhNode> nodes;  ///< the root is nodes[0]
-    std::vector<Sphere> entry_spheres;
-    std::vector<std::uint32_t> entry_ids;
-};
-
-/// Surface area heuristic over 16 bins per axis; deterministic. `margin`: padding of every box
-/// (kernel/traversal/proposal.h). Throws InputError for more than max_bvh_primitives. The scene must not be empty.
-[[nodiscard]] Bvh build_bvh(const SceneView& scene, float margin);
-
-/// What is wrong with a hierarchy (a primitive missing or twice, a box that does not hold its child, too deep), or
-/// empty. For tests and debugging.
-[[nodiscard]] std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, float margin);
 
 }  // namespace tandem
