@@ -14,12 +14,12 @@
 #include <atomic>
 
 #include "cpu/instruction_sets.h"
-#include "tandem/effects/derive.h"
-#include "tandem/error/error.h"
-#include "tandem/integrator/pixel_job.h"
+#include "tandem/base/error.h"
+#include "tandem/base/seconds.h"
+#include "tandem/compile/derive.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/pixel_job.h"
 #include "tandem/render/ready_frame.h"
-#include "tandem/render/seconds.h"
 #include "tandem/render/traced_job.h"
 
 namespace tandem {

@@ -6,7 +6,7 @@
 
 #include "cpu/kernels.h"
 #include "cpu/query_source.h"
-#include "tandem/geometry/intersect.h"
+#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {

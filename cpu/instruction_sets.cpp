@@ -5,9 +5,9 @@
 #include <array>
 #include <utility>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
+#include "tandem/base/processor_level.h"
 #include "tandem/math/lane_registers.h"
-#include "tandem/report/processor_level.h"
 
 namespace tandem {
 
@@ -31,7 +31,7 @@ constexpr TierKernels tier_kernels() {
 template <class Isa>
 constexpr std::array all_tiers = {
 #define TANDEM_TIER(name, promise) tier_kernels<Isa, Tier::name>(),
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 };
 

@@ -7,14 +7,14 @@
 #include <string_view>
 
 #include "cpu/embree_api.h"
-#include "tandem/accuracy/tier.h"
-#include "tandem/bvh/proposal.h"
 #include "tandem/effects/variants.h"
-#include "tandem/geometry/hit.h"
-#include "tandem/integrator/pixel.h"
+#include "tandem/kernel/pixel.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/traversal/proposal.h"
+#include "tandem/kernel/view/scene_view.h"
 #include "tandem/render/stats.h"
+#include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
-#include "tandem/scene/scene_view.h"
 
 namespace tandem {
 

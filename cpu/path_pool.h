@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cpu/kernels.h"
-#include "tandem/integrator/path_walk.h"
+#include "tandem/kernel/path_walk.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {

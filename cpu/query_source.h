@@ -1,7 +1,7 @@
 /// What a ray of the CPU's tracers leaves and runs to: one type for all rays, so that each decision is compiled once.
 #pragma once
 
-#include "tandem/geometry/intersect.h"
+#include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
 

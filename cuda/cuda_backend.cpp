@@ -6,10 +6,10 @@
 
 #include "cuda/device_scene.h"
 #include "cuda/scene_kernels.h"
-#include "tandem/effects/derive.h"
-#include "tandem/error/error.h"
-#include "tandem/integrator/pixel_job.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/derive.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/pixel_job.h"
 #include "tandem/render/traced_job.h"
 
 namespace tandem {

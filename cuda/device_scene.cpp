@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "tandem/bvh/bvh.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/seconds.h"
+#include "tandem/compile/build_bvh.h"
 
 namespace tandem::cuda {
 
@@ -73,10 +73,10 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     view_.scene = host;
     Layout layout;
 #define TANDEM_SCENE_ARRAY(Type, names) layout.add(scene.names, view_.scene.names);
-#include "tandem/scene/scene_arrays.def"
+#include "tandem/kernel/view/scene_arrays.def"
     if (has_textures(host.textures)) {
 #define TANDEM_TEXTURE_ARRAY(Type, names) layout.add(scene.textures.names, view_.scene.textures.names);
-#include "tandem/texture/texture_arrays.def"
+#include "tandem/kernel/texture/texture_arrays.def"
 #undef TANDEM_TEXTURE_ARRAY
     }
     if (!bvh.nodes.empty()) {

@@ -9,7 +9,7 @@
 
 #include "cuda/cubin_facts.h"
 #include "cuda/jit_libraries.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::cuda {
 

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "tandem/accuracy/tier.h"
+#include "tandem/render/tier.h"
 
 namespace tandem::cuda {
 

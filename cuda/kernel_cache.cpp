@@ -10,8 +10,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "tandem/file/whole_file.h"
-#include "tandem/film/sha256.h"
+#include "tandem/base/sha256.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::cuda {
 
@@ -51,7 +51,7 @@ bool is_key(std::string_view text) {
     return text.size() == sizeof Header::key && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// An entry of any key, or the file of an interrupted store (lib/tandem/file/whole_file.cpp):
+/// An entry of any key, or the file of an interrupted store (lib/tandem/base/whole_file.cpp):
 /// .KEY.cubin.PROCESS-COUNT.tmp
 enum class FileKind { entry, unfinished, other };
 FileKind kind_of(std::string_view name) {

@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <iterator>
 
-#include "tandem/accuracy/tier.h"
-#include "tandem/bvh/bvh_tracer.h"
 #include "tandem/effects/variants.h"
-#include "tandem/geometry/few_tracer.h"
-#include "tandem/geometry/hit.h"
-#include "tandem/integrator/pixel.h"
+#include "tandem/kernel/pixel.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/traversal/bvh_tracer.h"
+#include "tandem/kernel/traversal/few_tracer.h"
+#include "tandem/kernel/view/scene_view.h"
+#include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
-#include "tandem/scene/scene_view.h"
 
 namespace tandem::cuda {
 
@@ -95,7 +95,7 @@ struct TierKernels {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \
         return name##_kernels();
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
     }
     return strict_kernels();

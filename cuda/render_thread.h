@@ -3,7 +3,7 @@
 
 #include "cuda/block_shape.h"
 #include "cuda/kernels.h"
-#include "tandem/integrator/path_walk.h"
+#include "tandem/kernel/path_walk.h"
 
 namespace tandem::cuda {
 

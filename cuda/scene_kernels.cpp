@@ -6,7 +6,7 @@
 
 #include "cuda/block_shape.h"
 #include "cuda/specialise.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/seconds.h"
 
 namespace tandem::cuda {
 
@@ -18,7 +18,7 @@ namespace tandem::cuda {
     std::span<const std::byte> linked_long_few_##name();   \
     std::span<const std::byte> linked_long_loop_##name();  \
     std::span<const std::byte> linked_long_bvh_##name();
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
 namespace {
@@ -36,7 +36,7 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
                 return is_long ? linked_long_bvh_##name() : linked_short_bvh_##name();   \
         }                                                                                \
         break;
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
     }
     return {};
@@ -55,7 +55,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
     facts.effects = effects.bits();
 #define TANDEM_PRIMITIVE(Type, name, names) \
     if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;
-#include "tandem/scene/primitives.def"
+#include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
     if (effects.has(Effect::area_lights)) facts.light_kinds = scene.area_light_kinds;
     if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <utility>
 
-#include "tandem/film/sha256.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/seconds.h"
+#include "tandem/base/sha256.h"
 
 namespace tandem::cuda {
 

@@ -13,7 +13,7 @@ namespace tandem::cuda {
 
 // With all effects: in kernels_*_full.cu, without TANDEM_SHORT_PATHS.
 #define TANDEM_TIER(name, promise) RenderKernel full_##name##_kernel();
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
 static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(gathering_effects),

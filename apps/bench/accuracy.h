@@ -8,7 +8,7 @@
 
 #include "backend_source.h"
 #include "common/arguments.h"
-#include "tandem/accuracy/tier.h"
+#include "tandem/render/tier.h"
 #include "tandem/report/report.h"
 #include "tandem/report/statistics.h"
 

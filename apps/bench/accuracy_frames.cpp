@@ -8,9 +8,9 @@
 #include "accuracy.h"
 #include "frame_timing.h"
 #include "output.h"
-#include "tandem/film/compare.h"
+#include "tandem/gltf/load_scene.h"
+#include "tandem/images/compare.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/load_scene.h"
 
 namespace tandem::bench {
 

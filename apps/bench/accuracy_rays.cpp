@@ -8,7 +8,7 @@
 #include "accuracy.h"
 #include "kind_scenes.h"
 #include "output.h"
-#include "tandem/accuracy/ulp.h"
+#include "tandem/math/ulp.h"
 #include "tandem/oracle/oracle.h"
 #include "tandem/report/format_number.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/render/backend.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/report/report.h"
 
 namespace tandem::bench {

@@ -7,10 +7,10 @@
 #include "frame_timing.h"
 #include "output.h"
 #include "pictures.h"
-#include "tandem/film/compare.h"
-#include "tandem/film/flip.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/compare.h"
+#include "tandem/images/flip.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::bench {
 

@@ -8,7 +8,7 @@
 
 #include "backend_source.h"
 #include "common/arguments.h"
-#include "tandem/effects/derive.h"
+#include "tandem/compile/derive.h"
 #include "tandem/effects/names.h"
 #include "tandem/report/report.h"
 

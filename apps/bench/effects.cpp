@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "rate_plot.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/load_scene.h"
 #include "tiers.h"
 
 namespace tandem::bench {

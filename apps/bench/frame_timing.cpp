@@ -1,7 +1,7 @@
 #include "frame_timing.h"
 
+#include "tandem/base/seconds.h"
 #include "tandem/render/motion_blur.h"
-#include "tandem/render/seconds.h"
 
 namespace tandem::bench {
 

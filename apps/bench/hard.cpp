@@ -9,9 +9,9 @@
 
 #include "hard/corpus/exchange.h"
 #include "hard/corpus/hard_case.h"
+#include "hard/corpus/marks.h"
 #include "output.h"
-#include "tandem/accuracy/marks.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/report/format_number.h"
 #include "tiers.h"
 
@@ -139,7 +139,7 @@ std::vector<Tier> tiers_of(const HardOptions& options) {
     std::vector<Tier> tiers = parse_tiers(options.tiers);
     if (!tiers.empty()) return tiers;
 #define TANDEM_TIER(name, promise) tiers.push_back(Tier::name);
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
     return tiers;
 }

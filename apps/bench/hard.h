@@ -19,7 +19,7 @@ struct HardOptions {
     std::string answers;             ///< score what another renderer answered, and try nothing
 };
 
-/// Tries the cases, or exports or checks; fills `report`. True if every mark of lib/tandem/accuracy/marks.def was held;
+/// Tries the cases, or exports or checks; fills `report`. True if every mark of tests/hard/corpus/marks.def was held;
 /// answers of others are held to those of strict. Throws EnvironmentError in a build without the corpus, which needs
 /// MPFR.
 [[nodiscard]] bool run_hard(const HardOptions& options, const BackendSource& source, Report& report);

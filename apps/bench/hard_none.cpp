@@ -1,6 +1,6 @@
 // A build without the libraries of the corpus.
 #include "hard.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::bench {
 

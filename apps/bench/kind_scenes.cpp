@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "ray_sets.h"
-#include "tandem/error/error.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::bench {
 

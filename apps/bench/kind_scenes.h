@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/ray.h"
-#include "tandem/scene/prepared_scene.h"
 
 namespace tandem::bench {
 

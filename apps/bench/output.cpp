@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "tandem/error/error.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/error.h"
+#include "tandem/base/whole_file.h"
 #include "tandem/report/csv_writer.h"
 #include "tandem/report/html_writer.h"
 #include "tandem/report/json_writer.h"

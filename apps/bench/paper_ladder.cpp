@@ -11,9 +11,9 @@
 #include "frame_timing.h"
 #include "output.h"
 #include "pictures.h"
-#include "tandem/error/error.h"
-#include "tandem/render/seconds.h"
-#include "tandem/scene/load_scene.h"
+#include "tandem/base/error.h"
+#include "tandem/base/seconds.h"
+#include "tandem/gltf/load_scene.h"
 
 namespace tandem::bench {
 

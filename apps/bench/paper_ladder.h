@@ -7,7 +7,7 @@
 #include "backend_source.h"
 #include "common/arguments.h"
 #include "sequence.h"
-#include "tandem/film/compare.h"
+#include "tandem/images/compare.h"
 #include "tandem/report/report.h"
 
 namespace tandem::bench {

@@ -7,11 +7,11 @@
 
 #include "frame_timing.h"
 #include "output.h"
-#include "tandem/error/error.h"
-#include "tandem/film/compare.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/gltf/load_scene.h"
+#include "tandem/images/compare.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/load_scene.h"
-#include "tandem/scene/prepare.h"
 #include "tiers.h"
 
 namespace tandem::bench {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "tandem/film/image_io.h"
-#include "tandem/version/version.h"
+#include "tandem/base/version.h"
+#include "tandem/images/image_io.h"
 
 namespace tandem::bench {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tandem/film/film.h"
-#include "tandem/film/image.h"
-#include "tandem/film/image_metadata.h"
+#include "tandem/images/image.h"
+#include "tandem/images/image_metadata.h"
 #include "tandem/render/render_job.h"
 #include "tandem/report/report.h"
 

@@ -1,7 +1,7 @@
 #include "ray_sets.h"
 
-#include "tandem/error/error.h"
-#include "tandem/sampler/philox.h"
+#include "tandem/base/error.h"
+#include "tandem/kernel/sampler/philox.h"
 
 namespace tandem::bench {
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "pictures.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/seconds.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::bench {
 

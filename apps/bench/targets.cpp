@@ -12,10 +12,10 @@
 #include "frame_timing.h"
 #include "output.h"
 #include "sequence.h"
-#include "tandem/error/error.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/error.h"
+#include "tandem/base/seconds.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/report/format_number.h"
-#include "tandem/scene/load_scene.h"
 #include "versus.h"
 
 namespace tandem::bench {

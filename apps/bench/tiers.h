@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/accuracy/tier.h"
+#include "tandem/render/tier.h"
 
 namespace tandem::bench {
 

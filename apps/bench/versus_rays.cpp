@@ -6,10 +6,10 @@
 
 #include "baseline/embree_native.h"
 #include "output.h"
-#include "tandem/render/seconds.h"
+#include "tandem/base/seconds.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/report/statistics.h"
-#include "tandem/scene/load_scene.h"
-#include "tandem/scene/prepare.h"
 #include "versus.h"
 
 namespace tandem::bench {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
-#include "tandem/error/error.h"
-#include "tandem/film/display.h"
+#include "tandem/base/error.h"
+#include "tandem/images/display.h"
 
 namespace tandem {
 

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <set>
 
-#include "tandem/effects/derive.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/derive.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/effects/names.h"
-#include "tandem/error/error.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 
@@ -127,7 +127,7 @@ void describe_primitives(const Scene& scene, Json& description) {
         const PreparedScene prepared = prepare(scene);
         description["primitives"] = {
 #define TANDEM_PRIMITIVE(Type, name, names) {#names, prepared.names.size()},
-#include "tandem/scene/primitives.def"
+#include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
         };
         description["dropped_primitives"] = prepared.dropped_primitives;

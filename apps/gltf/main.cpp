@@ -7,8 +7,8 @@
 
 #include "apps/common/run_main.h"
 #include "apps/gltf/describe.h"
-#include "tandem/file/whole_file.h"
-#include "tandem/scene/load_scene.h"
+#include "tandem/base/whole_file.h"
+#include "tandem/gltf/load_scene.h"
 
 namespace tandem {
 

@@ -9,12 +9,13 @@
 #include "common/run_main.h"
 #include "render/interrupt.h"
 #include "render/render_command.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/base/error.h"
+#include "tandem/base/version.h"
 #include "tandem/effects/names.h"
-#include "tandem/error/error.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/scene/framing.h"
-#include "tandem/scene/load_scene.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/version/version.h"
 
 namespace {
 

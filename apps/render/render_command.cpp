@@ -9,7 +9,7 @@
 
 #include "render/progress.h"
 #include "render/render_report.h"
-#include "tandem/version/version.h"
+#include "tandem/base/version.h"
 
 namespace tandem {
 

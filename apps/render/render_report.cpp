@@ -20,7 +20,7 @@ std::string frame_line(const FrameRecord& record) {
 nlohmann::ordered_json frame_json(const FrameRecord& record) {
     nlohmann::ordered_json json;
 #define TANDEM_METADATA(type, name) json[#name] = record.metadata.name;
-#include "tandem/film/metadata_fields.def"
+#include "tandem/images/metadata_fields.def"
 #undef TANDEM_METADATA
     json["file"] = record.file;
     json["skipped"] = record.skipped;

@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "render/frame_pattern.h"
-#include "tandem/error/error.h"
-#include "tandem/film/exposure.h"
+#include "tandem/base/error.h"
+#include "tandem/base/version.h"
+#include "tandem/images/exposure.h"
 #include "tandem/render/foreground.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/render/ray_cost.h"
 #include "tandem/render/ready_frame.h"
-#include "tandem/version/version.h"
 
 namespace tandem {
 

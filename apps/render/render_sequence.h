@@ -9,7 +9,7 @@
 
 #include "common/arguments.h"
 #include "tandem/effects/names.h"
-#include "tandem/film/image_io.h"
+#include "tandem/images/image_io.h"
 #include "tandem/render/backend.h"
 #include "tandem/scene/scene.h"
 

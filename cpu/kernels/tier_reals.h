@@ -1,9 +1,9 @@
 /// The arithmetic of a tier.
 #pragma once
 
-#include "tandem/accuracy/tier.h"
 #include "tandem/math/fast_math.h"
 #include "tandem/math/lanes.h"
+#include "tandem/render/tier.h"
 
 namespace tandem {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "support/backend_list.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

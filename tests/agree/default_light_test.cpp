@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "support/backend_list.h"
-#include "tandem/effects/derive.h"
+#include "tandem/compile/derive.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/framing.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

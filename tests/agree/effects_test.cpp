@@ -15,10 +15,11 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "support/estimate.h"
-#include "tandem/effects/derive.h"
-#include "tandem/film/compare.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/derive.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "support/backend_list.h"
 #include "support/random.h"
-#include "tandem/error/error.h"
-#include "tandem/film/compare.h"
-#include "tandem/geometry/spawn_ray.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/compare.h"
+#include "tandem/kernel/spawn_ray.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

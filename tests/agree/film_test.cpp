@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "support/backend_list.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

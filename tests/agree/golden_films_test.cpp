@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "support/backend_list.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -7,7 +7,8 @@
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
-#include "tandem/film/compare.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/images/compare.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"

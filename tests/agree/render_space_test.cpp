@@ -1,5 +1,5 @@
 // Where a scene lies in the world must not show: preparation moves it to where floats are dense
-// (scene/render_origin.h).
+// (compile/render_origin.h).
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,10 @@
 
 #include "support/backend_list.h"
 #include "support/under_parent.h"
-#include "tandem/film/compare.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

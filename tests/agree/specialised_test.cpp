@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "support/effect_scenes.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/effects/names.h"
-#include "tandem/render/backend.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -8,12 +8,12 @@
 
 #include "support/hard_scenes.h"
 #include "support/random.h"
-#include "tandem/bvh/bvh.h"
-#include "tandem/bvh/bvh_tracer.h"
-#include "tandem/geometry/few_tracer.h"
-#include "tandem/geometry/spawn_ray.h"
+#include "tandem/compile/build_bvh.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/traversal/bvh_tracer.h"
+#include "tandem/kernel/traversal/few_tracer.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -7,8 +7,9 @@
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
-#include "tandem/error/error.h"
-#include "tandem/geometry/spawn_ray.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/base/error.h"
+#include "tandem/kernel/spawn_ray.h"
 
 namespace tandem {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/random.h"
-#include "tandem/film/sha256.h"
+#include "tandem/base/sha256.h"
 
 namespace tandem::test {
 

@@ -12,7 +12,7 @@
 #include "cuda/toy_input.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::cuda {
 namespace {

@@ -11,7 +11,7 @@
 #include "cuda/machine_code.h"
 #include "cuda/toy_input.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::cuda {
 namespace {

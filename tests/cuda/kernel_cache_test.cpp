@@ -10,7 +10,7 @@
 #include "cuda/cache_bytes.h"
 #include "cuda/environment.h"
 #include "support/temporary_folder.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::cuda {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cuda/cubin_facts.h"
-#include "tandem/effects/derive.h"
+#include "tandem/compile/derive.h"
 #include "tandem/effects/names.h"
 
 namespace tandem::cuda {

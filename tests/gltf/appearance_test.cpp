@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

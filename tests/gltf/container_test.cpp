@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "gltf/files.h"
-#include "tandem/file/lfs_pointer.h"
+#include "tandem/base/lfs_pointer.h"
 #include "tandem/gltf/document.h"
 
 namespace tandem {

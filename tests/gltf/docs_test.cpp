@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/effects/names.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tandem/film/image_codecs.h"
+#include "tandem/images/image_codecs.h"
 
 namespace tandem::test {
 

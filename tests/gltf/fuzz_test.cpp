@@ -7,8 +7,8 @@
 #include <random>
 
 #include "gltf/files.h"
-#include "tandem/film/image_codecs.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/image_codecs.h"
 
 namespace {
 

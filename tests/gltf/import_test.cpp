@@ -7,7 +7,7 @@
 
 #include "gltf/files.h"
 #include "support/thrown_message.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

@@ -1,12 +1,12 @@
 /// What a picture needs and a file lacks: a camera and light.
-#include "tandem/scene/load_scene.h"
+#include "tandem/gltf/load_scene.h"
 
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/framing.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "gltf/files.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

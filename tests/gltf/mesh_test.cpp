@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "gltf/files.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

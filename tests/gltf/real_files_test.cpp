@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "gltf/files.h"
-#include "tandem/render/backend.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem {
 namespace {

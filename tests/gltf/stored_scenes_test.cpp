@@ -4,10 +4,10 @@
 #include <cstdlib>
 
 #include "gltf/files.h"
-#include "tandem/effects/derive.h"
+#include "tandem/compile/derive.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/effects/names.h"
-#include "tandem/scene/load_scene.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/gltf/load_scene.h"
 
 namespace tandem {
 namespace {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "gltf/files.h"
-#include "tandem/film/image_codecs.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/image_codecs.h"
 
 namespace tandem {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "hard/corpus/hard_case.h"
-#include "tandem/accuracy/marks.h"
-#include "tandem/file/whole_file.h"
+#include "hard/corpus/marks.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::hard {
 namespace {

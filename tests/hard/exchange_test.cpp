@@ -10,9 +10,9 @@
 #include "hard/corpus/npy.h"
 #include "support/input_error.h"
 #include "support/temporary_folder.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/whole_file.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/gltf/import.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 namespace {

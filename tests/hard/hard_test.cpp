@@ -1,11 +1,12 @@
-// Every hard case on every backend and tier, against the marks of lib/tandem/accuracy.
+// Every hard case on every backend and tier, against tests/hard/corpus/marks.def.
 // Hard/HardCase.HoldsItsMark/A1_cpu_strict is one of them.
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "hard/corpus/hard_case.h"
-#include "tandem/accuracy/marks.h"
+#include "hard/corpus/marks.h"
+#include "tandem/backends/make_backend.h"
 
 namespace tandem::hard {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t rays_per_case = 5000;
 
 constexpr Tier tiers[] = {
 #define TANDEM_TIER(name, promise) Tier::name,
-#include "tandem/accuracy/tiers.def"
+#include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 };
 

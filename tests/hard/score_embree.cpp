@@ -17,8 +17,8 @@
 #include "embree_native.h"
 #include "hard/corpus/exchange.h"
 #include "hard/corpus/npy.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/gltf/import.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -1,11 +1,11 @@
-#include "tandem/film/compare.h"
+#include "tandem/images/compare.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "tandem/film/exposure.h"
+#include "tandem/images/exposure.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "tandem/file/whole_file.h"
-#include "tandem/film/image.h"
+#include "tandem/base/whole_file.h"
+#include "tandem/images/image.h"
 
 namespace tandem::test {
 

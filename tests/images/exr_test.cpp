@@ -2,8 +2,8 @@
 
 #include "images/sample_images.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
-#include "tandem/film/image_io.h"
+#include "tandem/base/error.h"
+#include "tandem/images/image_io.h"
 
 namespace tandem {
 namespace {

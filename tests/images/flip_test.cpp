@@ -1,4 +1,4 @@
-#include "tandem/film/flip.h"
+#include "tandem/images/flip.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "tandem/error/error.h"
-#include "tandem/film/separable_filter.h"
+#include "tandem/base/error.h"
+#include "tandem/images/separable_filter.h"
 #include "tandem/math/srgb.h"
 
 namespace tandem {

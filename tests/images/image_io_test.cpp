@@ -1,4 +1,4 @@
-#include "tandem/film/image_io.h"
+#include "tandem/images/image_io.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include "images/sample_images.h"
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
-#include "tandem/film/tone_curve.h"
+#include "tandem/base/error.h"
+#include "tandem/images/tone_curve.h"
 
 namespace tandem {
 namespace {

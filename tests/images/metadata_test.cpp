@@ -2,7 +2,7 @@
 
 #include "images/sample_images.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 namespace {

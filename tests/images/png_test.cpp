@@ -3,7 +3,7 @@
 #include <zlib.h>
 
 #include "images/sample_images.h"
-#include "tandem/film/tone_curve.h"
+#include "tandem/images/tone_curve.h"
 
 namespace tandem {
 namespace {

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include "images/sample_images.h"
-#include "tandem/error/error.h"
-#include "tandem/film/tone_curve.h"
+#include "tandem/base/error.h"
+#include "tandem/images/tone_curve.h"
 
 namespace tandem {
 namespace {

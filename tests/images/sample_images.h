@@ -7,7 +7,7 @@
 #include <random>
 #include <string_view>
 
-#include "tandem/film/image_codecs.h"
+#include "tandem/images/image_codecs.h"
 
 namespace tandem::test {
 

@@ -1,5 +1,5 @@
 // Pictures for textures: right texels out of every kind of file, and an error out of broken ones.
-#include "tandem/film/texels.h"
+#include "tandem/images/texels.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -13,7 +13,7 @@
 #include "images/sample_images.h"
 #include "support/input_error.h"
 #include "support/random.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 namespace {

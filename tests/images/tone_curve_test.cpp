@@ -1,4 +1,4 @@
-#include "tandem/film/tone_curve.h"
+#include "tandem/images/tone_curve.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "support/exact_srgb.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 namespace {

@@ -1,13 +1,13 @@
 // Everything of the kernel side that computes, for ptx.py to look at: the exact functions and one pixel.
 #include "cuda/render_thread.h"
-#include "tandem/geometry/intersect.h"
-#include "tandem/integrator/pixel.h"
-#include "tandem/integrator/roulette.h"
-#include "tandem/light/quad_light.h"
-#include "tandem/light/sphere_light.h"
+#include "tandem/kernel/lights/quad_light.h"
+#include "tandem/kernel/lights/sphere_light.h"
+#include "tandem/kernel/pixel.h"
+#include "tandem/kernel/roulette.h"
+#include "tandem/kernel/sampler/mis.h"
+#include "tandem/kernel/sampler/warp.h"
+#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/exact_math.h"
-#include "tandem/sampler/mis.h"
-#include "tandem/sampler/warp.h"
 
 namespace tandem {
 

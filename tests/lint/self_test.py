@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """The checks themselves, on lines that they must and must not find."""
 
+import pathlib
+import tempfile
 import unittest
 
 import lint
+import rooms
 
 
 class Comments(unittest.TestCase):
@@ -65,6 +68,70 @@ class Patterns(unittest.TestCase):
             self.assertTrue(forbidden.search(line), line)
         for line in ("\tfma.rn.f64 %fd1, %fd2, %fd3, %fd4;", "\tdiv.rn.f32 %f1, %f2, %f3;", "\tsqrt.rn.f64 %fd1, %fd2;"):
             self.assertFalse(forbidden.search(line), line)
+
+
+class Rooms(unittest.TestCase):
+    """Small trees with a table of their own."""
+
+    table = {"lib/tandem/base": "none", "lib/tandem/kernel/shapes": "base", "lib/tandem/kernel": "base, kernel/shapes",
+             "tests": "all above"}
+    sources = {
+        "lib/tandem/base/error.h": "",
+        "lib/tandem/kernel/shapes/box.h": '#include "tandem/base/error.h"\n#include <vector>\n',
+        "lib/tandem/kernel/path.h": '#include "tandem/kernel/shapes/box.h"\n  # include <tandem/base/error.h>\n#include "near.h"\n',
+        "lib/tandem/kernel/near.h": "",
+        "tests/kernel/path_test.cpp": '#include "tandem/kernel/path.h"\n',
+    }
+
+    def findings(self, table=(), sources=(), without=()):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder).resolve()
+            rows = "".join(f"| `{room}` | words | {names} |\n" for room, names in {**self.table, **dict(table)}.items() if room not in without)
+            page = "# Page\n\n## Rooms\n\n| room | what is in it | may include |\n|---|---|---|\n" + rows + "\n## More\n\n| `x/y` | a | b |\n"
+            for path, text in {"docs/architecture.md": page, **self.sources, **dict(sources)}.items():
+                if text is not None:
+                    (root / path).parent.mkdir(parents=True, exist_ok=True)
+                    (root / path).write_text(text)
+            report = lint.Report()
+            rooms.check(root, report)
+            return report.findings
+
+    def expect(self, words, **changes):
+        found = self.findings(**changes)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn(words, found[0])
+
+    def test_agree(self):
+        self.assertEqual(self.findings(), [])
+
+    def test_an_include_is_not_in_the_table(self):
+        self.expect("path.h:2: lib/tandem/kernel includes lib/tandem/base", table={"lib/tandem/kernel": "kernel/shapes"})
+
+    def test_no_include_needs_what_the_table_allows(self):
+        self.expect("lib/tandem/kernel/shapes may include base, and no include does", sources={"lib/tandem/kernel/shapes/box.h": "// base/error.h\n"})
+
+    def test_a_folder_has_no_row(self):
+        self.expect("lib/tandem/film: is no room", sources={"lib/tandem/film/film.h": ""})
+        self.expect("lib/tandem/kernel/lights: is no room", sources={"lib/tandem/kernel/lights/spot.h": ""})
+        self.expect("cpu: is no room", sources={"cpu/backend.cpp": ""})
+
+    def test_a_row_has_no_folder(self):
+        self.expect("the room cuda has no sources", table={"cuda": "none"})
+
+    def test_a_row_names_no_room(self):
+        self.expect("may include 'bass', which is no room", table={"lib/tandem/kernel": "base, bass, kernel/shapes"})
+
+    def test_a_circle(self):
+        up = {"lib/tandem/base/error.h": '#include "tandem/kernel/near.h"\n'}
+        self.expect("which is not above it", table={"lib/tandem/base": "kernel"}, sources=up)
+        self.expect("error.h:1: lib/tandem/base includes lib/tandem/kernel, which the table", sources=up)
+
+    def test_a_room_that_may_include_all_above(self):
+        self.expect("main.cpp:1: tests includes apps, which is not above it", table={"apps": "none"},
+                    sources={"tests/main.cpp": '#include "apps/window.h"\n', "apps/window.h": ""})
+
+    def test_no_table(self):
+        self.assertIn("has no table of rooms", self.findings(without=tuple(self.table))[0])
 
 
 unittest.main()

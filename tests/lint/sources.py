@@ -16,7 +16,7 @@ ALL_ROOMS = ("lib", "cpu", "cuda", "apps")
 EXACT_LIBM = {"sqrt", "sqrtf", "fma", "fmaf", "rint", "fabs", "fabsf"}
 # These differ between CPU and GPU for NaN and signed zeros; the file says why it may have them all the same.
 MIN_MAX = {"fminf", "fmaxf"}
-MIN_MAX_ALLOWED = {"lib/tandem/bvh/slab.h"}
+MIN_MAX_ALLOWED = {"lib/tandem/kernel/traversal/slab.h"}
 LIBM = re.compile(
     r"(?<![\w.>])(?:std::|::)?("
     r"(?:a?(?:sin|cos|tan)h?|atan2|exp2?|expm1|log(?:2|10|1p|b)?|pow|hypot|cbrt|erfc?|[lt]gamma|sqrt|rsqrt|rcbrt"
@@ -34,8 +34,8 @@ LIBRARIES = {
     "GLM": (r"glm/", lambda path: path == "lib/tandem/math/vec.h"),
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
-    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/film/")),
-    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/tandem/film/")),
+    "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/images/")),
+    "OpenEXR": (r"(?:OpenEXR|Imath)/", lambda path: path.startswith("lib/tandem/images/")),
 }
 
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tandem/sampler/philox.h"
+#include "tandem/kernel/sampler/philox.h"
 
 namespace tandem {
 namespace {

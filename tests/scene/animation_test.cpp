@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/scenes.h"
+#include "support/scenes.h"
 
 namespace tandem {
 namespace {

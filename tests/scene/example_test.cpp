@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 // [example]
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 tandem::Scene two_balls() {
     tandem::Scene scene;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scenes.h"
 #include "support/random.h"
+#include "support/scenes.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/surface_reach.h"

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scenes.h"
 #include "support/gradient_backend.h"
+#include "support/scenes.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"

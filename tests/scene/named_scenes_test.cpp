@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scenes.h"
-#include "tandem/scene/load_scene.h"
+#include "support/scenes.h"
+#include "tandem/gltf/load_scene.h"
 
 namespace tandem {
 namespace {

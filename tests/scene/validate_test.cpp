@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "scene/scenes.h"
+#include "support/scenes.h"
 
 namespace tandem {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "support/random.h"
-#include "tandem/geometry/sphere.h"
+#include "tandem/kernel/shapes/sphere.h"
 #include "tandem/math/ray.h"
 #include "tandem/math/transform.h"
 

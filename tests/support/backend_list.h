@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tandem/render/backend.h"
+#include "tandem/backends/make_backend.h"
 
 namespace tandem::test {
 

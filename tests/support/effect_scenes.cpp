@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tandem/effects/derive.h"
+#include "tandem/compile/derive.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::test {

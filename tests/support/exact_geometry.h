@@ -1,5 +1,5 @@
 /// The oracle of the geometry tests: intersections in arithmetic of 400 decimal digits, in which the sums and products
-/// of floats that occur are exact, straight from the definitions. Shares no formula with lib/tandem/geometry.
+/// of floats that occur are exact, straight from the definitions. Shares no formula with lib/tandem/kernel/shapes.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>

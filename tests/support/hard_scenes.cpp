@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::test {
 

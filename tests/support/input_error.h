@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::test {
 

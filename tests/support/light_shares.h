@@ -2,7 +2,7 @@
 #pragma once
 
 #include "support/sequence_start.h"
-#include "tandem/integrator/light_choice.h"
+#include "tandem/kernel/light_choice.h"
 
 namespace tandem::test {
 

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "tandem/sampler/philox.h"
+#include "tandem/kernel/sampler/philox.h"
 
 namespace tandem::test {
 

@@ -13,7 +13,7 @@
 #include <chrono>
 #include <limits>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::bench {
 

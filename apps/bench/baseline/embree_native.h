@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "tandem/geometry/hit.h"
-#include "tandem/geometry/sphere.h"
-#include "tandem/geometry/triangle.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/shapes/sphere.h"
+#include "tandem/kernel/shapes/triangle.h"
 #include "tandem/math/ray.h"
 
 namespace tandem::bench {

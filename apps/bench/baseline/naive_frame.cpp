@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "naive_renderer.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::bench {
 

@@ -1,6 +1,6 @@
 // A build without nvcc: the naive CUDA renderer is missing and says so.
 #include "naive_renderer.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem::bench {
 

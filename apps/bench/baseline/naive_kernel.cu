@@ -7,7 +7,7 @@
 
 #define NAIVE_NAMESPACE naive_cuda_code
 #include "naive_core.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace NAIVE_NAMESPACE {
 

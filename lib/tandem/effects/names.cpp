@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "tandem/film/sha256.h"
+#include "tandem/base/sha256.h"
 
 namespace tandem {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "tandem/file/lfs_pointer.h"
+#include "tandem/base/lfs_pointer.h"
 #include "tandem/gltf/uris.h"
 
 namespace tandem::gltf {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "tandem/file/whole_file.h"
+#include "tandem/base/whole_file.h"
 #include "tandem/gltf/document.h"
 
 namespace tandem::gltf {

@@ -1,9 +1,9 @@
 /// TANDEM_display: how the pictures of a scene are meant.
 #pragma once
 
-#include "tandem/film/display.h"
 #include "tandem/gltf/document.h"
 #include "tandem/gltf/report.h"
+#include "tandem/images/display.h"
 
 namespace tandem::gltf {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
-#include "tandem/error/error.h"
-#include "tandem/file/lfs_pointer.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/error.h"
+#include "tandem/base/lfs_pointer.h"
+#include "tandem/base/whole_file.h"
 #include "tandem/gltf/printable.h"
 
 namespace tandem::gltf {

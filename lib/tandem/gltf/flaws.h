@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/report.h"
 
 namespace tandem::gltf {

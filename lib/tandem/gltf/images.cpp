@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
-#include "tandem/error/error.h"
-#include "tandem/film/texel_rows.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/uris.h"
+#include "tandem/images/texel_rows.h"
 
 namespace tandem::gltf {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "tandem/film/texels.h"
 #include "tandem/gltf/buffers.h"
+#include "tandem/images/texels.h"
 #include "tandem/scene/texture.h"
 
 namespace tandem::gltf {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/animation.h"
 #include "tandem/gltf/buffers.h"
 #include "tandem/gltf/display.h"

@@ -4,7 +4,7 @@
 
 #include "tandem/gltf/document.h"
 #include "tandem/gltf/report.h"
-#include "tandem/material/optics.h"
+#include "tandem/kernel/bsdf/optics.h"
 
 namespace tandem::gltf {
 

@@ -1,5 +1,5 @@
-#include "tandem/film/display.h"
 #include "tandem/gltf/schema_property.h"
+#include "tandem/images/display.h"
 
 namespace tandem::gltf::schema {
 

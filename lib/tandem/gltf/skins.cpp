@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/accessor.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/mesh_topology.h"
-#include "tandem/scene/place_mesh.h"
+#include "tandem/scene/normal_matrix.h"
 
 namespace tandem::gltf {
 

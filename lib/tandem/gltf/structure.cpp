@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/extensions.h"
 
 namespace tandem::gltf {

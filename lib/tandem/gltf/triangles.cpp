@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/gltf/accessor.h"
 #include "tandem/gltf/faces.h"
 #include "tandem/gltf/mend.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "tandem/error/error.h"
-#include "tandem/file/lfs_pointer.h"
+#include "tandem/base/error.h"
+#include "tandem/base/lfs_pointer.h"
 
 namespace tandem::gltf {
 

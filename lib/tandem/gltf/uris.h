@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tandem/file/whole_file.h"
+#include "tandem/base/whole_file.h"
 #include "tandem/gltf/document.h"
 
 namespace tandem::gltf {
@@ -15,7 +15,7 @@ struct LocatedFile {
     std::filesystem::path path;
     std::uintmax_t bytes = 0;
     std::string name;             ///< for messages
-    bool is_lfs_pointer = false;  ///< a pointer of Git LFS in its place (file/lfs_pointer.h)
+    bool is_lfs_pointer = false;  ///< a pointer of Git LFS in its place (base/lfs_pointer.h)
 };
 
 /// The file that a relative URI names. It is a regular one and lies within the folder of the glTF file, also through

@@ -3,10 +3,10 @@
 /// exact_sin, exact_cos, exact_exp, exact_log, exact_pow   float to float, correctly rounded (to nearest, ties to even)
 ///     for every input, so that every other correctly rounded library agrees. The libraries of the CPU and of CUDA are
 ///     neither correctly rounded nor equal. sin, cos, exp and log are compared with MPFR over all floats by
-///     tests/unit/math/exhaustive_math.cpp; for pow see there.
+///     tests/math/exhaustive_math.cpp; for pow see there.
 /// log_wide, exp_wide, power   double to double, within a few units of the last place, for use inside a formula.
 ///
-/// NaN in gives the quiet NaN 0x7FC00000 out of the float functions. Coefficients: tests/unit/math/minimax.py.
+/// NaN in gives the quiet NaN 0x7FC00000 out of the float functions. Coefficients: tests/math/minimax.py.
 #pragma once
 
 #include "tandem/math/error_free.h"

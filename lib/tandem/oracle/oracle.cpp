@@ -7,12 +7,12 @@
 #include <cmath>
 #include <thread>
 
-#include "tandem/error/error.h"
-#include "tandem/integrator/pixel_job.h"
+#include "tandem/base/error.h"
+#include "tandem/base/seconds.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/oracle/oracle_path.h"
+#include "tandem/render/pixel_job.h"
 #include "tandem/render/ready_frame.h"
-#include "tandem/render/seconds.h"
 #include "tandem/render/traced_job.h"
 
 namespace tandem {

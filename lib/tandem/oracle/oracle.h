@@ -1,6 +1,6 @@
 /// The slow right answer: brute force over all primitives in extended precision, no structure, no Embree, none of the
-/// formulas of lib/tandem/geometry and lib/tandem/material. What it shares with the backends is the camera ray and the
-/// random numbers, so that it renders the same samples.
+/// formulas of lib/tandem/kernel/shapes and lib/tandem/kernel/bsdf. What it shares with the backends is the camera ray
+/// and the random numbers, so that it renders the same samples.
 #pragma once
 
 #include <memory>

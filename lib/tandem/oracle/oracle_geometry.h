@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tandem/scene/scene_view.h"
+#include "tandem/kernel/view/scene_view.h"
 
 namespace tandem::oracle {
 

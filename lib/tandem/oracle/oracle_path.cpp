@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tandem/material/medium_stack.h"  // for no_medium alone
+#include "tandem/kernel/media/medium_stack.h"  // for no_medium alone
 #include "tandem/oracle/oracle_textures.h"
 
 namespace tandem::oracle {

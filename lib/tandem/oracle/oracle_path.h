@@ -1,11 +1,11 @@
-/// The oracle's own paths, in extended precision. What it shares with lib/tandem/integrator is the random numbers, and
+/// The oracle's own paths, in extended precision. What it shares with lib/tandem/kernel is the random numbers, and
 /// so the choices that hang on them.
 #pragma once
 
-#include "tandem/geometry/ray_source.h"
-#include "tandem/integrator/path_limits.h"
+#include "tandem/kernel/path_limits.h"
+#include "tandem/kernel/sampler/dimensions.h"
+#include "tandem/kernel/shapes/ray_source.h"
 #include "tandem/oracle/oracle_geometry.h"
-#include "tandem/sampler/dimensions.h"
 
 namespace tandem::oracle {
 

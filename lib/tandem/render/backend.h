@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "tandem/accuracy/tier.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
 #include "tandem/render/render_job.h"
+#include "tandem/render/specialise.h"
 #include "tandem/render/stats.h"
+#include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
-#include "tandem/scene/prepared_scene.h"
 
 namespace tandem {
 
@@ -59,7 +60,7 @@ class Backend {
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
     /// Nearest hits of rays in front of their origins (t > 0), or whether shadow rays are stopped (trace_job.h). Rays
-    /// are in render space: a point of the world is there at render_from_world() (scene/prepared_scene.h). Rays that
+    /// are in render space: a point of the world is there at render_from_world() (compile/prepared_scene.h). Rays that
     /// are not traceable (math/ray.h) miss and are counted. Returns the seconds that the tracing itself took, without
     /// copies.
     virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;
@@ -76,28 +77,11 @@ class Backend {
     }
 };
 
-/// Which kernel draws a scene on the GPU: one that was compiled ahead of time, or one that is made for the scene, which
-/// takes seconds the first time (PhaseTimes::compile) and is kept on disk.
-enum class Specialise { never, always };
-
-/// "never", "always". Throws InputError for others.
-[[nodiscard]] Specialise parse_specialise(const std::string& text);
-
 struct BackendOptions {
     int threads = 0;              ///< CPU and oracle: 0 means one per core
     int tile_size = 16;           ///< CPU: edge of a square tile, pixels
     std::string instruction_set;  ///< CPU: "x86-64-v2", "-v3" or "-v4"; empty means the best of this machine
     Specialise specialise = Specialise::always;  ///< CUDA
 };
-
-/// "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a
-/// backend that this build or this machine cannot run.
-[[nodiscard]] std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options = {});
-
-/// The names that make_backend() takes.
-[[nodiscard]] std::vector<std::string> backend_names();
-
-/// Why a backend cannot run here, or empty if it can.
-[[nodiscard]] std::string why_unavailable(const std::string& name);
 
 }  // namespace tandem

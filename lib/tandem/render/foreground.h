@@ -1,10 +1,10 @@
 /// Which pixels of a film show something, and which the background.
 #pragma once
 
-#include "tandem/camera/camera.h"
-#include "tandem/film/image.h"
-#include "tandem/light/environment.h"
-#include "tandem/scene/prepared_scene.h"
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/images/image.h"
+#include "tandem/kernel/camera/camera.h"
+#include "tandem/kernel/lights/environment.h"
 
 namespace tandem {
 

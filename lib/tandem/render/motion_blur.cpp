@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "tandem/effects/derive.h"
-#include "tandem/film/sha256.h"
+#include "tandem/base/seconds.h"
+#include "tandem/base/sha256.h"
+#include "tandem/compile/derive.h"
 #include "tandem/math/fp_environment.h"
-#include "tandem/render/seconds.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tandem/compile/prepare.h"
 #include "tandem/render/backend.h"
-#include "tandem/scene/prepare.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "tandem/geometry/box.h"
+#include "tandem/kernel/shapes/box.h"
 #include "tandem/math/fp_environment.h"
 
 namespace tandem {

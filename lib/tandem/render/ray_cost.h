@@ -1,7 +1,7 @@
 /// How much work a ray of the camera is, and how many samples that leaves.
 #pragma once
 
-#include "tandem/scene/prepared_scene.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "tandem/accuracy/tier.h"
-#include "tandem/integrator/path_limits.h"
+#include "tandem/kernel/path_limits.h"
+#include "tandem/render/tier.h"
 
 namespace tandem {
 

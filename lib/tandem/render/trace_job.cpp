@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 

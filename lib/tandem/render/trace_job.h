@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "tandem/geometry/ray_source.h"
+#include "tandem/kernel/shapes/ray_source.h"
 #include "tandem/math/ray.h"
 #include "tandem/render/stats.h"
 
@@ -21,7 +21,7 @@ struct RayEnd {
 struct TraceJob {
     std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)
     std::span<Hit> hits;
-    std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (geometry/spawn_ray.h makes both)
+    std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (kernel/spawn_ray.h makes both)
     std::span<const RayEnd> ends{};        ///< not empty: shadow rays. A hit is {0, some_primitive}
     std::span<double> wide_t{};            ///< t before its rounding to float; 0 for a miss and for shadow rays
     RenderCounters* counters = nullptr;    ///< added to, if there is one: rejected rays, stack overflows

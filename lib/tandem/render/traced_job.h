@@ -1,11 +1,11 @@
-/// Tracing of rays by a backend that has left out a scene's copies (scene/copies.h), so that its ids differ from the
+/// Tracing of rays by a backend that has left out a scene's copies (compile/copies.h), so that its ids differ from the
 /// caller's.
 #pragma once
 
 #include <functional>
 
+#include "tandem/compile/copies.h"
 #include "tandem/render/trace_job.h"
-#include "tandem/scene/copies.h"
 
 namespace tandem {
 

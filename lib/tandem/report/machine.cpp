@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "tandem/report/processor_level.h"
+#include "tandem/base/processor_level.h"
 #include "tandem_build_info.h"
 #include "tandem_git_commit.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "tandem/sampler/philox.h"
+#include "tandem/kernel/sampler/philox.h"
 
 namespace tandem {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 

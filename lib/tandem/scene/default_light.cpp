@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "tandem/images/levels.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/frame.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/surface_reach.h"
-#include "tandem/texture/levels.h"
 
 namespace tandem {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/surface_reach.h"

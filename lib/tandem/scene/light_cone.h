@@ -1,4 +1,4 @@
-/// The cone of a spot light as kernels read it (light/punctual_light.h).
+/// The cone of a spot light as kernels read it (kernel/lights/punctual_light.h).
 #pragma once
 
 #include <cmath>

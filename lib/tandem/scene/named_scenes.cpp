@@ -9,9 +9,9 @@
 #include <numbers>
 #include <optional>
 
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
+#include "tandem/kernel/sampler/philox.h"
 #include "tandem/math/fp_environment.h"
-#include "tandem/sampler/philox.h"
 #include "tandem/scene/icosphere.h"
 
 namespace tandem {

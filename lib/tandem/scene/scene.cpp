@@ -9,7 +9,7 @@
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/ray.h"
 #include "tandem/scene/light_cone.h"
-#include "tandem/scene/prepare_textures.h"
+#include "tandem/scene/texture_problems.h"
 
 namespace tandem {
 

@@ -9,13 +9,13 @@
 #include <variant>
 #include <vector>
 
-#include "tandem/camera/lens.h"
-#include "tandem/camera/shutter.h"
-#include "tandem/film/display.h"
-#include "tandem/geometry/face_sides.h"
-#include "tandem/light/environment.h"
-#include "tandem/material/optics.h"
-#include "tandem/material/phong.h"
+#include "tandem/images/display.h"
+#include "tandem/kernel/bsdf/optics.h"
+#include "tandem/kernel/bsdf/phong.h"
+#include "tandem/kernel/camera/lens.h"
+#include "tandem/kernel/camera/shutter.h"
+#include "tandem/kernel/lights/environment.h"
+#include "tandem/kernel/shapes/face_sides.h"
 #include "tandem/math/transform.h"
 #include "tandem/scene/texture.h"
 
@@ -120,9 +120,9 @@ struct Material {
     std::string name;
     PhongMaterial phong;
     FaceSides sides = FaceSides::single_sided;
-    Optics optics{};                                     ///< mirrors and glass
-    std::optional<TextureReference> diffuse_texture{};   ///< multiplies the diffuse and the ambient reflectance
-    std::optional<TextureReference> normal_texture{};    ///< normals, as glTF 2.0 has them (texture/normal_map.h)
+    Optics optics{};                                    ///< mirrors and glass
+    std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
+    std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (kernel/texture/normal_map.h)
     std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
     /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
     /// gives any (KHR_materials_unlit).

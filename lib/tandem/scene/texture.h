@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "tandem/kernel/texture/texel_axis.h"
 #include "tandem/math/vec.h"
-#include "tandem/texture/texel_axis.h"
 
 namespace tandem {
 
-/// A picture: decoded from a file (read_texels() in film/texels.h, or the importer) or made in memory.
+/// A picture: decoded from a file (read_texels() in images/texels.h, or the importer) or made in memory.
 struct Image {
     std::string name{};
     std::uint32_t width = 0, height = 0;  ///< from 1 to 16384

@@ -1,3 +1,5 @@
+#include "tandem/scene/texture_problems.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <set>
 
 #include "tandem/scene/corner_slots.h"
-#include "tandem/scene/prepare_textures.h"
 
 namespace tandem {
 

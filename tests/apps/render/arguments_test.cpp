@@ -4,7 +4,7 @@
 
 #include "render/frame_pattern.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
 
 namespace tandem {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "support/temporary_folder.h"
-#include "tandem/version/version.h"
+#include "tandem/base/version.h"
 
 namespace tandem {
 namespace {

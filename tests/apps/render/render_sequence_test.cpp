@@ -6,11 +6,11 @@
 #include "support/gradient_backend.h"
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
-#include "tandem/error/error.h"
-#include "tandem/film/exposure.h"
-#include "tandem/film/tone_curve.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/images/exposure.h"
+#include "tandem/images/tone_curve.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem {
 namespace {

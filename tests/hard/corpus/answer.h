@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "tandem/geometry/hit.h"
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/kernel/shapes/hit.h"
 #include "tandem/math/ray.h"
-#include "tandem/scene/prepared_scene.h"
 
 namespace tandem::hard {
 

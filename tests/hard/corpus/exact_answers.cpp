@@ -6,7 +6,7 @@
 
 #include "hard/corpus/answer.h"
 #include "support/exact_geometry.h"
-#include "tandem/scene/scene_view.h"
+#include "tandem/kernel/view/scene_view.h"
 
 namespace tandem::hard {
 

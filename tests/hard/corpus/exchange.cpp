@@ -8,8 +8,8 @@
 
 #include "hard/corpus/gltf_text.h"
 #include "hard/corpus/npy.h"
-#include "tandem/error/error.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/error.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::hard {
 

@@ -11,7 +11,7 @@
 
 namespace tandem::hard {
 
-/// A packet on every x86-64 machine of the last decade; wider ones are compared with it by tests/unit/math.
+/// A packet on every x86-64 machine of the last decade; wider ones are compared with it by tests/math.
 using Packet = Lanes<float, Sse4>;
 
 /// 60 decimal digits: more than any function here can need, and fast.

@@ -6,7 +6,7 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "support/exact_geometry.h"
-#include "tandem/geometry/sphere.h"
+#include "tandem/kernel/shapes/sphere.h"
 
 namespace tandem::hard {
 

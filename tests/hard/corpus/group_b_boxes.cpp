@@ -1,5 +1,5 @@
 // Group B: rays and boxes. The oracle is exact arithmetic on the same floats. Most rays are the kinds of
-// unit/geometry/adversarial_rays.h, here through whole backends.
+// support/adversarial_rays.h, here through whole backends.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
+#include "support/adversarial_rays.h"
 #include "support/exact_geometry.h"
-#include "tandem/error/error.h"
-#include "tandem/scene/prepare.h"
-#include "unit/geometry/adversarial_rays.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::hard {
 

@@ -7,10 +7,10 @@
 
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
+#include "support/adversarial_triangles.h"
 #include "support/exact_geometry.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/icosphere.h"
-#include "tandem/scene/prepare.h"
-#include "unit/geometry/adversarial_triangles.h"
 
 namespace tandem::hard {
 

@@ -6,8 +6,8 @@
 
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

@@ -1,6 +1,6 @@
 // Group E: rays that leave surfaces. An offset of the origin that is too small gives false shadows (acne), one that is
 // too large lets light through what touches (leaks), and no size is right at every scale. Rays are made on the host as
-// the path loop makes them (geometry/spawn_ray.h); the backend says what they meet.
+// the path loop makes them (kernel/spawn_ray.h); the backend says what they meet.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
-#include "tandem/geometry/intersect.h"
-#include "tandem/geometry/spawn_ray.h"
-#include "tandem/material/reflect.h"
-#include "tandem/material/refract.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/bsdf/refract.h"
+#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/scene/icosphere.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

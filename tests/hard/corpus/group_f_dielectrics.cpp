@@ -8,12 +8,12 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "support/exact_geometry.h"
-#include "tandem/geometry/intersect.h"
-#include "tandem/geometry/spawn_ray.h"
-#include "tandem/material/fresnel.h"
-#include "tandem/material/medium_stack.h"
-#include "tandem/material/reflect.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/bsdf/fresnel.h"
+#include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/media/medium_stack.h"
+#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem::hard {
 

@@ -7,8 +7,8 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "support/exact_geometry.h"
-#include "tandem/material/phong.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/bsdf/phong.h"
 
 namespace tandem::hard {
 

@@ -9,10 +9,10 @@
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
-#include "tandem/camera/camera.h"
-#include "tandem/error/error.h"
-#include "tandem/sampler/dimensions.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/camera/camera.h"
+#include "tandem/kernel/sampler/dimensions.h"
 
 namespace tandem::hard {
 

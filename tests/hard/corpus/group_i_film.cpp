@@ -8,9 +8,9 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
-#include "tandem/integrator/pixel_job.h"
-#include "tandem/light/environment.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/lights/environment.h"
+#include "tandem/render/pixel_job.h"
 
 namespace tandem::hard {
 

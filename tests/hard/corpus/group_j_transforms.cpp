@@ -9,11 +9,11 @@
 #include "hard/corpus/pictures.h"
 #include "support/exact_geometry.h"
 #include "support/under_parent.h"
-#include "tandem/error/error.h"
-#include "tandem/geometry/affine.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/shapes/affine.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

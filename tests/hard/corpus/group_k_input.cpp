@@ -12,9 +12,9 @@
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
 #include "support/temporary_folder.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/gltf/import.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

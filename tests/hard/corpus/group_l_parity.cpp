@@ -9,10 +9,11 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "support/correct_rounding.h"
 #include "support/hard_scenes.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
-#include "unit/math/correct_rounding.h"
 
 namespace tandem::hard {
 

@@ -12,11 +12,11 @@
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
 #include "support/light_shares.h"
-#include "tandem/error/error.h"
-#include "tandem/light/punctual_light.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/light_cone.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

@@ -10,11 +10,11 @@
 #include "hard/corpus/lit_scenes.h"
 #include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
-#include "tandem/error/error.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/prepare.h"
 
 namespace tandem::hard {
 

@@ -7,8 +7,9 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lit_scenes.h"
 #include "hard/corpus/pictures.h"
-#include "tandem/scene/prepare.h"
-#include "unit/light/polygon_forms.h"
+#include "support/polygon_forms.h"
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::hard {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "hard/corpus/groups.h"
-#include "tandem/error/error.h"
-#include "tandem/scene/prepare.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::hard {
 

@@ -1,5 +1,5 @@
 /// A hard case: what it is, why naive code fails, and how it is tried. The catalogue with its sources is
-/// docs/hard-corpus.md; the marks are lib/tandem/accuracy/marks.def.
+/// docs/hard-corpus.md; the marks are tests/hard/corpus/marks.def.
 #pragma once
 
 #include <cstddef>

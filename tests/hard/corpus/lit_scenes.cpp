@@ -1,4 +1,5 @@
 #include "hard/corpus/lit_scenes.h"
+#include "tandem/backends/make_backend.h"
 
 #include <fmt/format.h>
 

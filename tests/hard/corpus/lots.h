@@ -6,7 +6,7 @@
 
 #include "hard/corpus/hard_case.h"
 #include "support/aim.h"
-#include "tandem/geometry/box.h"
+#include "tandem/kernel/shapes/box.h"
 
 namespace tandem::hard {
 

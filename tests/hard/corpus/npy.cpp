@@ -8,8 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "tandem/error/error.h"
-#include "tandem/file/whole_file.h"
+#include "tandem/base/error.h"
+#include "tandem/base/whole_file.h"
 
 namespace tandem::hard {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tandem/accuracy/ulp.h"
+#include "tandem/math/ulp.h"
 
 namespace tandem::hard {
 

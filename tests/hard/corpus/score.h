@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hard/corpus/answer.h"
-#include "tandem/geometry/hit.h"
+#include "tandem/kernel/shapes/hit.h"
 
 namespace tandem::hard {
 

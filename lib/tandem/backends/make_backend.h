@@ -1,0 +1,22 @@
+/// Backends by name.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tandem/render/backend.h"
+
+namespace tandem {
+
+/// "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a
+/// backend that this build or this machine cannot run.
+[[nodiscard]] std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options = {});
+
+/// The names that make_backend() takes.
+[[nodiscard]] std::vector<std::string> backend_names();
+
+/// Why a backend cannot run here, or empty if it can.
+[[nodiscard]] std::string why_unavailable(const std::string& name);
+
+}  // namespace tandem

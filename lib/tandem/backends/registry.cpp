@@ -1,0 +1,34 @@
+#include "tandem/backends/registry.h"
+
+#include <array>
+
+#include "cpu/cpu_backend.h"
+#include "tandem/oracle/oracle.h"
+#if TANDEM_HAS_CUDA
+#include "cuda/cuda_backend.h"
+#else
+#include "tandem/base/error.h"
+#endif
+
+namespace tandem {
+
+namespace {
+
+#if !TANDEM_HAS_CUDA
+std::string why_cuda_unavailable() {
+    return "this build has no CUDA backend; put nvcc 12.8 or newer on PATH and build again, or use --backend cpu";
+}
+std::unique_ptr<Backend> make_cuda_backend(const BackendOptions&) { throw EnvironmentError(why_cuda_unavailable()); }
+#endif
+
+constexpr std::array registry = {
+    BackendEntry{"cpu", why_cpu_unavailable, make_cpu_backend},
+    BackendEntry{"cuda", why_cuda_unavailable, make_cuda_backend},
+    BackendEntry{"oracle", [] { return std::string(); }, make_oracle_backend},
+};
+
+}  // namespace
+
+std::span<const BackendEntry> backend_registry() { return registry; }
+
+}  // namespace tandem

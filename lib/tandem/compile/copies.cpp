@@ -1,0 +1,190 @@
+#include "tandem/compile/copies.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/kernel/shapes/hit.h"
+
+namespace tandem {
+
+namespace {
+
+/// What primitives are compared by, beside their materials: words without a gap.
+const Sphere& shape_of(const Sphere& sphere) { return sphere; }
+const Box& shape_of(const Box& box) { return box; }
+const Placement& shape_of(const Placement& body) { return body; }
+struct TriangleShape {
+    Vec3f corner[3];
+    FaceSides sides;
+};
+TriangleShape shape_of(const Triangle& face) { return {{face.v0, face.v1, face.v2}, face.attributes.sides}; }
+struct QuadShape {
+    Vec3f corner[4];
+    FaceSides sides;
+};
+QuadShape shape_of(const Quad& face) { return {{face.v0, face.v1, face.v2, face.v3}, face.attributes.sides}; }
+
+/// Do the values at its corners say where a face has holes?
+template <class Primitive>
+bool may_have_holes(const Primitive& primitive, const MaterialTextures* textures) {
+    if constexpr (requires { primitive.attributes; }) {
+        return textures != nullptr && textures->alpha_cutoff > 0 && primitive.attributes.texcoords != no_attributes;
+    }
+    return false;
+}
+
+/// The bits of a shape.
+template <class Shape>
+auto words_of(const Shape& shape) {
+    std::array<std::uint64_t, (sizeof(Shape) + 7) / 8> words{};
+    std::memcpy(words.data(), &shape, sizeof(shape));
+    return words;
+}
+
+template <class Shape>
+std::uint64_t hash_of(const Shape& shape, std::uint32_t material) {
+    std::uint64_t hash = material;
+    for (const std::uint64_t word : words_of(shape)) hash = (std::rotl(hash, 23) ^ word) * 0x9E3779B97F4A7C15U;
+    return hash ^ hash >> 32;
+}
+
+template <class Shape>
+bool same_bits(const Shape& a, const Shape& b) {
+    return words_of(a) == words_of(b);
+}
+
+class Finder {
+  public:
+    explicit Finder(const PreparedScene& scene) : scene_(scene) {}
+
+    std::vector<PrimitiveCopy> run() {
+#define TANDEM_PRIMITIVE(Type, name, names) search(scene_.names);
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+        return std::move(copies_);
+    }
+
+  private:
+    static constexpr std::uint32_t empty = 0xFFFFFFFFU;
+    static constexpr std::size_t batch = 32;
+
+    /// A primitive that is none's copy, and a part of its hash: most others are told apart without a look at them.
+    struct Entry {
+        std::uint32_t hash;
+        std::uint32_t number;
+    };
+
+    /// The primitives of one kind, in the order of their ids. A table of millions is in no cache, so the hashes of a
+    /// batch come first, and their places are on their way while the next ones are computed.
+    template <class Primitive>
+    void search(const std::vector<Primitive>& primitives) {
+        const std::uint32_t* material_of = scene_.material_of.data() + first_id_;
+        table_.assign(std::bit_ceil(primitives.size() + primitives.size() / 2 + 1), {0, empty});
+        for (std::size_t first = 0; first < primitives.size(); first += batch) {
+            const std::size_t end = std::min(first + batch, primitives.size());
+            std::uint64_t hashes[batch];
+            for (std::size_t i = first; i < end; ++i) {
+                hashes[i - first] = hash_of(shape_of(primitives[i]), material_of[i]);
+                __builtin_prefetch(&table_[place_of(hashes[i - first])], 1);
+            }
+            for (std::size_t i = first; i < end; ++i) {
+                add(primitives, material_of, static_cast<std::uint32_t>(i), hashes[i - first]);
+            }
+        }
+        first_id_ += static_cast<std::uint32_t>(primitives.size());
+    }
+
+    [[nodiscard]] std::size_t place_of(std::uint64_t hash) const { return (hash >> 32) & (table_.size() - 1); }
+
+    /// Puts primitive i into the table, or among the copies if its like is there.
+    template <class Primitive>
+    void add(const std::vector<Primitive>& primitives, const std::uint32_t* material_of, std::uint32_t i,
+             std::uint64_t hash) {
+        const std::uint32_t material = material_of[i];
+        const bool has_textures = !scene_.textures.materials.empty();
+        if (may_have_holes(primitives[i], has_textures ? &scene_.textures.materials[material] : nullptr)) return;
+        const auto part = static_cast<std::uint32_t>(hash);
+        const auto is_like = [&](const Entry& entry) {
+            return entry.hash == part && material_of[entry.number] == material &&
+                   same_bits(shape_of(primitives[entry.number]), shape_of(primitives[i]));
+        };
+        std::size_t place = place_of(hash);
+        while (table_[place].number != empty && !is_like(table_[place])) place = (place + 1) & (table_.size() - 1);
+        if (table_[place].number == empty) {
+            table_[place] = {part, i};
+        } else {
+            copies_.push_back({first_id_ + i, first_id_ + table_[place].number});
+        }
+    }
+
+    const PreparedScene& scene_;
+    std::uint32_t first_id_ = 0;
+    std::vector<Entry> table_;
+    std::vector<PrimitiveCopy> copies_;
+};
+
+/// Takes the elements of copies out of an array by primitive whose first element is that of `first_id`.
+template <class T>
+void remove(const std::vector<PrimitiveCopy>& copies, std::size_t first_id, std::vector<T>& array) {
+    auto copy = std::lower_bound(copies.begin(), copies.end(), first_id,
+                                 [](const PrimitiveCopy& c, std::size_t id) { return c.id < id; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < array.size(); ++i) {
+        if (copy != copies.end() && copy->id == first_id + i) {
+            ++copy;
+        } else {
+            array[kept++] = array[i];
+        }
+    }
+    array.resize(kept);
+}
+
+}  // namespace
+
+std::vector<PrimitiveCopy> find_copies(const PreparedScene& scene) { return Finder(scene).run(); }
+
+PreparedScene without_copies(const PreparedScene& scene) {
+    PreparedScene result = scene;
+    std::size_t first_id = 0;
+#define TANDEM_PRIMITIVE(Type, name, names)       \
+    remove(scene.copies, first_id, result.names); \
+    first_id += scene.names.size();
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    remove(scene.copies, 0, result.material_of);
+    remove(scene.copies, 0, result.node_of);
+    const TracedIds ids(scene.copies);
+    for (AreaLight& light : result.area_lights) light.primitive = ids.traced(light.primitive);
+    result.copies.clear();
+    return result;
+}
+
+std::uint32_t TracedIds::traced(std::uint32_t id) const {
+    const auto by_id = [](const PrimitiveCopy& copy, std::uint32_t i) { return copy.id < i; };
+    auto copy = std::lower_bound(copies_.begin(), copies_.end(), id, by_id);
+    if (copy != copies_.end() && copy->id == id) {
+        id = copy->of;
+        copy = std::lower_bound(copies_.begin(), copies_.end(), id, by_id);
+    }
+    return id >= first_special_id ? id : id - static_cast<std::uint32_t>(copy - copies_.begin());
+}
+
+std::uint32_t TracedIds::of_scene(std::uint32_t traced) const {
+    if (traced >= first_special_id) return traced;
+    // before copy k there are copies_[k].id - k that are none
+    std::size_t first = 0, end = copies_.size();
+    while (first < end) {
+        const std::size_t middle = (first + end) / 2;
+        if (copies_[middle].id - middle <= traced) {
+            first = middle + 1;
+        } else {
+            end = middle;
+        }
+    }
+    return traced + static_cast<std::uint32_t>(first);
+}
+
+}  // namespace tandem

@@ -1,0 +1,45 @@
+/// How bright the emissive texture of a light is over its surface.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+/// Estimates for choosing among lights: a light's chance changes the noise of a picture and not its mean, as long as
+/// what emits anything has a chance.
+class EmissiveTextures {
+  public:
+    /// `scene` must outlive it.
+    explicit EmissiveTextures(const SceneView& scene) : scene_(scene) {}
+
+    /// About the mean over a primitive of what multiplies its emission (the mean of red, green and blue); 0 only where
+    /// all of it is black. 1 without a texture.
+    [[nodiscard]] double brightness(std::uint32_t primitive);
+
+  private:
+    /// Which blocks of texels are not black, as sums over all blocks above and to the left.
+    struct Blocks {
+        std::size_t columns = 0;
+        std::vector<std::uint32_t> bright;
+        [[nodiscard]] bool any(std::size_t x0, std::size_t x1, std::size_t y0, std::size_t y1) const;
+    };
+    const Blocks& blocks_of(std::uint32_t texture);
+    /// Coordinates on the texture.
+    struct Point {
+        double u, v;
+    };
+    /// May the texture be anything but black in the box around some points?
+    bool may_shine(const TextureUse& use, std::span<const Point> points);
+    double on_triangle(const TextureUse& use, const Vec2f& a, const Vec2f& b, const Vec2f& c);
+    double on_sphere(const TextureUse& use);
+    [[nodiscard]] double level_at(const TextureUse& use, const Point& surface) const;
+
+    SceneView scene_;
+    std::map<std::uint32_t, Blocks> blocks_;  ///< by texture
+};
+
+}  // namespace tandem

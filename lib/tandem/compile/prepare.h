@@ -1,0 +1,34 @@
+/// From the author's scene to flat arrays at one moment.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/effects/names.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem {
+
+struct PrepareOptions {
+    std::int32_t frame = 0;
+    std::string camera{};           ///< name of the camera's node; empty means the first camera of the scene
+    std::optional<Vec3d> origin{};  ///< of render space, in world space; empty: chosen for precision (RenderOrigin)
+    ForcedEffects effects{};        ///< simulated in any case, or not even if the scene calls for them
+    std::optional<double> time{};   ///< seconds: an instant in place of the frame's time, with the shutter closed
+};
+
+/// Throws InputError with the list of validate() if that is not empty.
+void check(const Scene& scene);
+
+/// Deterministic: the same scene gives the same bytes. Transforms are composed in double, moved to the origin of render
+/// space in double, and rounded once.
+/// Spheres under rotation and uniform scale stay spheres, boxes under diagonal transforms stay boxes; the others
+/// become ellipsoids and parallelepipeds. So do those with a texture that are turned or mirrored, since a sphere and a
+/// box do not know of it; prepare_textures() says what is a texture. Meshes become triangles and quads (place_mesh.h).
+/// What moves is still: a frame with motion blur is made of several moments (render/motion_blur.h). Their times are not
+/// rounded, as that of a frame is.
+/// Throws InputError as check() does, and if the camera is missing.
+[[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
+
+}  // namespace tandem

@@ -1,0 +1,204 @@
+#include "tandem/compile/prepare_textures.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "tandem/base/error.h"
+#include "tandem/images/levels.h"
+#include "tandem/math/exact_math.h"
+#include "tandem/scene/corner_slots.h"
+
+namespace tandem {
+
+namespace {
+
+constexpr std::size_t most_texels = std::size_t{1} << 30;
+
+constexpr std::uint32_t rgb = 0x00FFFFFF;  // the bits of a texel's red, green and blue
+
+/// Of the channels in `bits`.
+bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
+    return std::all_of(image.texels.begin(), image.texels.end(),
+                       [&](std::uint32_t t) { return (t & bits) == (image.texels[0] & bits); });
+}
+
+std::uint32_t least_alpha(const Image& image) {
+    std::uint32_t least = 255;
+    for (const std::uint32_t texel : image.texels) least = std::min(least, texel >> 24);
+    return least;
+}
+
+TextureUse with_transform(const TextureReference& reference, std::uint32_t texture, const CornerSlots& slots) {
+    const float cosine = exact_cos(reference.rotation);
+    const float sine = exact_sin(reference.rotation);
+    const Vec2f& scale = reference.scale;
+    return {texture,
+            {cosine * scale.x, sine * scale.y, reference.offset.x},
+            {-sine * scale.x, cosine * scale.y, reference.offset.y},
+            slots.slot_of(reference.texcoord)};
+}
+
+bool has_picture(const MaterialTextures& m) {
+    return m.diffuse.texture != no_texture || m.normal.texture != no_texture || m.emission.texture != no_texture ||
+           m.colour_slot != no_slot;
+}
+
+class Preparer {
+  public:
+    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics)
+        : scene_(scene), phong_(phong), optics_(optics), slots_(corner_slots(scene)) {
+        result_.levels = texture_levels();
+    }
+
+    PreparedTextures run() {
+        for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
+        const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(),
+                                        [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; });
+        return needed ? std::move(result_) : PreparedTextures{};
+    }
+
+  private:
+    void add(std::size_t index) {
+        const Material& material = scene_.materials[index];
+        const CornerSlots& slots = slots_[index];
+        MaterialTextures prepared;
+        if (slots.has_colours) prepared.colour_slot = slots.colour_slot();
+        std::uint32_t alpha = 255;  // the least of the texture
+        if (material.alpha_mode == AlphaMode::mask) {
+            prepared.alpha = material.alpha;
+            prepared.alpha_cutoff = material.alpha_cutoff;
+        }
+        if (material.diffuse_texture) {
+            const TextureReference& reference = *material.diffuse_texture;
+            const Image& image = image_of(reference);
+            const Facts& facts = facts_of(image);
+            const bool one_colour = facts.has_one_rgb;
+            if (one_colour) {
+                const Vec3f factor = colour_of(image.texels[0]);
+                phong_[index].diffuse *= factor;
+                phong_[index].ambient *= factor;
+            }
+            if (facts.has_one_rgba) {
+                prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
+            } else if (!one_colour || prepared.alpha_cutoff > 0) {
+                if (prepared.alpha_cutoff > 0) alpha = facts.least_alpha;
+                prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
+            }
+        }
+        // beyond the rounding of the kernels' product
+        if (!slots.has_colours &&
+            double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
+            prepared.alpha = 1;
+            prepared.alpha_cutoff = 0;
+        }
+        if (material.normal_texture) {
+            const TextureReference& reference = *material.normal_texture;
+            prepared.normal = with_transform(reference, add(reference, ColourSpace::linear, false), slots);
+            prepared.normal_scale = material.normal_scale;
+        }
+        if (material.emissive_texture) add_emission(*material.emissive_texture, slots, index, prepared);
+        result_.materials.push_back(prepared);
+    }
+
+    /// What a look at every texel says.
+    struct Facts {
+        bool has_one_rgb, has_one_rgba;
+        std::uint32_t least_alpha;
+    };
+    /// Many materials may show one image.
+    const Facts& facts_of(const Image& image) {
+        const auto known = facts_.find(&image);
+        if (known != facts_.end()) return known->second;
+        return facts_[&image] = {has_one_colour(image, rgb), has_one_colour(image), least_alpha(image)};
+    }
+
+    const Image& image_of(const TextureReference& reference) const {
+        return scene_.images[scene_.textures[reference.texture].image];
+    }
+
+    void add_emission(const TextureReference& reference, const CornerSlots& slots, std::size_t index,
+                      MaterialTextures& prepared) {
+        Vec3f& emission = optics_[index].emission;
+        if (!(norm1(emission) > 0)) return;
+        const Image& image = image_of(reference);
+        if (facts_of(image).has_one_rgb) {
+            emission *= colour_of(image.texels[0]);
+        } else {
+            prepared.emission = with_transform(reference, add(reference, ColourSpace::srgb, false), slots);
+        }
+    }
+
+    /// Linear.
+    Vec3f colour_of(std::uint32_t texel) const {
+        return {result_.levels[texel & 255U], result_.levels[texel >> 8 & 255U], result_.levels[texel >> 16 & 255U]};
+    }
+
+    /// Index of the descriptor. `whitened`: with alpha alone.
+    std::uint32_t add(const TextureReference& reference, ColourSpace space, bool whitened) {
+        const auto [known, is_new] =
+            descriptor_of_.try_emplace({reference.texture, space}, static_cast<std::uint32_t>(result_.textures.size()));
+        if (is_new) {
+            const Texture& texture = scene_.textures[reference.texture];
+            const Image& image = image_of(reference);
+            const bool one = facts_of(image).has_one_rgba;
+            result_.textures.push_back({first_texel_of(texture.image, whitened), one ? 1 : image.width,
+                                        one ? 1 : image.height, texture.wrap_s, texture.wrap_t, texture.filter, space});
+        }
+        return known->second;
+    }
+
+    std::uint32_t first_texel_of(std::uint32_t index, bool whitened) {
+        const auto [known, is_new] =
+            first_texel_of_.try_emplace({index, whitened}, static_cast<std::uint32_t>(result_.texels.size()));
+        if (is_new) {
+            const Image& image = scene_.images[index];
+            const std::size_t count = facts_of(image).has_one_rgba ? 1 : image.texels.size();
+            if (count > most_texels - result_.texels.size()) {
+                throw InputError("the textures of the scene have more than 2^30 texels; make their images smaller");
+            }
+            result_.texels.insert(result_.texels.end(), image.texels.begin(),
+                                  image.texels.begin() + static_cast<std::ptrdiff_t>(count));
+            if (whitened) {
+                std::for_each(result_.texels.end() - static_cast<std::ptrdiff_t>(count), result_.texels.end(),
+                              [](std::uint32_t& texel) { texel |= rgb; });
+            }
+        }
+        return known->second;
+    }
+
+    const Scene& scene_;
+    std::vector<PhongMaterial>& phong_;
+    std::vector<Optics>& optics_;
+    std::vector<CornerSlots> slots_;                                                 ///< by material
+    std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
+    std::map<const Image*, Facts> facts_;
+    std::map<std::pair<std::uint32_t, bool>, std::uint32_t> first_texel_of_;  ///< by image, and whether whitened
+    PreparedTextures result_;
+};
+
+}  // namespace
+
+TextureSet view(const PreparedTextures& textures) {
+    if (textures.materials.empty()) return {nullptr, nullptr, nullptr, nullptr};
+    return {textures.texels.data(), textures.textures.data(), textures.materials.data(), textures.levels.data()};
+}
+
+bool has_texture(const PreparedTextures& textures, std::size_t material) {
+    if (textures.materials.empty()) return false;
+    return has_picture(textures.materials[material]);
+}
+
+bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
+    if (use.texture == no_texture) return false;
+    const TextureDescriptor& of = textures.textures[use.texture];
+    const auto first = textures.texels.begin() + of.first_texel;
+    return !std::all_of(first, first + std::int64_t{of.width} * of.height,
+                        [](std::uint32_t t) { return (t & rgb) == rgb; });
+}
+
+PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics) {
+    return Preparer(scene, phong, optics).run();
+}
+
+}  // namespace tandem

@@ -1,0 +1,22 @@
+/// The mirror direction.
+#pragma once
+
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+/// `direction` mirrored by the plane with normal `normal`: d - 2 (d . n) n, again a unit vector.
+///
+/// Needs: both unit vectors to within rounding, of either orientation.
+/// Gives: length 1 within 4 units of the last place of double, however many reflections came before: an error in the
+///        length of either input is not passed on, because the result is normalised.
+/// Held by tests/kernel/bsdf/reflect_test.cpp and group F of the corpus (tests/hard).
+template <class D>
+TANDEM_HD Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {
+    const D along = dot(direction, normal);
+    const D twice = along + along;
+    return normalize(
+        Vec3<D>{direction.x - twice * normal.x, direction.y - twice * normal.y, direction.z - twice * normal.z});
+}
+
+}  // namespace tandem

@@ -1,0 +1,82 @@
+/// What a surface shows where a ray meets it: texture coordinates and colours between the corners of faces.
+#pragma once
+
+#include "tandem/kernel/shapes/parametrisation.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+/// Where the picture of primitive `id` is seen, as parametrisation(). Of a face: at its corners' values in `slot`.
+template <std::uint32_t kinds, class Real>
+TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, std::uint32_t slot,
+                                                        Ray<Real> ray, Double<Real> t, Mask<Real> here,
+                                                        Mask<Real> exits) {
+    Parametrisation<Real> at{};
+    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+        using Body = std::decay_t<decltype(body)>;
+        const std::uint32_t first = slot * corner_count<Body>;
+        at = parametrisation(body, scene.texcoords + first, ray, t, here, exits);
+    });
+    return at;
+}
+
+/// The values of one primitive's slots where a ray meets it at `t`, in the lanes of `here`. Keeps the last: most
+/// materials ask for one slot several times.
+template <std::uint32_t kinds, class Real>
+class CornerValues {
+  public:
+    TANDEM_HD CornerValues(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
+                           const Mask<Real>& here, const Mask<Real>& exits)
+        : scene_(scene), id_(id), ray_(ray), t_(t), here_(here), exits_(exits) {}
+
+    [[nodiscard]] TANDEM_HD const Parametrisation<Real>& in(std::uint32_t slot) {
+        if (slot != slot_) {
+            at_ = parametrisation_of<kinds>(scene_, id_, slot, ray_, t_, here_, exits_);
+            slot_ = slot;
+        }
+        return at_;
+    }
+
+    /// A texture of the material.
+    [[nodiscard]] TANDEM_HD Rgba<Real> texture(const TextureUse& use) {
+        const Parametrisation<Real>& at = in(use.slot);
+        return sample<Real>(scene_.textures, use, at.u, at.v);
+    }
+
+    /// Red, green, blue and alpha between the colours of a face's corners (MaterialTextures::colour_slot).
+    [[nodiscard]] TANDEM_HD Rgba<Real> colour(std::uint32_t slot) {
+        // the weights of the corners may miss their sum, 1, by rounding
+        const auto share = [](const Double<Real>& a) TANDEM_INLINE_LAMBDA {
+            return to_real<Real>(parametrisation_detail::clamp_to_one<Real>(a));
+        };
+        const Real r = share(in(slot).u);
+        const Real g = share(in(slot).v);
+        return {r, g, share(in(slot + 1).u), share(in(slot + 1).v)};
+    }
+
+  private:
+    const SceneView& scene_;
+    std::uint32_t id_;
+    const Ray<Real>& ray_;
+    const Double<Real>& t_;
+    const Mask<Real>& here_;
+    const Mask<Real>& exits_;
+    std::uint32_t slot_ = no_slot;
+    Parametrisation<Real> at_{};
+};
+
+/// The base colour and alpha that a material's pictures say: its texture times the colours of a face's corners. White
+/// without any. glTF 2.0, 3.9.2.
+template <std::uint32_t kinds, class Real>
+TANDEM_HD Rgba<Real> base_colour(const MaterialTextures& textures, bool on_face, CornerValues<kinds, Real>& values) {
+    const Real one(1.0F);
+    Rgba<Real> colour = {one, one, one, one};
+    if (textures.diffuse.texture != no_texture) colour = values.texture(textures.diffuse);
+    if (on_face && textures.colour_slot != no_slot) {
+        const Rgba<Real> corners = values.colour(textures.colour_slot);
+        colour = {colour.r * corners.r, colour.g * corners.g, colour.b * corners.b, times_alpha(colour.a, corners.a)};
+    }
+    return colour;
+}
+
+}  // namespace tandem

@@ -1,0 +1,177 @@
+/// Light from surfaces that glow, and from the background, to matt surfaces.
+#pragma once
+
+#include "tandem/kernel/incident_light.h"
+#include "tandem/kernel/light_picture.h"
+#include "tandem/kernel/lights/quad_light.h"
+#include "tandem/kernel/lights/sphere_light.h"
+#include "tandem/kernel/sampler/dimensions.h"
+#include "tandem/kernel/sampler/mis.h"
+#include "tandem/kernel/surface.h"
+
+namespace tandem {
+
+namespace glow_detail {
+
+/// Can light be drawn from such a body, or is it found by paths alone?
+template <class Body>
+inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
+
+template <class Real>
+TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_sphere_light<Real>(point, broadcast<D>(sphere.centre), D(sphere.radius));
+}
+template <class Real>
+TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
+}
+/// Can the halves of a quad be seen before each other? Not those of one that is flat, but for the rounding of its
+/// corners, and whose diagonal lies within it.
+template <class Real>
+TANDEM_HD bool overlaps(const Quad& quad) {
+    using S = Scalar<Double<Real>>;
+    const Vec3<S> to1 = Vec3<S>(quad.v1) - Vec3<S>(quad.v0);
+    const Vec3<S> to2 = Vec3<S>(quad.v2) - Vec3<S>(quad.v0);
+    const Vec3<S> to3 = Vec3<S>(quad.v3) - Vec3<S>(quad.v0);
+    const Vec3<S> normal = cross(to1, to2);
+    const bool is_flat = absolute(dot(to3, normal)) <= S(0x1p-20) * (norm1(to3) * norm1(normal));
+    return !is_flat || !(dot(normal, cross(to2, to3)) > S(0));
+}
+template <class Real>
+TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
+                                 broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
+}
+
+/// Where light leaves in `direction`, unit, towards what it lights: a sphere shines from its outside, a face from its
+/// front, or from both sides if it is double-sided. The halves of a quad know it themselves.
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
+    using D = Double<Real>;
+    const Vec3<D> offset = point - broadcast<D>(sphere.centre);
+    return dot(offset, offset) > D(sphere.radius) * D(sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Triangle& face, const Vec3<Double<Real>>&, const Vec3<Double<Real>>& direction) {
+    if (is_double_sided(face.attributes)) return Mask<Real>(true);
+    return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
+}
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<Double<Real>>&) {
+    return Mask<Real>(true);
+}
+
+}  // namespace glow_detail
+
+/// The density, per solid angle, with which area_light() would have chosen `direction` from `point` for the light
+/// `primitive` that is met there: 0 for what is no light.
+template <class Real>
+TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
+                                           const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
+                                           const Mask<Real>& active) {
+    using D = Double<Real>;
+    D result(0.0);
+    for_each_value(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
+        if (!(chance > 0.0)) return;
+        visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (glow_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
+                const D pdf = pdf_of(glow_detail::view_light<Real>(body, point), direction);
+                result = select(here, pdf * constant<D>(chance), result);
+            }
+        });
+    });
+    return result;
+}
+
+/// What a surface reflects of one of the lights with an area, chosen by chance, in the lanes of `found`: unbiased
+/// together with what a path finds by itself, in the lanes of `goes_on`, in a scene with indirect light. Source: E.
+/// Veach, L. Guibas, 1995 (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
+template <class Effects, class Real>
+TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
+                                              const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
+                                              const SampleId<Real>& sample, const UInt<Real>& vertex,
+                                              const Mask<Real>& goes_on, const Mask<Real>& found) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const D zero(0.0);
+    const Real nothing(0.0F);
+    const auto random = sample.block_at_vertex(Dimension::area_light, vertex);
+    const D u = widen(to_unit_interval<Real>(random.word[1]));
+    const D v = widen(to_unit_interval<Real>(random.word[2]));
+    Word light(0U);
+    for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
+        const std::uint64_t number = std::uint64_t{lane(random.word[0], i)} << 32 | lane(random.word[3], i);
+        set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, number));
+    }
+    const Vec3<D> position = widen(point.position);
+    LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
+    Vec3<Real> radiance = {nothing, nothing, nothing};
+    Word primitive(no_primitive);
+    for_each_value(light, found, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const AreaLight& chosen = scene.area_lights[index];
+        const std::uint32_t material = scene.material_of[chosen.primitive];
+        LightSample<Real> of_light = drawn;
+        Vec3<Real> emitted = broadcast<Real>(scene.optics[material].emission);
+        Mask<Real> lights = here && point.primitive != Word(chosen.primitive);
+        visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (glow_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
+                of_light = sample_light(glow_detail::view_light<Real>(body, position), u, v);
+                lights = lights && glow_detail::shines<Real>(body, position, of_light.direction);
+                if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
+                const MaterialTextures& textures = scene.textures.materials[material];
+                if (textures.emission.texture == no_texture) return;
+                emitted = emitted * light_picture<Real>(scene, textures, body, of_light);
+            }
+        });
+        const D pdf = select(lights, of_light.pdf * constant<D>(chosen.chance), zero);
+        drawn.direction = select(here, of_light.direction, drawn.direction);
+        drawn.point = select(here, of_light.point, drawn.point);
+        drawn.pdf = select(here, pdf, drawn.pdf);
+        radiance = select(here, emitted, radiance);
+        primitive = select(here, Word(chosen.primitive), primitive);
+    });
+    IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
+    result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
+    const Mask<Real> seen = found && drawn.pdf > zero;
+    if (!any(seen)) return result;
+    const D pdf = select(seen, drawn.pdf, D(1.0));
+    Real share(1.0F);  // of the matt part: the rest is what paths find that go on
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        const D other = cosine_hemisphere_pdf(dot(drawn.direction, surface.normal));
+        share = select(goes_on, to_real<Real>(power_heuristic(pdf, other)), share);
+    }
+    const Real scale = to_real<Real>(constant<D>(inverse_pi) / pdf);
+    const auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
+                                   surface.normal, drawn.direction, to_viewer);
+    result.reflected = select(seen, value, result.reflected);
+    if (scene.area_lights_cast_shadows != 0) keep_in_front(surface, point, drawn.direction, result);
+    return result;
+}
+
+/// What a matt surface reflects of the background, by one direction about its normal, whichever side is seen: so the
+/// walls of a closed body are not black from inside. For scenes without indirect light; with it, the path that goes on
+/// brings it.
+template <class Real>
+TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
+                                                     const SampleId<Real>& sample, const UInt<Real>& vertex) {
+    const auto random = sample.block_at_vertex(Dimension::environment, vertex);
+    const auto drawn = sample_cosine_hemisphere<Real>(surface.normal, widen(to_unit_interval<Real>(random.word[0])),
+                                                      widen(to_unit_interval<Real>(random.word[1])));
+    IncidentLight<Real> result;
+    result.to = to_real<Real>(drawn.direction);
+    // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
+    result.reflected = surface.diffuse * background(scene.environment, result.to);
+    result.is_far = Mask<Real>(true);
+    result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
+    return result;
+}
+
+}  // namespace tandem

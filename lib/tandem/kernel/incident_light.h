@@ -1,0 +1,39 @@
+/// One light as a vertex of a path receives it.
+#pragma once
+
+#include "tandem/kernel/surface.h"
+
+namespace tandem {
+
+template <class Real>
+struct IncidentLight {
+    Vec3<Real> reflected;  ///< radiance that the surface makes of it, if nothing stops it; 0 where it brings none
+    Vec3<Real> to;         ///< where it comes from: a point or, if it is far, a direction
+    UInt<Real> primitive = UInt<Real>(no_primitive);  ///< the light's own
+    Mask<Real> is_far = Mask<Real>(false);            ///< infinitely
+    Mask<Real> casts_shadows = Mask<Real>(true);
+
+    /// `a` in the lanes of `mask`, else `b`.
+    TANDEM_HD friend IncidentLight select(const Mask<Real>& mask, const IncidentLight& a, const IncidentLight& b) {
+        return {select(mask, a.reflected, b.reflected), select(mask, a.to, b.to),
+                select(mask, a.primitive, b.primitive), select(mask, a.is_far, b.is_far),
+                select(mask, a.casts_shadows, b.casts_shadows)};
+    }
+};
+
+/// Removes the light where it is behind the surface: behind the normal for shading, or on the other side of the surface
+/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not ask for
+/// L . N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it.
+/// For lights that cast shadows. `to_light`: the direction that the light was shaded with.
+template <class Real>
+TANDEM_HD void keep_in_front(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Vec3<Double<Real>>& to_light, IncidentLight<Real>& light) {
+    const Double<Real> zero(0.0);
+    const Double<Real> height = dot(to_light, point.normal);
+    const Mask<Real> across = !(select(point.from_inside, -height, height) > zero);
+    const Mask<Real> behind = across || !(dot(to_light, surface.normal) > zero);
+    const Real none(0.0F);
+    light.reflected = select(behind, Vec3<Real>{none, none, none}, light.reflected);
+}
+
+}  // namespace tandem

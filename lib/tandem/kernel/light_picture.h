@@ -1,0 +1,69 @@
+/// The texture coordinates of a light's surface at a point that was drawn on it.
+#pragma once
+
+#include "tandem/kernel/corner_values.h"
+#include "tandem/kernel/lights/light_sample.h"
+
+namespace tandem {
+
+template <class Real>
+struct TexturePoint {
+    Double<Real> u, v;
+};
+
+namespace light_picture_detail {
+
+/// At the point of the plane of (v0, v1, v2) that is nearest to `point`; `a`, `b`, `c` are the corners' coordinates.
+/// Needs no ray: a light is sampled by points. The weights err by the rounding of `point` over the triangle's height.
+template <class Real>
+TANDEM_HD TexturePoint<Real> on_triangle(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec2f& a,
+                                         const Vec2f& b, const Vec2f& c, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    const Vec3<D> origin = broadcast<D>(v0);
+    const Vec3<D> edge1 = broadcast<D>(v1) - origin;
+    const Vec3<D> edge2 = broadcast<D>(v2) - origin;
+    const Vec3<D> to_point = point - origin;
+    const Vec3<D> normal = cross(edge1, edge2);
+    const D area2 = dot(normal, normal);
+    const D at1 = dot(cross(to_point, edge2), normal) / area2;
+    const D at2 = dot(cross(edge1, to_point), normal) / area2;
+    const D rest = (D(1.0) - at1) - at2;
+    return {(D(a.x) * rest + D(b.x) * at1) + D(c.x) * at2, (D(a.y) * rest + D(b.y) * at1) + D(c.y) * at2};
+}
+
+}  // namespace light_picture_detail
+
+// `texcoords`: the values of the slot, as for parametrisation(). The point is on the surface but for rounding.
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Sphere& sphere, const Vec2f*, const LightSample<Real>& drawn) {
+    const auto at = parametrisation_detail::on_globe<Real>(drawn.point - broadcast<Double<Real>>(sphere.centre));
+    return {at.u, at.v};
+}
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Triangle& face, const Vec2f* texcoords,
+                                           const LightSample<Real>& drawn) {
+    const auto corner = parametrisation_detail::corners_of(face, texcoords);
+    return light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1], corner.uv[2],
+                                                   drawn.point);
+}
+template <class Real>
+TANDEM_HD TexturePoint<Real> texture_point(const Quad& face, const Vec2f* texcoords, const LightSample<Real>& drawn) {
+    const auto corner = parametrisation_detail::corners_of(face, texcoords);
+    const auto a = light_picture_detail::on_triangle<Real>(face.v0, face.v1, face.v2, corner.uv[0], corner.uv[1],
+                                                           corner.uv[2], drawn.point);
+    const auto b = light_picture_detail::on_triangle<Real>(face.v0, face.v2, face.v3, corner.uv[0], corner.uv[2],
+                                                           corner.uv[3], drawn.point);
+    return {select(drawn.in_second_half, b.u, a.u), select(drawn.in_second_half, b.v, a.v)};
+}
+
+/// What multiplies the emission of `body`, a sphere or a face, at the point that was drawn.
+template <class Real, class Body>
+TANDEM_HD Vec3<Real> light_picture(const SceneView& scene, const MaterialTextures& textures, const Body& body,
+                                   const LightSample<Real>& drawn) {
+    const TextureUse& use = textures.emission;
+    const TexturePoint<Real> at = texture_point<Real>(body, scene.texcoords + use.slot * corner_count<Body>, drawn);
+    const Rgba<Real> texel = sample<Real>(scene.textures, use, at.u, at.v);
+    return {texel.r, texel.g, texel.b};
+}
+
+}  // namespace tandem

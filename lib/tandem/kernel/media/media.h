@@ -1,0 +1,124 @@
+/// The media that a path goes through: which, and what happens to light there and at their borders. A medium goes by
+/// the number of the material whose body it fills; no_medium is what lies outside of all bodies.
+#pragma once
+
+#include "tandem/effects/effects.h"
+#include "tandem/kernel/media/medium_stack.h"
+#include "tandem/kernel/view/scene_view.h"
+#include "tandem/math/exact_math.h"
+#include "tandem/math/fast_math.h"
+
+namespace tandem {
+
+template <class Real>
+TANDEM_HD Double<Real> refractive_index(const SceneView& scene, const UInt<Real>& medium, const Mask<Real>& active) {
+    using D = Double<Real>;
+    D result(1.0);
+    for_each_value(medium, active && medium != UInt<Real>(no_medium),
+                   [&](std::uint32_t material, const Mask<Real>& here)
+                       TANDEM_INLINE_LAMBDA { result = select(here, D(scene.optics[material].ior), result); });
+    return result;
+}
+
+/// exp(-depth). A call: three of them take the registers and the code of one.
+template <class Real>
+TANDEM_HD_CALL Real attenuation(Double<Real> depth) {
+    return to_real<Real>(exponential<Real>(-depth));
+}
+
+/// What is left of light over `distance` metres in a medium: exp(-absorption distance). Source: A. Beer, 1852. Held by
+/// tests/agree/closed_forms_test.cpp, within 1e-7.
+template <class Real>
+TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& medium, const Double<Real>& distance,
+                                   const Mask<Real>& active) {
+    using D = Double<Real>;
+    const Real one(1.0F);
+    Vec3<Real> result = {one, one, one};
+    for_each_value(medium, active && medium != UInt<Real>(no_medium),
+                   [&](std::uint32_t material, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+                       const Vec3f& absorption = scene.optics[material].absorption;
+                       const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
+                           if (!(a > 0.0F)) return before;  // also over an infinite distance
+                           return select(here, attenuation<Real>(D(a) * distance), before);
+                       };
+                       result = {channel(absorption.x, result.x), channel(absorption.y, result.y),
+                                 channel(absorption.z, result.z)};
+                   });
+    return result;
+}
+
+/// In the place of a stack where bodies of glass lie apart: a ray within one meets nothing but that body's own surface.
+template <class Real>
+struct NoMediumStack {
+    TANDEM_HD std::tuple<> per_lane() { return {}; }
+    TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
+};
+
+/// May media lie within each other? Then a path follows them by its stack.
+template <class Effects>
+TANDEM_HD bool has_stack(const SceneView& scene) {
+    return Effects::has(Effect::nested_media) && scene.media_overlap != 0;
+}
+
+/// The media that a camera ray starts in.
+template <class Effects, class Real>
+TANDEM_HD NoMediumStack<Real> media_at_camera(const SceneView&, const NoMediumStack<Real>&) {
+    return {};
+}
+template <class Effects, class Real>
+TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const MediumStack<Real>&) {
+    MediumStack<Real> stack;
+    if (!has_stack<Effects>(scene)) return stack;
+    for (std::uint32_t i = 0; i < scene.camera_media.count; ++i) {
+        const std::uint32_t material = scene.camera_media.material[i];
+        (void)stack.enter(UInt<Real>(material), UInt<Real>(scene.optics[material].priority), Mask<Real>(true));
+    }
+    return stack;
+}
+
+/// The medium that a path is in. `own`: the one if bodies lie apart.
+template <class Effects, class Real>
+TANDEM_HD UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
+    return own;
+}
+template <class Effects, class Real>
+TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Real>& stack, const UInt<Real>& own) {
+    return has_stack<Effects>(scene) ? stack.current() : own;
+}
+
+/// The media on both sides of a border.
+template <class Real>
+struct Border {
+    UInt<Real> before, behind;
+    Mask<Real> lost = Mask<Real>(false);  ///< no room in the stack, or a medium was left that was not entered
+};
+
+// The border of the body of `material`, met from inside or from outside in the lanes of `active`. `stack` becomes what
+// it is behind the border.
+template <class Effects, class Real>
+TANDEM_HD Border<Real> cross_border(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
+                                    const Mask<Real>& from_inside, const Mask<Real>&) {
+    const UInt<Real> none(no_medium);
+    return {select(from_inside, material, none), select(from_inside, none, material)};
+}
+template <class Effects, class Real>
+TANDEM_HD Border<Real> cross_border(const SceneView& scene, MediumStack<Real>& stack, const UInt<Real>& material,
+                                    const Mask<Real>& from_inside, const Mask<Real>& active) {
+    using Word = UInt<Real>;
+    if (!has_stack<Effects>(scene)) {
+        NoMediumStack<Real> none;
+        return cross_border<Effects>(scene, none, material, from_inside, active);
+    }
+    Border<Real> border;
+    border.before = stack.current();
+    Word priority(0U);
+    for_each_value(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        priority = select(here, Word(scene.optics[value].priority), priority);
+    });
+    const Mask<Real> no_room = stack.enter(material, priority, active && !from_inside);
+    border.lost = no_room || stack.leave(material, active && from_inside);
+    border.behind = stack.current();
+    return border;
+}
+
+}  // namespace tandem

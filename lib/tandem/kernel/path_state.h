@@ -1,0 +1,99 @@
+/// What a path carries from vertex to vertex: no more than its effects need.
+#pragma once
+
+#include <tuple>
+
+#include "tandem/kernel/media/media.h"
+#include "tandem/kernel/path_limits.h"
+#include "tandem/kernel/sampler/dimensions.h"
+#include "tandem/kernel/shapes/ray_source.h"
+
+namespace tandem {
+
+/// Of a path that ends at its first vertex.
+template <class Effects, class Real, bool bounces = can_bounce<Effects>()>
+struct PathState {
+    Ray<Real> ray;
+    Mask<Real> alive;
+
+    TANDEM_HD void begin(const SceneView&, const Ray<Real>& camera_ray, const Mask<Real>& active) {
+        ray = camera_ray;
+        alive = active;
+    }
+};
+
+/// Of a path that goes on.
+template <class Effects, class Real>
+struct PathState<Effects, Real, true> {
+    using Media = std::conditional_t<Effects::most.has(Effect::nested_media), MediumStack<Real>, NoMediumStack<Real>>;
+
+    Ray<Real> ray{};
+    Mask<Real> alive;
+    PathSource<Real> source{};
+    Vec3<Real> throughput = {Real(1.0F), Real(1.0F), Real(1.0F)};
+    UInt<Real> reflections = UInt<Real>(0U);
+    UInt<Real> refractions = UInt<Real>(0U);
+    UInt<Real> scatterings = UInt<Real>(0U);  ///< by matt surfaces
+    UInt<Real> holes = UInt<Real>(0U);
+    Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a matt surface chose it; else 0
+    Vec3<Real> drawn_at{};                 ///< the point for which it did; `ray` may start a little above it
+    Media media;
+
+    /// Of no path yet.
+    TANDEM_HD PathState() : alive(false) {}
+
+    /// Begins anew with a camera ray, in the lanes of `active`.
+    TANDEM_HD void begin(const SceneView& scene, const Ray<Real>& camera_ray, const Mask<Real>& active) {
+        using Word = UInt<Real>;
+        const Word none(0U);
+        const Real one(1.0F);
+        ray.origin = select(active, camera_ray.origin, ray.origin);
+        ray.direction = select(active, camera_ray.direction, ray.direction);
+        alive = alive || active;
+        source.primitive = select(active, Word(no_primitive), source.primitive);
+        source.inside = source.inside && !active;
+        forget_holes(scene, active);
+        throughput = select(active, Vec3<Real>{one, one, one}, throughput);
+        reflections = select(active, none, reflections);
+        refractions = select(active, none, refractions);
+        scatterings = select(active, none, scatterings);
+        holes = select(active, none, holes);
+        pdf = select(active, Double<Real>(0.0), pdf);
+        media = select(active, media_at_camera<Effects>(scene, Media()), media);
+    }
+
+    /// Of a new ray, in the lanes of `active`.
+    TANDEM_HD void forget_holes(const SceneView& scene, const Mask<Real>& active) {
+        if (!Effects::has(Effect::cutouts) || (!is_linked && scene.cutout_kinds == 0)) return;
+        source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
+        source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
+    }
+
+    /// References to all that has a value per lane, but for what only some scenes need.
+    TANDEM_HD auto per_lane() {
+        auto& [origin, direction] = ray;
+        return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
+                                       source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
+                                       reflections, refractions, scatterings, holes, pdf),
+                              media.per_lane());
+    }
+    /// Those of scenes with cutouts, and of scenes whose paths and lights with an area share light.
+    TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
+    TANDEM_HD auto per_lane_of_lights() { return std::tie(drawn_at.x, drawn_at.y, drawn_at.z); }
+
+    /// Over the segment of `ray` from the last hole to t, in the lanes of `active`. `own`: the medium that the path is
+    /// in if bodies lie apart.
+    TANDEM_HD void absorb(const SceneView& scene, const Double<Real>& t, const UInt<Real>& own,
+                          const Mask<Real>& active) {
+        using D = Double<Real>;
+        if (!Effects::has(Effect::absorption)) return;
+        const UInt<Real> medium = current_medium<Effects>(scene, media, own);
+        if (!any(active && medium != UInt<Real>(no_medium))) return;
+        const Vec3<D> direction = widen(ray.direction);
+        const D passed = Effects::has(Effect::cutouts) ? t - source.passed.t : t;
+        const D distance = passed * square_root(dot(direction, direction));
+        throughput = throughput * transmittance<Real>(scene, medium, distance, active);
+    }
+};
+
+}  // namespace tandem

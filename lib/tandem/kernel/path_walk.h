@@ -1,0 +1,82 @@
+/// Paths that go on from vertex to vertex, and the samples of pixels one after the other.
+#pragma once
+
+#include <tuple>
+
+#include "tandem/kernel/pixel.h"
+
+namespace tandem {
+
+/// A path in each lane, one vertex at a time. Has no pixel at first; when the last sample of its pixel has ended it has
+/// none again. A lane, or a thread, goes on with its next sample as soon as a path ends, and waits for the others at
+/// each vertex, not at each sample (docs/performance.md). Its owner adds up what the paths bring.
+template <class Effects, class Real>
+class PathWalk {
+  public:
+    /// Takes pixel (x, y), in the lanes of `active`.
+    TANDEM_HD void take(const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
+        x_ = select(active, x, x_);
+        y_ = select(active, y, y_);
+        sample_ = select(active, UInt<Real>(job.first_sample), sample_);
+        working_ = working_ || active;
+    }
+
+    /// Which have a pixel, with samples left?
+    [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
+    [[nodiscard]] TANDEM_HD UInt<Real> pixel(const PixelJob& job) const { return y_ * UInt<Real>(job.width) + x_; }
+    /// Which have left a surface, so that their rays do not come from the camera?
+    [[nodiscard]] TANDEM_HD Mask<Real> gone_on() const { return path_.alive && vertex_ > UInt<Real>(0U); }
+    /// What the path has brought, RGB, linear: all there is when leave() says that it has ended.
+    [[nodiscard]] TANDEM_HD const Vec3<Real>& radiance() const { return radiance_; }
+
+    /// The first half of a step: what each path meets next. Where one has ended the next sample's begins.
+    template <class Tracer>
+    TANDEM_HD Closest<Real> find(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                                 PathTally<Real>& tally) {
+        const Mask<Real> begins = working_ && !path_.alive;
+        if (any(begins)) begin(scene, job, begins);
+        return next_hit<Effects, Real>(tracer, path_, tally);
+    }
+
+    /// The second half: on from the vertex at `hit`. Returns which paths have ended.
+    template <class Tracer>
+    TANDEM_HD Mask<Real> leave(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                               const Closest<Real>& hit, PathTally<Real>& tally) {
+        using Word = UInt<Real>;
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id(job), vertex_, hit, path_, radiance_, tally);
+        vertex_ = vertex_ + Word(1U);
+        const Mask<Real> ended = working_ && !path_.alive;
+        sample_ = sample_ + select(ended, Word(1U), Word(0U));
+        working_ = working_ && sample_ < Word(job.first_sample + job.samples);
+        return ended;
+    }
+
+    /// References to all that has a value per lane, but for what only some scenes need.
+    TANDEM_HD auto per_lane() {
+        auto& [r, g, b] = radiance_;
+        return std::tuple_cat(std::tie(x_, y_, sample_, vertex_, working_, r, g, b), path_.per_lane());
+    }
+    TANDEM_HD auto per_lane_of_holes() { return path_.per_lane_of_holes(); }
+    TANDEM_HD auto per_lane_of_lights() { return path_.per_lane_of_lights(); }
+
+  private:
+    [[nodiscard]] TANDEM_HD SampleId<Real> id(const PixelJob& job) const {
+        return {job.seed, job.frame, pixel(job), sample_};
+    }
+
+    TANDEM_HD void begin(const SceneView& scene, const PixelJob& job, const Mask<Real>& begins) {
+        const Real zero(0.0F);
+        path_.begin(scene, sample_ray<Effects, Real>(job, id(job), x_, y_), begins);
+        radiance_ = select(begins, Vec3<Real>{zero, zero, zero}, radiance_);
+        vertex_ = select(begins, UInt<Real>(0U), vertex_);
+    }
+
+    UInt<Real> x_ = UInt<Real>(0U), y_ = UInt<Real>(0U);
+    UInt<Real> sample_ = UInt<Real>(0U);
+    UInt<Real> vertex_ = UInt<Real>(0U);
+    Mask<Real> working_ = Mask<Real>(false);
+    Vec3<Real> radiance_ = {Real(0.0F), Real(0.0F), Real(0.0F)};
+    PathState<Effects, Real> path_;
+};
+
+}  // namespace tandem

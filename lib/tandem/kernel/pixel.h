@@ -1,0 +1,79 @@
+/// One pixel: its samples, added in order.
+#pragma once
+
+#include "tandem/kernel/path.h"
+#include "tandem/kernel/sampler/dimensions.h"
+
+namespace tandem {
+
+/// What a kernel needs of a RenderJob.
+struct PixelJob {
+    CameraView camera;
+    std::uint64_t seed;
+    std::uint32_t frame;
+    std::uint32_t first_sample, samples;
+    std::uint32_t width;  ///< pixels; a pixel's number is y * width + x
+    PathLimits limits;
+};
+
+template <class Real>
+TANDEM_HD Mask<Real> is_finite(const Vec3<Real>& a) {
+    const auto finite = [](const Real& x) { return absolute(x) <= Real(3.402823466e38F); };
+    return finite(a.x) && finite(a.y) && finite(a.z);
+}
+
+template <class Real>
+struct PixelSum {
+    Vec3<Wide<Real>> sum = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};  ///< over all samples, in their order
+    UInt<Real> invalid = UInt<Real>(0U);  ///< samples that were NaN or infinite: counted, not added
+    PathTally<Real> tally;
+};
+
+/// The camera ray of a sample. `Effects`: what is simulated (effects/effects.h).
+template <class Effects, class Real>
+TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, const UInt<Real>& x,
+                               const UInt<Real>& y) {
+    using D = Double<Real>;
+    const auto random = id.block(Dimension::film);
+    const Ray<Real> ray = camera_ray(job.camera, from_uint<D>(x), from_uint<D>(y),
+                                     to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    if (!Effects::has(Effect::lens) || !job.camera.has_lens) return ray;
+    const auto at = id.block(Dimension::lens);
+    return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));
+}
+
+/// Adds what a sample has brought.
+template <class Real>
+TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
+    using W = Wide<Real>;
+    using Word = UInt<Real>;
+    const W zero(0.0);
+    const Mask<Real> valid = is_finite(radiance);
+    const Vec3<W> addend = to_wide(radiance);
+    pixel.sum = pixel.sum + select(valid, addend, Vec3<W>{zero, zero, zero});
+    pixel.invalid = pixel.invalid + select(valid, Word(0U), Word(1U));
+}
+
+/// The sum over the samples of pixel (x, y), for paths that end at their first vertex: in double, in the order of the
+/// samples, by one owner; this order is what makes films equal. A Real of many lanes renders one pixel per lane, in the
+/// lanes of `active`.
+template <class Effects, class Real, class Tracer>
+TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                                      const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
+    const Real zero(0.0F);
+    SampleId<Real> id = {job.seed, job.frame, y * UInt<Real>(job.width) + x, UInt<Real>(job.first_sample)};
+    PixelSum<Real> result;
+    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+        id.sample = UInt<Real>(job.first_sample + sample);
+        PathState<Effects, Real, can_bounce<Effects>()> path;
+        path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+        Vec3<Real> radiance = {zero, zero, zero};
+        const Closest<Real> hit = next_hit<Effects, Real>(tracer, path, result.tally);
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, path, radiance,
+                         result.tally);
+        add(radiance, result);
+    }
+    return result;
+}
+
+}  // namespace tandem

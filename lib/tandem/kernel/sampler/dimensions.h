@@ -1,0 +1,56 @@
+/// Random numbers by name: every use of one has a dimension of its own, so that an effect that is off does not
+/// shift the numbers of the others.
+#pragma once
+
+#include "tandem/kernel/sampler/philox.h"
+
+namespace tandem {
+
+/// One block of four numbers each, for every vertex of a path.
+enum class Dimension : std::uint32_t {
+    film = 0,         ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
+    scatter = 1,      ///< number 0: how a path goes on; 1: reflected or refracted; 2: Russian roulette
+    lens = 2,         ///< numbers 0 and 1: point of the lens. Of the path, at vertex 0.
+    area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: where on it
+    hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a matt surface
+    environment = 5,  ///< numbers 0 and 1: direction to the background
+    light = 6,        ///< all four: which of the lights has a shadow ray (light_choice.h)
+};
+
+namespace sampler_detail {
+
+template <class Word>
+TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
+    return philox4x32<Word>(counter, key0, key1);
+}
+
+}  // namespace sampler_detail
+
+/// One sample of one pixel, of `Real`'s lanes. Its random numbers hang on nothing else.
+template <class Real>
+struct SampleId {
+    std::uint64_t seed;
+    std::uint32_t frame;
+    UInt<Real> pixel;
+    UInt<Real> sample;
+
+    /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
+    /// (pixel, sample, dimension and vertex, frame) and the key the seed: each combination once, no state.
+    TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, const UInt<Real>& vertex = UInt<Real>(0U)) const {
+        return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
+                                      static_cast<std::uint32_t>(seed >> 32));
+    }
+    /// The same by a call, on the device: for what a path asks for at every vertex.
+    TANDEM_HD PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
+        return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
+                                                          static_cast<std::uint32_t>(seed >> 32));
+    }
+
+  private:
+    TANDEM_HD PhiloxBlock<UInt<Real>> counter(Dimension dimension, const UInt<Real>& vertex) const {
+        using Word = UInt<Real>;
+        return {{pixel, sample, (vertex << 8) | Word(static_cast<std::uint32_t>(dimension)), Word(frame)}};
+    }
+};
+
+}  // namespace tandem

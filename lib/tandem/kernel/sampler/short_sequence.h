@@ -1,0 +1,37 @@
+/// A sequence of random numbers that starts from a block of the counter-based generator: where a scene decides how many
+/// numbers are needed.
+#pragma once
+
+#include "tandem/kernel/sampler/philox.h"
+
+namespace tandem {
+
+/// Its state is 128 bits, at first four independent words, so its first three numbers are independent too. Lanes
+/// advance one by one, so that a packet's numbers are those of its rays. Source: C. Doty-Humphrey's sfc32 ("small fast
+/// chaotic"), of PractRand, 2010. Held by tests/kernel/sampler/short_sequence_test.cpp.
+template <class Real>
+class ShortSequence {
+  public:
+    using Word = UInt<Real>;
+
+    TANDEM_HD explicit ShortSequence(const PhiloxBlock<Word>& start)
+        : a_(start.word[0]), b_(start.word[1]), c_(start.word[2]), counter_(start.word[3]) {}
+
+    /// The next number, 32 uniform bits, in the lanes of `takes`; the others do not advance.
+    TANDEM_HD Word next(const Mask<Real>& takes) {
+        const Word result = (a_ + b_) + counter_;
+        const Word a = b_ ^ (b_ >> 9);
+        const Word b = c_ + (c_ << 3);
+        const Word c = ((c_ << 21) | (c_ >> 11)) + result;
+        a_ = select(takes, a, a_);
+        b_ = select(takes, b, b_);
+        c_ = select(takes, c, c_);
+        counter_ = select(takes, counter_ + Word(1U), counter_);
+        return result;
+    }
+
+  private:
+    Word a_, b_, c_, counter_;
+};
+
+}  // namespace tandem

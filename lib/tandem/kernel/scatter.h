@@ -1,0 +1,207 @@
+/// How a path goes on behind a vertex.
+#pragma once
+
+#include "tandem/kernel/bsdf/fresnel.h"
+#include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/path_state.h"
+#include "tandem/kernel/roulette.h"
+#include "tandem/kernel/sampler/warp.h"
+#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/surface.h"
+
+namespace tandem {
+
+/// How a ray meets a surface.
+template <class Real>
+struct Meeting {
+    Vec3<Double<Real>> direction;  ///< of the ray, unit
+    Vec3<Double<Real>> normal;     ///< for shading, on the ray's side
+    Vec3<Double<Real>> facing;     ///< geometric normal, on the ray's side
+    Mask<Real> from_inside;        ///< against the outward normal
+    Mask<Real> is_front;           ///< the normal for shading is on the ray's side as it is: there light is scattered
+};
+
+/// Is there more than one way on?
+template <class Effects>
+TANDEM_HD constexpr bool has_choice() {
+    return Effects::has(Effect::reflection) + Effects::has(Effect::refraction) + Effects::has(Effect::indirect) > 1;
+}
+
+template <class Real>
+TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Vec3<Double<Real>>& to_viewer) {
+    using D = Double<Real>;
+    Meeting<Real> meeting;
+    meeting.direction = -to_viewer;
+    meeting.from_inside = point.from_inside;
+    meeting.facing = select(meeting.from_inside, -point.normal, point.normal);
+    const Mask<Real> away = dot(meeting.direction, surface.normal) > D(0.0);
+    meeting.normal = select(away, -surface.normal, surface.normal);
+    meeting.is_front = !away;
+    return meeting;
+}
+
+/// Leaves of Phong's terms what a dielectric, which takes its share of the light, leaves: of the light that goes in,
+/// and of highlights, which are on the outside of bodies.
+template <class Effects, class Real>
+TANDEM_HD void take_transmitted(Surface<Real>& surface, const Meeting<Real>& meeting) {
+    if (!Effects::has(Effect::refraction)) return;
+    const Real zero(0.0F);
+    if (!any(surface.transmission > zero)) return;
+    const Real scattered = Real(1.0F) - surface.transmission;
+    surface.ambient = surface.ambient * scattered;
+    surface.diffuse = surface.diffuse * scattered;
+    const Mask<Real> within = meeting.from_inside && surface.transmission > zero;
+    surface.specular = select(within, Vec3<Real>{zero, zero, zero}, surface.specular);
+}
+
+namespace scatter_detail {
+
+template <class Real>
+TANDEM_HD Real largest(const Vec3<Real>& a) {
+    return greater(greater(a.x, a.y), a.z);
+}
+
+/// Mirrored by the normal for shading; by the geometric one where that would lead through the surface.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> mirrored(const Meeting<Real>& meeting) {
+    const Vec3<Double<Real>> direction = reflect(meeting.direction, meeting.normal);
+    const Mask<Real> through = !(dot(direction, meeting.facing) > Double<Real>(0.0));
+    if (!any(through)) return direction;
+    return select(through, reflect(meeting.direction, meeting.facing), direction);
+}
+
+/// As refract(), by the normal for shading; by the geometric one where that would not lead through the surface.
+template <class Real>
+TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<Real>& eta) {
+    Refraction<Real> result = refract<Real>(meeting.direction, meeting.normal, eta);
+    const Mask<Real> back = result.transmits && !(dot(result.direction, meeting.facing) < Double<Real>(0.0));
+    if (!any(back)) return result;
+    const Refraction<Real> other = refract<Real>(meeting.direction, meeting.facing, eta);
+    result.transmits = select(back, other.transmits, result.transmits);
+    result.direction = select(back, other.direction, result.direction);
+    result.cosine_in = select(back, other.cosine_in, result.cosine_in);
+    result.cosine_out = select(back, other.cosine_out, result.cosine_out);
+    return result;
+}
+
+}  // namespace scatter_detail
+
+/// Sends the path on along its ray, through the hole that it has met, in the lanes of `holes`.
+template <class Effects, class Real>
+TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, PathState<Effects, Real, true>& path) {
+    using Word = UInt<Real>;
+    path.source.passed.t = select(holes, hole.t, path.source.passed.t);
+    path.source.passed.primitive = select(holes, hole.primitive, path.source.passed.primitive);
+    path.holes = path.holes + select(holes, Word(1U), Word(0U));
+    path.alive = path.alive || (holes && path.holes <= Word(most_holes));
+}
+
+/// Chooses how a path goes on, by reflection in a mirror, by what a dielectric does or, with indirect light, by
+/// scattering from a matt surface: each with a chance in proportion to its share of the light, so that a surface of one
+/// kind leaves nothing to chance but Fresnel's reflectance. Lanes that do not go on leave path.alive; those that are
+/// not there stay as they are. Returns the lanes whose media are lost (Border).
+///
+/// Radiance is followed as L / n^2, which borders leave as it is; a camera in air sees L.
+/// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
+template <class Effects, class Real>
+TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                                  const UInt<Real>& vertex, const Surface<Real>& surface,
+                                  const SurfacePoint<Real>& point, const Meeting<Real>& meeting,
+                                  PathState<Effects, Real, true>& path) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    using namespace scatter_detail;
+    const Real zero(0.0F);
+    const Word one(1U);
+    Mask<Real> lost(false);
+    const Real mirror = Effects::has(Effect::reflection) ? largest(surface.mirror) : zero;
+    const Real glass = Effects::has(Effect::refraction) ? surface.transmission : zero;
+    Real matt = zero;
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        matt = select(meeting.is_front, largest(surface.diffuse), zero);
+    }
+    path.alive = path.alive && (mirror > zero || glass > zero || matt > zero);
+    const Mask<Real> active = path.alive;
+    if (!any(active)) return lost;
+
+    PhiloxBlock<Word> random;
+    if (Effects::has(Effect::refraction) || Effects::has(Effect::indirect)) {
+        random = sample.block_at_vertex(Dimension::scatter, vertex);
+    }
+    // a surface of one kind takes it with the chance 1, to the bit
+    const Real total = (mirror + glass) + matt;
+    const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
+    const Mask<Real> takes_mirror = path.alive && mirror > zero && (place < mirror || (glass == zero && matt == zero));
+    const Mask<Real> takes_glass =
+        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || matt == zero);
+    const Mask<Real> takes_matt = path.alive && !takes_mirror && !takes_glass;
+    const Real chance = select(takes_mirror, mirror, select(takes_glass, glass, matt)) / total;
+    Mask<Real> goes_through(false);
+    Vec3<D> direction = meeting.direction;
+    if (Effects::has(Effect::refraction) && any(takes_glass)) {
+        auto media = path.media;
+        const Border<Real> border =
+            cross_border<Effects>(scene, media, surface.material, meeting.from_inside, takes_glass);
+        lost = border.lost;
+        const D eta = refractive_index<Real>(scene, border.before, takes_glass) /
+                      refractive_index<Real>(scene, border.behind, takes_glass);
+        const Refraction<Real> refraction = refracted(meeting, eta);
+        const D reflectance = fresnel_dielectric(refraction, eta);
+        goes_through = takes_glass && !(widen(to_unit_interval<Real>(random.word[1])) < reflectance);
+        path.media = select(goes_through, media, path.media);
+        direction = select(goes_through, refraction.direction, direction);
+        path.throughput = select(takes_glass, path.throughput * (glass / chance), path.throughput);
+        path.refractions = path.refractions + select(goes_through, one, Word(0U));
+    }
+    const Mask<Real> bounces_off = path.alive && !goes_through && !takes_matt;
+    if (any(bounces_off)) direction = select(bounces_off, mirrored(meeting), direction);
+    if (Effects::has(Effect::reflection) && any(takes_mirror)) {
+        const Vec3<Real> weight = {surface.mirror.x / chance, surface.mirror.y / chance, surface.mirror.z / chance};
+        path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
+    }
+    if (Effects::has(Effect::indirect)) {
+        path.pdf = select(active, D(0.0), path.pdf);
+        if (Effects::has(Effect::area_lights) && scene.area_light_count > 0) {
+            path.drawn_at = select(active, point.position, path.drawn_at);
+        }
+        if (any(takes_matt)) {
+            const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
+            const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
+                                                              widen(to_unit_interval<Real>(at.word[1])));
+            direction = select(takes_matt, drawn.direction, direction);
+            path.pdf = select(takes_matt, drawn.pdf, path.pdf);
+            // the cosine and Lambert's 1 / pi cancel with the density
+            const Vec3<Real> weight = {surface.diffuse.x / chance, surface.diffuse.y / chance,
+                                       surface.diffuse.z / chance};
+            path.throughput = select(takes_matt, path.throughput * weight, path.throughput);
+            path.scatterings = path.scatterings + select(takes_matt, one, Word(0U));
+            // where the normal for shading leads through the surface there is no light
+            const Mask<Real> below = takes_matt && !(dot(direction, meeting.facing) > D(0.0));
+            path.alive = path.alive && !below && path.scatterings <= Word(limits.diffuse);
+        }
+    }
+    path.reflections = path.reflections + select(bounces_off, one, Word(0U));
+    path.alive =
+        path.alive && path.reflections <= Word(limits.reflection) && path.refractions <= Word(limits.refraction);
+    const Mask<Real> plays = active && Word(scene.roulette_from) <= vertex;
+    if (Effects::has(Effect::roulette) && any(plays)) {
+        const Real least(0.05F);
+        const Real chance_to_live = select(plays, survival_probability(path.throughput, least), Real(1.0F));
+        path.alive = path.alive && survives<Real>(widen(chance_to_live), widen(to_unit_interval<Real>(random.word[2])));
+        path.throughput = {path.throughput.x / chance_to_live, path.throughput.y / chance_to_live,
+                           path.throughput.z / chance_to_live};
+    }
+    // The side follows from the choice: that of a direction next to the surface could be rounding's.
+    const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
+    path.ray.origin = select(active, departure(point, inside), path.ray.origin);
+    path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
+    path.source.primitive = select(active, point.primitive, path.source.primitive);
+    path.source.inside = select(active, inside, path.source.inside);
+    path.forget_holes(scene, active);
+    // a ray of the tier fast may have left the range of float
+    if (is_fast<Real>) path.alive = path.alive && is_traceable(path.ray);
+    return lost && path.alive;
+}
+
+}  // namespace tandem

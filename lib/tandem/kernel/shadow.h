@@ -1,0 +1,82 @@
+/// Shadow rays: is light stopped on its way to a point?
+#pragma once
+
+#include "tandem/kernel/incident_light.h"
+#include "tandem/kernel/surface.h"
+
+namespace tandem {
+
+/// Are rays counted one by one? Where no surface sends any there are as many as samples.
+template <class Effects>
+TANDEM_HD constexpr bool counts_rays() {
+    return Effects::has_any(counted_ray_effects);
+}
+template <class Effects, class Real>
+TANDEM_HD void count_rays(const Mask<Real>& traced, UInt<Real>& rays) {
+    if (counts_rays<Effects>()) rays = rays + select(traced, UInt<Real>(1U), UInt<Real>(0U));
+}
+
+namespace shadow_detail {
+
+template <class Real, class From, class Tracer>
+TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, Mask<Real> active) {
+    return tracer.closest(ray, source, active);
+}
+
+}  // namespace shadow_detail
+
+/// Tracer::closest(), for paths and for their shadow rays.
+///
+/// Paths that only pass through holes share one copy with their shadow rays, if the tracer tries all primitives. For
+/// other effects two copies are faster. A tracer with a hierarchy is never called: behind such a call the barrier of
+/// the block ended in "illegal instruction" on an H200 (docs/performance.md, "Barriers").
+template <class Effects, class Real, class From, class Tracer>
+TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
+                                    const Mask<Real>& active) {
+    constexpr EffectMask scattering = Effect::reflection | Effect::refraction | Effect::indirect;
+    if constexpr (!Tracer::has_hierarchy) {
+        if (Effects::has(Effect::cutouts) && !Effects::has_any(scattering)) {
+            return shadow_detail::closest_by_call<Real>(tracer, ray, source, active);
+        }
+    }
+    return tracer.closest(ray, source, active);
+}
+
+/// Tracer::occluded(), with holes where materials are cut out. `rays`: one is added for each part of the way.
+template <class Effects, class Real, class Tracer>
+TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView& scene,
+                                          const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
+                                          UInt<Real>& rays) {
+    count_rays<Effects, Real>(shadow.active, rays);
+    if (!Effects::has(Effect::cutouts) || (!is_linked && scene.cutout_kinds == 0)) {
+        return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
+    }
+    PathSource<Real> source = {shadow.source};
+    Mask<Real> open = shadow.active;
+    Mask<Real> stopped(false);
+    for (std::uint32_t holes = 0; holes < most_holes; ++holes) {
+        const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open);
+        const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
+        if (!any(met)) return stopped;
+        const Mask<Real> passes =
+            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, met);
+        stopped = stopped || (met && !passes);
+        open = met && passes;
+        if (!any(open)) return stopped;
+        count_rays<Effects, Real>(open, rays);
+        source.passed.t = select(open, hit.t, source.passed.t);
+        source.passed.primitive = select(open, hit.primitive, source.passed.primitive);
+    }
+    return stopped || open;
+}
+
+/// Is `light` stopped on its way to `point`, in the lanes of `active`? One at the very point brings nothing.
+template <class Effects, class Real, class Tracer>
+TANDEM_HD_STEP Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
+                                     const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
+    ShadowRay<Real> shadow = spawn_shadow_ray(point, light.to, light.primitive, light.is_far);
+    shadow.active = shadow.active && active;
+    return (active && !shadow.active) || is_stopped_by_opaque<Effects>(tracer, scene, light, shadow, rays);
+}
+
+}  // namespace tandem

@@ -1,0 +1,217 @@
+/// Texture coordinates on the bodies and faces, where a ray meets them. (0, 0) is the upper left of a picture and v
+/// runs down, as in glTF 2.0.
+///
+///   sphere, ellipsoid     the globe: u = 1/2 + longitude / 2 pi grows to the east, seen from outside, from +z (1/2)
+///                         towards +x (3/4); v = 0 at the pole +y, 1 at -y. At the poles u is 1/2
+///   box, parallelepiped   the whole square on each face, not mirrored, seen from outside. +x, -x, +z, -z: upright, the
+///                         top at +y. +y: its top at -z, and -y: its top at +z
+///   triangle, quad        what their corners say, linear in each triangle; else a quad has the whole square,
+///                         v0 (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1), a triangle its half with v0, v1 (1, 0), v2 (0,
+///                         1)
+///
+/// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their own space, to which the
+/// unit body's transform leads; so prepare() makes these of what is textured and turned or mirrored.
+#pragma once
+
+#include <type_traits>
+
+#include "tandem/kernel/shapes/affine.h"
+#include "tandem/kernel/shapes/quad.h"
+#include "tandem/math/turns.h"
+
+namespace tandem {
+
+/// Of a face; 0 for what has no corners.
+template <class Primitive>
+inline constexpr std::uint32_t corner_count = std::is_same_v<Primitive, Triangle> ? 3
+                                              : std::is_same_v<Primitive, Quad>   ? 4
+                                                                                  : 0;
+
+/// u and v of a point, and the directions, world space, in which they grow there, of any length. Zero, or along each
+/// other, where the texture coordinates of a face span no area.
+template <class Real>
+struct Parametrisation {
+    Double<Real> u, v;
+    Vec3<Double<Real>> dp_du, dp_dv;
+};
+
+namespace parametrisation_detail {
+
+/// `p`: from the centre to the point, of any length. Directions in the space of p; at the poles those of longitude 0.
+template <class Real>
+TANDEM_HD Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    const D half(0.5);
+    const D radius2 = p.x * p.x + p.z * p.z;
+    const Mask<Real> off_pole = radius2 > zero;
+    Parametrisation<Real> result;
+    result.u = half + atan2_turns<Real>(p.x, p.z);
+    result.v = D(2.0) * atan2_turns<Real>(square_root(radius2), p.y);
+    result.dp_du = {select(off_pole, p.z, D(1.0)), zero, -p.x};
+    result.dp_dv = {p.x * p.y, -radius2, select(off_pole, p.y * p.z, p.y)};
+    return result;
+}
+
+/// `at`: the point along each axis, 0 to 1. `face`: its outward normal, along an axis. Directions in the space of both.
+template <class Real>
+TANDEM_HD Parametrisation<Real> on_box(const Vec3<Double<Real>>& at, const Vec3<Double<Real>>& face) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    const D one(1.0);
+    const Mask<Real> on_x = face.x != zero;
+    const Mask<Real> on_y = face.y != zero;
+    const D right_of_x = select(face.x > zero, one - at.z, at.z);
+    const D right_of_z = select(face.z < zero, one - at.x, at.x);
+    Parametrisation<Real> result;
+    result.u = select(on_x, right_of_x, select(on_y, at.x, right_of_z));
+    result.v = select(on_y, select(face.y > zero, at.z, one - at.z), one - at.y);
+    result.dp_du = {select(on_y, one, face.z), zero, -face.x};
+    result.dp_dv = {zero, select(on_y, zero, -one), face.y};
+    return result;
+}
+
+template <class Real>
+TANDEM_HD Double<Real> clamp_to_one(const Double<Real>& a) {
+    return lesser(greater(a, Double<Real>(0.0)), Double<Real>(1.0));
+}
+
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<Real>& t) {
+    return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
+}
+
+/// From the directions of a body's own space.
+template <class Real>
+TANDEM_HD Parametrisation<Real> to_world(const Placement& placement, const Parametrisation<Real>& own) {
+    const Matrix3 world_from_object = inverse(placement.object_from_world);
+    return {own.u, own.v, multiply(world_from_object, own.dp_du), multiply(world_from_object, own.dp_dv)};
+}
+
+/// On the triangle (v0, v1, v2), whose corners have the texture coordinates a, b, c.
+template <class Real>
+TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3f v0, Vec3f v1, Vec3f v2, Vec2f a, Vec2f b, Vec2f c, Ray<Real> ray,
+                                                 Mask<Real> here) {
+    using D = Double<Real>;
+    using S = Scalar<D>;
+    const Barycentrics<D> at = barycentrics(v0, v1, v2, ray, here);
+    const D rest = (D(1.0) - at.u) - at.v;
+    Parametrisation<Real> result;
+    result.u = (D(a.x) * rest + D(b.x) * at.u) + D(c.x) * at.v;
+    result.v = (D(a.y) * rest + D(b.y) * at.u) + D(c.y) * at.v;
+    // The edges are e = dp_du * du + dp_dv * dv; solved for the two, but for the determinant's size.
+    const Vec3<S> e1 = Vec3<S>(v1) - Vec3<S>(v0);
+    const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
+    const S du1 = S(b.x) - S(a.x);
+    const S dv1 = S(b.y) - S(a.y);
+    const S du2 = S(c.x) - S(a.x);
+    const S dv2 = S(c.y) - S(a.y);
+    const S sign = du1 * dv2 < du2 * dv1 ? S(-1.0) : S(1.0);
+    result.dp_du = broadcast<D>((e1 * dv2 - e2 * dv1) * sign);
+    result.dp_dv = broadcast<D>((e2 * du1 - e1 * du2) * sign);
+    return result;
+}
+
+/// The values at the corners of a face; without any, those of the whole square, of which a triangle has half.
+template <int count>
+struct Corners {
+    Vec2f uv[count];
+};
+TANDEM_HD Corners<3> corners_of(const Triangle& face, const Vec2f* texcoords) {
+    const std::uint32_t first = face.attributes.texcoords;
+    if (first == no_attributes) return {{{0, 0}, {1, 0}, {0, 1}}};
+    return {{texcoords[first], texcoords[first + 1], texcoords[first + 2]}};
+}
+TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
+    const std::uint32_t first = face.attributes.texcoords;
+    if (first == no_attributes) return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    return {{texcoords[first], texcoords[first + 1], texcoords[first + 2], texcoords[first + 3]}};
+}
+
+}  // namespace parametrisation_detail
+
+// The parametrisation of each kind where `ray` meets it at `t`, in the lanes of `here`. `texcoords`: the scene's
+// (PreparedScene::texcoords), of one slot. `exits`: the ray comes from within, as in surface_point().
+//
+// Gives: u and v within 2^-21 on faces and 1e-12 on bodies, more where the ray itself moves far along the surface with
+// its last digit. In the tier fast what float gives. Held by tests/kernel/shapes/parametrisation_test.cpp.
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const Vec2f*, const Ray<Real>& ray,
+                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+    return parametrisation_detail::on_globe<Real>(sphere_offset(sphere, ray, t));
+}
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Ellipsoid& body, const Vec2f*, const Ray<Real>& ray,
+                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+    const auto own = parametrisation_detail::on_globe<Real>(parametrisation_detail::point_at(to_object(body, ray), t));
+    return parametrisation_detail::to_world(body, own);
+}
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const Vec2f*, const Ray<Real>& ray,
+                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>& exits) {
+    using D = Double<Real>;
+    const Vec3<D> direction = widen(ray.direction);
+    const auto along = [&](const D& o, const D& d, float lower, float upper) TANDEM_INLINE_LAMBDA {
+        // a flat box has no extent across, where nothing hangs on it
+        const D size = D(upper) - D(lower);
+        const D from_lower = (o - D(lower)) + t * d;
+        return parametrisation_detail::clamp_to_one<Real>(from_lower / select(size > D(0.0), size, D(1.0)));
+    };
+    const Vec3<D> origin = widen(ray.origin);
+    const Vec3<D> at = {along(origin.x, direction.x, box.lower.x, box.upper.x),
+                        along(origin.y, direction.y, box.lower.y, box.upper.y),
+                        along(origin.z, direction.z, box.lower.z, box.upper.z)};
+    return parametrisation_detail::on_box<Real>(at, face_normal<Real>(cross_box(box, ray), direction, exits));
+}
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Parallelepiped& body, const Vec2f*, const Ray<Real>& ray,
+                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>& exits) {
+    using D = Double<Real>;
+    const ObjectRay<Real> local = to_object(body, ray);
+    const Vec3<D> p = parametrisation_detail::point_at(local, t);
+    const auto along = [](const D& x) TANDEM_INLINE_LAMBDA {
+        return parametrisation_detail::clamp_to_one<Real>(D(0.5) * x + D(0.5));
+    };
+    const Vec3<D> face = face_normal<Real>(cross_parallelepiped(local), local.direction, exits);
+    const auto own = parametrisation_detail::on_box<Real>(Vec3<D>{along(p.x), along(p.y), along(p.z)}, face);
+    return parametrisation_detail::to_world(body, own);
+}
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Triangle& triangle, const Vec2f* texcoords, const Ray<Real>& ray,
+                                                const Double<Real>&, const Mask<Real>& here, const Mask<Real>&) {
+    const auto corner = parametrisation_detail::corners_of(triangle, texcoords);
+    return parametrisation_detail::on_triangle<Real>(triangle.v0, triangle.v1, triangle.v2, corner.uv[0], corner.uv[1],
+                                                     corner.uv[2], ray, here);
+}
+
+template <class Real>
+TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const Vec2f* texcoords, const Ray<Real>& ray,
+                                                const Double<Real>& t, const Mask<Real>& here, const Mask<Real>&) {
+    using D = Double<Real>;
+    const auto corner = parametrisation_detail::corners_of(quad, texcoords);
+    const auto& [a, b, c, d] = corner.uv;
+    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
+    Parametrisation<Real> result{};
+    if (any(here && first)) {
+        result = parametrisation_detail::on_triangle<Real>(quad.v0, quad.v1, quad.v2, a, b, c, ray, here && first);
+    }
+    if (any(here && !first)) {
+        const auto second =
+            parametrisation_detail::on_triangle<Real>(quad.v0, quad.v2, quad.v3, a, c, d, ray, here && !first);
+        const auto choose = [&](const D& x, const D& y) TANDEM_INLINE_LAMBDA { return select(first, x, y); };
+        result = {choose(result.u, second.u),
+                  choose(result.v, second.v),
+                  {choose(result.dp_du.x, second.dp_du.x), choose(result.dp_du.y, second.dp_du.y),
+                   choose(result.dp_du.z, second.dp_du.z)},
+                  {choose(result.dp_dv.x, second.dp_dv.x), choose(result.dp_dv.y, second.dp_dv.y),
+                   choose(result.dp_dv.z, second.dp_dv.z)}};
+    }
+    return result;
+}
+
+}  // namespace tandem

@@ -1,0 +1,64 @@
+/// The quadrilateral: two triangles with a fixed diagonal.
+#pragma once
+
+#include "tandem/kernel/shapes/triangle.h"
+
+namespace tandem {
+
+/// The triangles (v0, v1, v2) and (v0, v2, v3), flat or folded along v0 v2; neither has area zero. World space, metres.
+struct alignas(16) Quad {
+    Vec3f v0, v1, v2, v3;
+    FaceAttributes attributes{};
+    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+};
+static_assert(sizeof(Quad) == 64, "no byte of a quad is undefined; scene_hash() reads all");
+
+TANDEM_HD Aabb bounds(const Quad& quad) { return box_around(quad.v0, quad.v1, quad.v2, quad.v3); }
+
+/// May the line of the ray touch one of the two triangles? False only if it certainly does not.
+template <class Real>
+TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) {
+    return may_touch_triangle(f, quad.v0, quad.v1, quad.v2) || may_touch_triangle(f, quad.v0, quad.v2, quad.v3);
+}
+
+/// The nearer of where a line meets the two triangles, which share the diagonal, of the points whose t `counts`: as
+/// watertight there as two triangles of a mesh. Everything else as first_in_front() of a triangle. Held by
+/// tests/kernel/shapes/quad_test.cpp.
+template <class Real, class Counts>
+TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                                       const Mask<Real>& active, const Double<Real>& farthest, const Counts& counts) {
+    Double<Real> t_second(0.0);
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest) && counts(t);
+    const Mask<Real> second =
+        first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest) && counts(t_second);
+    t = select(second && !(first && t <= t_second), t_second, t);
+    return first || second;
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                                    const Mask<Real>& active = Mask<Real>(true),
+                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+    const auto all = [](const Double<Real>&) TANDEM_INLINE_LAMBDA { return Mask<Real>(true); };
+    return first_that_counts(quad, ray, t, active, farthest, all);
+}
+
+/// Which of the two triangles a ray meets at t, in the lanes of `here`, where first_in_front() gave t: the first one on
+/// the diagonal.
+template <class Real>
+TANDEM_HD Mask<Real> is_in_first_half(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
+                                      const Mask<Real>& here = Mask<Real>(true)) {
+    Double<Real> t_first(0.0);
+    return first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
+}
+
+/// Coordinates on a quad, 0 to 1 along v0 v1 and v0 v3, affine in each triangle and the same on both sides of the
+/// diagonal: v0 is (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1). On a parallelogram they are its own. `at`: barycentric
+/// coordinates in the triangle of `first_half`.
+template <class Real>
+TANDEM_HD Barycentrics<Double<Real>> quad_coordinates(const Barycentrics<Double<Real>>& at,
+                                                      const Mask<Real>& first_half) {
+    const Double<Real> sum = at.u + at.v;
+    return {select(first_half, sum, at.u), select(first_half, at.v, sum)};
+}
+
+}  // namespace tandem

@@ -1,0 +1,240 @@
+/// Rays that leave surfaces. No offset and no least t keeps such a ray from the surface that it starts on: it says
+/// which primitive that is and on which side it leaves, and each kind of primitive knows what follows. Right at every
+/// scale, however near the next surface is (docs/numerics.md).
+///
+/// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
+/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met
+/// again by a ray that leaves them. A new kind of body adds one overload of first_or_far().
+#pragma once
+
+#include "tandem/kernel/shapes/affine.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/shapes/quad.h"
+
+namespace tandem {
+
+/// What a ray leaves. A ray in space leaves no_primitive.
+template <class Real>
+struct Source {
+    UInt<Real> primitive = UInt<Real>(no_primitive);
+    Mask<Real> inside = Mask<Real>(false);  ///< it leaves inward: its direction against the outward normal is negative
+};
+using RaySource = Source<float>;
+
+/// A caller's source as the kernels of a tier take it. `Real` of one lane.
+template <class Real>
+TANDEM_HD Source<Real> to_real(const RaySource& source) {
+    return {source.primitive, source.inside};
+}
+
+/// A source for rays that leave no surface, such as camera rays: the code for sources is then not even compiled.
+struct NoSource {};
+
+/// For rays that go on through holes: what the ray leaves, and the last hole that it has passed. The ray keeps its
+/// origin, and hits count only if they come after that hole in the order of hits, by t and then by id. So what lies in
+/// the plane of a hole, at the same t, is still met.
+template <class Real>
+struct PathSource : Source<Real> {
+    Closest<Real> passed = {Double<Real>(0.0), UInt<Real>(no_primitive)};
+};
+
+/// Does a hit count for a ray that has passed holes?
+template <class Real>
+TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& passed, const Double<Real>& t, const UInt<Real>& primitive) {
+    return t > passed.t || (t == passed.t && primitive > passed.primitive);
+}
+
+/// What a shadow ray leaves, and what it runs to: hits on the light's own primitive do not count.
+template <class Real>
+struct ShadowSource : Source<Real> {
+    UInt<Real> light = UInt<Real>(no_primitive);
+};
+
+namespace source_detail {
+
+/// The far crossing of a ray that goes inward is in front of it; where rounding has put the origin behind the surface
+/// it would not be, and comes at once.
+template <class Real>
+TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
+    return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
+}
+
+template <class Real>
+TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
+    using D = Double<Real>;
+    // A line that passes the ball by, because rounding has put the origin outside: where it comes nearest.
+    const Mask<Real> by_product = roots.crosses && roots.b < D(0.0);
+    const D numerator = select(by_product, roots.c, select(roots.crosses, roots.q, roots.b));
+    const D denominator = select(by_product, roots.q, roots.a);
+    return in_front<Real>(numerator / denominator);
+}
+
+}  // namespace source_detail
+
+// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it
+// again; in the lanes of `active`. t is within 1 ulp of float of where the line through the ray enters or leaves the
+// body. The root at the origin is not formed, so that nothing has to tell the two apart.
+
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_in_front(roots, t);
+    t = select(own, source_detail::far_crossing(roots), t);
+    return hit || own;
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const BoxCrossing<Real>& crossing, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_in_front<Real>(crossing, t);
+    t = select(own, source_detail::in_front<Real>(crossing.t_far), t);
+    return hit || own;
+}
+
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(sphere_roots<Real>(sphere, ray, {active, own}), own, t);
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Mask<Real>& own, const Mask<Real>& active,
+                                  Double<Real>& t) {
+    return active && first_or_far(cross_box(box, ray), own, t);
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(ellipsoid_roots<Real>(body, ray, {active, own}), own, t);
+}
+template <class Real>
+TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                  const Mask<Real>& active, Double<Real>& t) {
+    return active && first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
+}
+
+template <class Primitive>
+inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_same_v<Primitive, Quad>;
+
+/// Which rays can meet primitive `id`, that is not certainly `behind` them? Not those that have left it outward, or a
+/// face at all.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+    const Mask<Real> own = source.primitive == UInt<Real>(id);
+    if constexpr (is_face<Primitive>) return !own && !behind;
+    return select(own, source.inside, !behind);
+}
+/// A triangle is not met again behind a hole in it.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+    const Source<Real>& surface = source;
+    const Mask<Real> meets = can_meet<Real, Primitive>(surface, id, behind);
+    if constexpr (!std::is_same_v<Primitive, Triangle>) return meets;
+    return meets && source.passed.primitive != UInt<Real>(id);
+}
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
+    return !behind;
+}
+
+/// Where is a hit on primitive `id` the far side of what the ray left inward?
+template <class Real>
+TANDEM_HD Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
+    return source.inside && source.primitive == UInt<Real>(id);
+}
+template <class Real>
+TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
+    return Mask<Real>(false);
+}
+
+/// Is a hit at `t` on primitive `id` on its far side? It is where the ray left the primitive inward, and where the ray
+/// has passed a hole of the body on its near side.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                 const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
+    Mask<Real> far = leaves_inward<Real>(source, id);
+    if constexpr (!is_face<Primitive>) {
+        const Mask<Real> passed = here && !far && source.passed.t > Double<Real>(0.0);
+        if (any(passed)) [[unlikely]] {
+            Double<Real> first(0.0);
+            far = far || (first_in_front(primitive, ray, first, passed) && passed && t > first);
+        }
+    }
+    return far;
+}
+
+/// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`. A point of a
+/// face beyond `farthest` may be left out.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
+                                const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
+    if constexpr (is_face<Primitive>) {
+        return first_in_front(primitive, ray, t, active, farthest);
+    } else {
+        return first_in_front(primitive, ray, t, active);
+    }
+}
+
+// What a ray leaves outward it does not meet again; nor does it a face, to either side, or a quad, even if it is
+// folded. That comes first: at its origin a ray is where only exact arithmetic can decide.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
+    const Mask<Real> own = source.primitive == UInt<Real>(id);
+    if constexpr (is_face<Primitive>) {
+        return first_in_front(primitive, ray, t, active && !own, farthest);
+    } else {
+        const Mask<Real> meets = active && (!own || source.inside);
+        if (!any(meets)) return meets;
+        return first_or_far(primitive, ray, own, meets, t);
+    }
+}
+
+namespace source_detail {
+
+// Where a ray crosses a body that it does not start on for the second time; 0 if it does not. A call, since this is
+// rare: a ray has to pass a hole of a body and meet the same body again.
+template <class Real, class Body>
+TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
+    Double<Real> t(0.0);
+    (void)first_or_far(body, ray, active, active, t);
+    return t;
+}
+
+}  // namespace source_detail
+
+// A ray may meet a primitive again that it met before the last hole: a body where it leaves it, a folded quad at its
+// other half.
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
+    const UInt<Real> number(id);
+    const auto counts = [&](const Double<Real>& at)
+                            TANDEM_INLINE_LAMBDA { return is_beyond<Real>(source.passed, at, number); };
+    if constexpr (std::is_same_v<Primitive, Quad>) {
+        return first_that_counts(primitive, ray, t, active && source.primitive != number, farthest, counts);
+    } else {
+        const Source<Real>& surface = source;
+        Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
+        if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
+            return hit;
+        if constexpr (std::is_same_v<Primitive, Triangle>) {
+            hit = hit && counts(t);
+        } else {
+            const Mask<Real> before = hit && source.passed.t > Double<Real>(0.0) && !counts(t);
+            if (any(before)) {
+                t = select(before, source_detail::second_crossing<Real>(primitive, ray, before), t);
+                hit = hit && (!before || counts(t));
+            }
+        }
+        return hit;
+    }
+}
+
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> first_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                Double<Real>& t) {
+    const Source<Real>& surface = source;
+    return first_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
+}
+
+}  // namespace tandem

@@ -1,0 +1,252 @@
+/// The sphere.
+#pragma once
+
+#include "tandem/kernel/shapes/crossing.h"
+#include "tandem/math/aabb.h"
+#include "tandem/math/error_free.h"
+#include "tandem/math/ray.h"
+
+namespace tandem {
+
+/// World space, metres, radius > 0. Aligned, so that a GPU reads it in one load.
+struct alignas(16) Sphere {
+    Vec3f centre;
+    float radius;
+};
+
+TANDEM_HD Aabb bounds(const Sphere& sphere) {
+    const double r = widen(sphere.radius);
+    return enclose(widen(sphere.centre), {r, r, r});
+}
+
+namespace sphere_detail {
+
+/// The coefficients of a t^2 - 2 b t + c = 0 that cancel, and the discriminant b^2 - a c, each rounded once.
+template <class D>
+struct Quadratic {
+    D discriminant;
+    D b;
+    D c;
+};
+
+/// In pairs of doubles, to 2^-100: for a line that nearly touches the sphere and an origin that nearly lies on it.
+/// The discriminant is a r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
+template <class Real>
+TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
+                                                          Vec3<Double<Real>> direction, Double<Real> radius) {
+    using D = Double<Real>;
+    using P = Pair<D>;
+    const P fx = two_sum(origin.x, -centre.x);
+    const P fy = two_sum(origin.y, -centre.y);
+    const P fz = two_sum(origin.z, -centre.z);
+    const D zero(0.0);
+    const P dx = {direction.x, zero};
+    const P dy = {direction.y, zero};
+    const P dz = {direction.z, zero};
+    const P mx = fy * dz - fz * dy;
+    const P my = fz * dx - fx * dz;
+    const P mz = fx * dy - fy * dx;
+    const P radius2 = two_product(radius, radius);
+    const P a = dx * dx + dy * dy + dz * dz;
+    const P discriminant = a * radius2 - (mx * mx + my * my + mz * mz);
+    const P b = fx * dx + fy * dy + fz * dz;
+    const P c = fx * fx + fy * fy + fz * fz - radius2;
+    return {discriminant.high, -b.high, c.high};
+}
+
+}  // namespace sphere_detail
+
+/// What decides about a line and a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are q / a and
+/// c / q, where q = b +- sqrt(b^2 - a c) takes the sign that does not cancel.
+template <class Real>
+struct SphereRoots {
+    Mask<Real> crosses;
+    Mask<Real> doubtful;  ///< double did not suffice for these lanes
+    Double<Real> a, b, c, q;
+};
+
+/// The lines that count when many are crossed with a sphere at once; no other is looked at twice.
+template <class Real>
+struct SphereLines {
+    Mask<Real> active = Mask<Real>(true);
+    /// The ray starts on the sphere, and its far crossing is asked for: c is 0 but for rounding, and decides nothing.
+    Mask<Real> inward = Mask<Real>(false);
+};
+
+/// The roots in double alone, from offset = origin - centre, and where that may not do.
+template <class Real>
+TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
+                                                   const Vec3<Double<Real>>& direction, const Double<Real>& radius,
+                                                   const SphereLines<Real>& lines) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    const Vec3<D> moment = accurate_cross(offset, direction);
+    const D offset2 = dot(offset, offset);
+    const D radius2 = radius * radius;
+    SphereRoots<Real> roots;
+    roots.a = dot(direction, direction);
+    roots.b = -dot(offset, direction);
+    roots.c = offset2 - radius2;
+    const D discriminant = roots.a * radius2 - dot(moment, moment);
+    roots.crosses = discriminant >= zero;
+    const D root = square_root(absolute(discriminant));
+    roots.q = roots.b + select(roots.b < zero, -root, root);
+
+    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q;
+    // c errs by 2^-52 of its terms. In doubt where the sign or 2^-26 of a root could be at stake.
+    const D size2 = offset2 + radius2;
+    const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
+    const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
+                                absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
+    const Mask<Real> on_surface = absolute(roots.c) <= D(0x1p-25) * size2;
+    // a ray that goes inward leaves by q / a, unless it looks past the centre from the start
+    const Mask<Real> by_quotient = lines.inward && roots.b >= zero;
+    roots.doubtful = lines.active && (touching || (on_surface && !by_quotient));
+    return roots;
+}
+
+/// Needs: direction of any length but zero, radius > 0; magnitudes within coordinate_limit.
+/// Gives: the right decision between hit and miss for float values, widened, unless the sphere is smaller than 2^-90
+///        of its distance; t within 1 ulp of float after rounding. A tangent line crosses (closed ball). NaN in any
+///        input: no crossing.
+/// Method: by Lagrange's identity b^2 - a c = a r^2 - |offset x direction|^2. The moment offset x direction comes from
+///        Kahan's differences of products, so no term cancels before the end, and no division is needed to decide;
+///        the textbook b^2 - a c loses everything when the sphere is small and far. Where double may not suffice the
+///        terms are formed again in pairs of doubles: few lines come so near to touching, and few origins so near to
+///        the surface.
+/// Source: the form with the perpendicular is E. Haines, J. Guenther, T. Akenine-Moeller, "Precision Improvements for
+///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound held
+///        by tests/kernel/shapes/sphere_test.cpp.
+template <class Real>
+requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                  const Vec3<Double<Real>>& centre,
+                                                                  const Vec3<Double<Real>>& direction,
+                                                                  const Double<Real>& radius,
+                                                                  const SphereLines<Real>& lines = {}) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius, lines);
+    if (any(roots.doubtful)) [[unlikely]] {
+        const auto exact = sphere_detail::quadratic_in_pairs<Real>(origin, centre, direction, radius);
+        const D root = square_root(absolute(exact.discriminant));
+        roots.crosses = select(roots.doubtful, exact.discriminant >= zero, roots.crosses);
+        roots.b = select(roots.doubtful, exact.b, roots.b);
+        roots.c = select(roots.doubtful, exact.c, roots.c);
+        roots.q = select(roots.doubtful, exact.b + select(exact.b < zero, -root, root), roots.q);
+    }
+    return roots;
+}
+
+/// The same in the tier fast: in float, without a second look.
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                 const Vec3<Double<Real>>& centre,
+                                                                 const Vec3<Double<Real>>& direction,
+                                                                 const Double<Real>& radius,
+                                                                 const SphereLines<Real>& = {}) {
+    const Vec3<Real> offset = origin - centre;
+    SphereRoots<Real> roots;
+    roots.doubtful = Mask<Real>(false);
+    roots.a = dot(direction, direction);
+    roots.b = -dot(offset, direction);
+    const Real to_closest = roots.b / roots.a;
+    const Vec3<Real> perpendicular = {offset.x + to_closest * direction.x, offset.y + to_closest * direction.y,
+                                      offset.z + to_closest * direction.z};
+    const Real radius2 = radius * radius;
+    roots.c = dot(offset, offset) - radius2;
+    const Real rest = radius2 - dot(perpendicular, perpendicular);
+    roots.crosses = rest >= Real(0.0F);
+    const Real root = square_root(absolute(rest) * roots.a);
+    roots.q = roots.b + select(roots.b < Real(0.0F), -root, root);
+    return roots;
+}
+
+/// Both crossings.
+template <class Real>
+TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    // q = 0 only for b = 0 and a tangent or empty line; both crossings are then at t = 0
+    const D t_small = select(roots.q == zero, zero, roots.c / roots.q);
+    const D t_large = roots.q / roots.a;
+    return {roots.crosses, lesser(t_small, t_large), greater(t_small, t_large)};
+}
+
+/// first_in_front(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
+/// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a looking past the centre (b >= 0), else
+/// c / q. An origin on the surface (c = 0) looking in leaves by q / a; looking out, c / q = 0 is no hit.
+template <class Real>
+TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>& t) {
+    using D = Double<Real>;
+    const D zero(0.0);
+    const Mask<Real> by_product = roots.c > zero || roots.b < zero;
+    t = select(by_product, roots.c, roots.q) / select(by_product, roots.q, roots.a);
+    return roots.crosses && t > zero;
+}
+
+template <class Real>
+TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray,
+                                         const SphereLines<Real>& lines = {}) {
+    using D = Double<Real>;
+    return sphere_roots<Real>(widen(ray.origin), broadcast<D>(sphere.centre), widen(ray.direction), D(sphere.radius),
+                              lines);
+}
+
+template <class Real>
+TANDEM_HD Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray) {
+    return to_crossing(sphere_roots(sphere, ray));
+}
+
+namespace sphere_detail {
+
+/// first_in_front() of the exact roots, infinite for a miss.
+template <class Real>
+TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
+    Double<Real> t;
+    const Mask<Real> hit = first_in_front(sphere_roots(sphere, ray), t);
+    return select(hit, t, Double<Real>(__builtin_huge_val()));
+}
+
+}  // namespace sphere_detail
+
+/// The nearest point of the sphere in front of the origin, in the lanes of `active`:
+/// first_in_front(sphere_roots(sphere, ray), t), with what is rare out of the way.
+template <class Real>
+requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
+                                                             Double<Real>& t,
+                                                             const Mask<Real>& active = Mask<Real>(true)) {
+    using D = Double<Real>;
+    const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
+                                                                 widen(ray.direction), D(sphere.radius), {active});
+    Mask<Real> hit = active && first_in_front(roots, t);
+    if (any(roots.doubtful)) [[unlikely]] {
+        const D exact = sphere_detail::exact_first_in_front(sphere, ray);
+        hit = select(roots.doubtful, exact < D(__builtin_huge_val()), hit);
+        t = select(roots.doubtful, exact, t);
+    }
+    return hit;
+}
+
+template <class Real>
+requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                            const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_in_front(sphere_roots(sphere, ray), t);
+}
+
+/// From the centre to the point at parameter t of the ray.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
+    using D = Double<Real>;
+    const Vec3<D> offset = widen(ray.origin) - broadcast<D>(sphere.centre);
+    const Vec3<D> direction = widen(ray.direction);
+    return {offset.x + t * direction.x, offset.y + t * direction.y, offset.z + t * direction.z};
+}
+
+/// Unit outward normal at parameter t of the ray, which is on the sphere. Double; normalising the offset from the
+/// centre re-projects the point, so the error of t does not tilt the normal.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
+    return normalize(sphere_offset(sphere, ray, t));
+}
+
+}  // namespace tandem

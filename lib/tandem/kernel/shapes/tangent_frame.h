@@ -1,0 +1,30 @@
+/// The frame of a surface that normal maps are written in.
+#pragma once
+
+#include "tandem/math/frame.h"
+
+namespace tandem {
+
+/// Unit vectors at right angles around the unit `normal`: the tangent where u grows, the bitangent where v falls, which
+/// is up in the picture. Left-handed where the picture is mirrored.
+///
+/// `dp_du`, `dp_dv`: where the coordinates grow on the surface, of any length; they need not be at right angles to the
+/// normal, nor to each other. Where dp_du says nothing, being zero or along the normal, the frame is frame_around().
+/// The tangent is dp_du without its part along the normal, as E. Lengyel does it, "Mathematics for 3D Game Programming
+/// and Computer Graphics", 7.8. Held by tests/kernel/shapes/parametrisation_test.cpp.
+template <class D>
+TANDEM_HD Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, const Vec3<D>& dp_dv) {
+    const Vec3<D> flat = dp_du - normal * dot(normal, dp_du);
+    const D length2 = dot(flat, flat);
+    const auto enough = length2 > constant<D>(0x1p-30) * dot(dp_du, dp_du);
+    const Vec3<D> along = normalize(flat);
+    const Vec3<D> any = frame_around(normal).tangent;
+    const Vec3<D> tangent = {select(enough, along.x, any.x), select(enough, along.y, any.y),
+                             select(enough, along.z, any.z)};
+    const Vec3<D> up = cross(normal, tangent);
+    const auto mirrored = dot(up, dp_dv) > D(0.0F);
+    return {
+        tangent, {select(mirrored, -up.x, up.x), select(mirrored, -up.y, up.y), select(mirrored, -up.z, up.z)}, normal};
+}
+
+}  // namespace tandem

@@ -1,0 +1,280 @@
+/// Points of surfaces, and the rays that leave from them.
+///
+/// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's
+/// along the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding
+/// still leaves it beside the surface, by up to half the distance of numbers there; that is harmless, because the ray
+/// carries what it leaves (ray_source.h). Only the neighbours of a face in a mesh are primitives of their own: a ray
+/// that leaves a face starts so far from its plane, on the ray's side, that rounding cannot put it behind. All that
+/// lies behind the plane, and so the rest of a flat or convex mesh, is then out of its way.
+#pragma once
+
+#include <type_traits>
+
+#include "tandem/kernel/shapes/ray_source.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+/// A point of a primitive's surface, world space.
+template <class Real>
+struct SurfacePoint {
+    Vec3<Real> position;
+    Vec3<Double<Real>>
+        normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
+    UInt<Real> primitive = UInt<Real>(no_primitive);
+    Double<Real> clearance = Double<Real>(0.0);  ///< for a face: from its plane to where rays leave
+    Mask<Real> from_inside = Mask<Real>(false);  ///< the ray came against the outward normal
+};
+
+namespace spawn_detail {
+
+/// Point of a ray in double.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> along(const Vec3<Double<Real>>& origin, const Vec3<Double<Real>>& direction,
+                                   const Double<Real>& t) {
+    return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
+}
+
+/// A point that is given as an offset from the centre of a placed body.
+template <class Real>
+TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray, const Double<Real>& t,
+                               const Double<Real>& scale) {
+    using D = Double<Real>;
+    const Vec3<D> centre = constant<D>(placement.centre);
+    const Vec3<D> offset = along<Real>(widen(ray.origin) - centre, widen(ray.direction), t);
+    return to_real<Real>(
+        Vec3<D>{centre.x + offset.x * scale, centre.y + offset.y * scale, centre.z + offset.z * scale});
+}
+
+}  // namespace spawn_detail
+
+// The point of a primitive at a hit. `t` is the one that the tracer found; `exits`: it is the far side of the primitive
+// that the ray left inward, so the ray comes from within, whatever rounding has done to its origin. The last one: the
+// lanes that matter.
+
+// For closed bodies `from_inside` follows from where the ray starts, so that a ray that grazes a body enters it before
+// it leaves it.
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>& exits, const Mask<Real>&) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    point.normal = sphere_normal(sphere, ray, t);
+    const Vec3<D> centre = broadcast<D>(sphere.centre);
+    const Vec3<D> start = widen(ray.origin) - centre;
+    point.from_inside = exits || dot(start, start) < D(sphere.radius) * D(sphere.radius);
+    point.position = to_real<Real>(spawn_detail::along<Real>(centre, point.normal, D(sphere.radius)));
+    return point;
+}
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>& exits, const Mask<Real>&) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    const Vec3<D> direction = widen(ray.direction);
+    const BoxCrossing<Real> crossing = cross_box(box, ray);
+    point.normal = face_normal<Real>(crossing, direction, exits);
+    point.from_inside = exits || !(crossing.t_near > D(0.0));
+    const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), direction, t));
+    const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) TANDEM_INLINE_LAMBDA {
+        const Real lo(lower);
+        const Real hi(upper);
+        const Real within = select(x < lo, lo, select(x > hi, hi, x));
+        const D zero(0.0);
+        return select(normal < zero, lo, select(normal > zero, hi, within));
+    };
+    point.position = {coordinate(near.x, box.lower.x, box.upper.x, point.normal.x),
+                      coordinate(near.y, box.lower.y, box.upper.y, point.normal.y),
+                      coordinate(near.z, box.lower.z, box.upper.z, point.normal.z)};
+    return point;
+}
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>& exits, const Mask<Real>&) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    point.normal = ellipsoid_normal(body, ray, t);
+    const ObjectRay<Real> local = to_object(body, ray);
+    point.from_inside = exits || dot(local.origin, local.origin) < D(1.0);
+    const Vec3<D> unit_point = spawn_detail::along<Real>(local.origin, local.direction, t);
+    // scaling the offset from the centre scales its image in object space alike
+    point.position = spawn_detail::at_offset(body, ray, t, inverse_square_root(dot(unit_point, unit_point)));
+    return point;
+}
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>& exits, const Mask<Real>&) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    point.normal = parallelepiped_normal(body, ray, exits);
+    const ObjectRay<Real> local = to_object(body, ray);
+    const BoxCrossing<Real> crossing = cross_parallelepiped(local);
+    point.from_inside = exits || !(crossing.t_near > D(0.0));
+    const Vec3<D> face = face_normal<Real>(crossing, local.direction, exits);
+    const Vec3<D> cube_point = spawn_detail::along<Real>(local.origin, local.direction, t);
+    point.position = spawn_detail::at_offset(body, ray, t, D(1.0) / absolute(dot(cube_point, face)));
+    return point;
+}
+
+namespace spawn_detail {
+
+/// A point of the plane through v0 with the given normal, and how far rounding may put it off that plane.
+template <class Real>
+TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real>>& normal, const Ray<Real>& ray,
+                                         const Double<Real>& t) {
+    using D = Double<Real>;
+    SurfacePoint<Real> point;
+    point.normal = normal;
+    point.from_inside = dot(widen(ray.direction), normal) > D(0.0);
+    const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
+    const D above = dot(hit - broadcast<D>(v0), normal);
+    point.position = to_real<Real>(along<Real>(hit, normal, -above));
+    // Two roundings to Real, that of the point and that of the point off the plane, at most half a unit of each
+    // coordinate; and in the tiers whose decisions are no finer than Real, the errors of the lines above.
+    using Scalar = typename RealTraits<Real>::Scalar;
+    const double unit = sizeof(Scalar) == sizeof(float) ? 0x1p-24 : 0x1p-53;
+    const double units = std::is_same_v<Real, D> ? 16 : 3;
+    const Vec3<D> reach = {absolute(hit.x) + absolute(D(v0.x)), absolute(hit.y) + absolute(D(v0.y)),
+                           absolute(hit.z) + absolute(D(v0.z))};
+    const Vec3<D> weight = {absolute(normal.x), absolute(normal.y), absolute(normal.z)};
+    point.clearance = constant<D>(units * unit) * dot(reach, weight);
+    return point;
+}
+
+}  // namespace spawn_detail
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Triangle& triangle, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>&, const Mask<Real>&) {
+    const auto normal = geometric_normal<Real>(triangle.v0, triangle.v1, triangle.v2);
+    return spawn_detail::plane_point(triangle.v0, normal, ray, t);
+}
+
+template <class Real>
+TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
+                                           const Mask<Real>&, const Mask<Real>& here) {
+    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
+    const auto a = geometric_normal<Real>(quad.v0, quad.v1, quad.v2);
+    const auto b = geometric_normal<Real>(quad.v0, quad.v2, quad.v3);
+    // both halves have the corner v0
+    return spawn_detail::plane_point(quad.v0, select(first, a, b), ray, t);
+}
+
+/// is_far_side() of primitive `id`, whatever its type.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const From& source,
+                                   const Double<Real>& t, const Mask<Real>& here) {
+    Mask<Real> far = leaves_inward<Real>(source, id);
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        if ((!is_linked && scene.cutout_kinds == 0) || !any(source.passed.t > Double<Real>(0.0))) return far;
+        visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+            // nobody has passed the near side of a body that has no holes
+            if (!may_be_cut_out(kind_of<std::decay_t<decltype(primitive)>>)) return;
+            far = is_far_side<Real>(source, primitive, id, ray, t, here);
+        });
+    }
+    return far;
+}
+
+/// The point of primitive `id` at t of a ray that comes from `source` (NoSource, Source<Real> or PathSource<Real>).
+/// `kinds`: the ones that it may be of.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
+                                              const From& source, const Double<Real>& t,
+                                              const Mask<Real>& here = Mask<Real>(true)) {
+    const Mask<Real> exits = hits_far_side<kinds>(scene, id, ray, source, t, here);
+    SurfacePoint<Real> point;
+    visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+        point = surface_point(primitive, ray, t, exits, here);
+    });
+    point.primitive = UInt<Real>(id);
+    return point;
+}
+
+/// Puts `own` into the lanes of `here`.
+template <class Real>
+TANDEM_HD void keep(const Mask<Real>& here, const SurfacePoint<Real>& own, SurfacePoint<Real>& point) {
+    point.position = select(here, own.position, point.position);
+    point.normal = select(here, own.normal, point.normal);
+    point.clearance = select(here, own.clearance, point.clearance);
+    point.from_inside = select(here, own.from_inside, point.from_inside);
+    point.primitive = select(here, own.primitive, point.primitive);
+}
+
+/// The point of a scene at `hit`, which `ray` from `source` found, in the lanes of `found`.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD_STEP SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                                const Closest<Real>& hit, const Mask<Real>& found) {
+    SurfacePoint<Real> result = {ray.origin, widen(ray.direction)};
+    for_each_value(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        keep(here, surface_point_of<kinds>(scene, id, ray, source, hit.t, here), result);
+    });
+    return result;
+}
+
+/// A ray and what it leaves.
+template <class Real>
+struct SpawnedRay {
+    Ray<Real> ray;
+    Source<Real> source;
+};
+
+/// Where rays leave a point, to the side of `inside`.
+template <class Real>
+TANDEM_HD Vec3<Real> departure(const SurfacePoint<Real>& from, const Mask<Real>& inside) {
+    using D = Double<Real>;
+    if (!any(from.clearance > D(0.0))) return from.position;
+    const D height = select(inside, -from.clearance, from.clearance);
+    return to_real<Real>(spawn_detail::along<Real>(widen(from.position), from.normal, height));
+}
+
+/// A ray from a point of a surface. The side follows from the sign of direction . normal, in double; a direction in the
+/// tangent plane leaves outward.
+template <class Real>
+TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<Real>& direction) {
+    const Mask<Real> inside = dot(widen(direction), from.normal) < Double<Real>(0.0);
+    return {{departure(from, inside), direction}, {from.primitive, inside}};
+}
+
+/// The part at its end that a shadow ray leaves out, relative to its length. The ray's direction is rounded, so
+/// rounding would decide whether it meets a surface that the light lies on. With the gap it does not meet such a
+/// surface, if the cosine to its normal is above 1 / 16.
+template <class Real>
+inline constexpr double shadow_gap = std::is_same_v<Scalar<Real>, double> ? 0x1p-49
+                                     : is_fast<Real>                      ? 0x1p-18
+                                                                          : 0x1p-20;
+
+/// A shadow ray, for Tracer::occluded(). Its light is at t = 1, or infinitely far.
+template <class Real>
+struct ShadowRay {
+    Ray<Real> ray;
+    ShadowSource<Real> source;
+    Double<Real> t_max = constant<Double<Real>>(1.0 - shadow_gap<Real>);
+    /// False where the light is at the point itself, so that the ray has no direction, and where the ray cannot be
+    /// traced because it left the range of the tier fast. Both bring no light.
+    Mask<Real> active;
+};
+
+/// The shadow ray to a light at the point `to` or, where it `is_far`, in the direction `to`. `light`: the light's own
+/// primitive, or no_primitive.
+template <class Real>
+TANDEM_HD ShadowRay<Real> spawn_shadow_ray(const SurfacePoint<Real>& from, const Vec3<Real>& to,
+                                           const UInt<Real>& light, const Mask<Real>& is_far = Mask<Real>(false)) {
+    using D = Double<Real>;
+    ShadowRay<Real> shadow;
+    shadow.source.primitive = from.primitive;
+    const Vec3<D> to_light = select(is_far, widen(to), widen(to) - widen(from.position));
+    shadow.source.inside = dot(to_light, from.normal) < D(0.0);
+    shadow.source.light = light;
+    shadow.ray.origin = departure(from, shadow.source.inside);
+    shadow.ray.direction = select(is_far, to, to_real<Real>(widen(to) - widen(shadow.ray.origin)));
+    shadow.t_max = select(is_far, D(__builtin_huge_val()), shadow.t_max);
+    shadow.active = is_traceable(shadow.ray) && (is_far || norm1(to_light) > D(0.0));
+    return shadow;
+}
+
+}  // namespace tandem

@@ -1,0 +1,233 @@
+/// What a hit says of the surface: normal and material, by kind of primitive.
+#pragma once
+
+#include "tandem/effects/effects.h"
+#include "tandem/kernel/corner_values.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/shapes/ray_source.h"
+#include "tandem/kernel/shapes/shading_normal.h"
+#include "tandem/kernel/shapes/tangent_frame.h"
+#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/texture/normal_map.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+template <class Real>
+struct Surface {
+    Vec3<Double<Real>> normal;  ///< for shading: unit, outward, world space
+    Vec3<Real> ambient, diffuse, specular;
+    Real shininess;
+    // only where the effects call for them
+    UInt<Real> material;
+    Vec3<Real> mirror;
+    Real transmission;
+    Vec3<Real> emission;  ///< on the side that the ray comes from
+    Mask<Real> opaque = Mask<Real>(true);
+    Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
+};
+
+/// How many holes a ray passes before it counts as stopped.
+inline constexpr std::uint32_t most_holes = 255;
+
+// The normal of each kind at parameter t of a ray that hits the primitive there, in the lanes of `here`: of a sphere of
+// any length, else unit. `exits`: where the ray leaves the very body that it left inward.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Sphere& sphere, const Ray<Real>& ray,
+                                       const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+    return sphere_offset(sphere, ray, t);  // see surface_at()
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Box& box, const Ray<Real>& ray, const Double<Real>&,
+                                       const Mask<Real>&, const Mask<Real>& exits) {
+    return face_normal<Real>(cross_box(box, ray), widen(ray.direction), exits);
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Ellipsoid& body, const Ray<Real>& ray,
+                                       const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+    return ellipsoid_normal(body, ray, t);
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Parallelepiped& body, const Ray<Real>& ray,
+                                       const Double<Real>&, const Mask<Real>&, const Mask<Real>& exits) {
+    return parallelepiped_normal(body, ray, exits);
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Triangle& triangle, const Ray<Real>& ray,
+                                       const Double<Real>&, const Mask<Real>& here, const Mask<Real>&) {
+    const Vec3f* normals = corner_normals(scene.normals, triangle.attributes);
+    return shading_normal<Real>(triangle, normals, ray, here);
+}
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad, const Ray<Real>& ray,
+                                       const Double<Real>& t, const Mask<Real>& here, const Mask<Real>&) {
+    const Vec3f* normals = corner_normals(scene.normals, quad.attributes);
+    return shading_normal<Real>(quad, normals, ray, t, here);
+}
+
+/// Do materials hang on where a point lies on its surface?
+template <class Effects>
+TANDEM_HD constexpr bool has_pictures() {
+    return Effects::has(Effect::textures) || Effects::has(Effect::normal_maps) || Effects::has(Effect::cutouts);
+}
+
+/// The normal that a normal map makes of `normal`, unit. Where `turned`, on the back of a double-sided face, `normal`
+/// is turned round, and so is what the map says of the front.
+template <class Real>
+TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const MaterialTextures& textures,
+                                              const Parametrisation<Real>& at, const Vec3<Double<Real>>& normal,
+                                              const Mask<Real>& turned) {
+    const auto texel = sample<Real>(scene.textures, textures.normal, at.u, at.v);
+    const auto front = select(turned, -normal, normal);
+    const auto bent = mapped_normal<Real>(tangent_frame(front, at.dp_du, at.dp_dv), texel, textures.normal_scale);
+    return select(turned, -bent, bent);
+}
+
+/// Is primitive `id` a face that is not there from behind, and does the ray come from there? `on_face`: whether it is a
+/// face at all.
+template <std::uint32_t kinds, class Real>
+TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
+                               const Mask<Real>& here, bool& on_face) {
+    Mask<Real> culled(false);
+    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+        if constexpr (is_face<std::decay_t<decltype(body)>>) {
+            on_face = true;
+            if (!may_be_cut_out(kind_of<std::decay_t<decltype(body)>>)) return;
+            if (body.attributes.sides != FaceSides::culled) return;
+            culled = surface_point(body, ray, t, Mask<Real>(false), here).from_inside;
+        }
+    });
+    return culled;
+}
+
+/// Is the surface there at `hit`, or a hole, in the lanes of `found`?
+template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                       const Closest<Real>& hit, const Mask<Real>& found) {
+    Mask<Real> opaque(true);
+    for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        bool on_face = false;
+        const Mask<Real> culled = is_culled<kinds>(scene, primitive, ray, hit.t, here, on_face);
+        opaque = opaque && !(here && culled);
+        if (!has_textures(scene.textures)) return;
+        const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
+        if (!(textures.alpha_cutoff > 0.0F)) return;
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
+        CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+        const Real alpha = base_colour(textures, on_face, values).a;
+        opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
+    });
+    return opaque;
+}
+
+/// Where a vertex has to be known better than as a point of its ray.
+inline constexpr EffectMask effects_on_surfaces = bouncing_effects | Effect::shadows | Effect::area_lights |
+                                                  Effect::emission | Effect::environment_light | Effect::normal_maps;
+template <class Effects>
+TANDEM_HD constexpr bool can_leave_surfaces() {
+    return Effects::most.has_any(effects_on_surfaces);
+}
+
+/// The surface at `hit`, which `ray` from `source` found, in the lanes of `found`. The rays of a packet hit few
+/// different primitives, so each of these is looked up and its normal formed once, for all its rays. `kinds`: the ones
+/// that may have been hit; `Effects`: what their materials may call for. `point` becomes the hit, if these have
+/// effects_on_surfaces.
+template <class Effects, std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
+TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                   const Closest<Real>& hit, const Mask<Real>& found, SurfacePoint<Real>& point) {
+    using D = Double<Real>;
+    const bool needs_point = Effects::has_any(effects_on_surfaces);
+    if (needs_point) point = {ray.origin, widen(ray.direction)};
+    Mask<Real> on_sphere(false);
+    const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
+    Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black,      black, Real(1.0F),
+                             UInt<Real>(0U),           black, Real(0.0F), black};
+    for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        Vec3<D> normal = surface.normal;
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
+        const std::uint32_t number = scene.material_of[primitive];
+        const Real one(1.0F);
+        Rgba<Real> picture = {one, one, one, one};
+        Vec3<Real> glow = {one, one, one};
+        bool on_face = false;
+        FaceSides sides = FaceSides::single_sided;
+        SurfacePoint<Real> own;
+        visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if (needs_point) own = surface_point(body, ray, hit.t, exits, here);
+            if (needs_point && !is_face<Body>) {
+                normal = own.normal;
+            } else {
+                normal = normal_at<Real>(scene, body, ray, hit.t, here, exits);
+                if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
+            }
+            if constexpr (is_face<Body>) {
+                on_face = true;
+                sides = body.attributes.sides;
+            }
+        });
+        if (needs_point) {
+            own.primitive = UInt<Real>(primitive);
+            keep(here, own, point);
+        }
+        const bool both_sides = sides == FaceSides::double_sided;
+        const Optics& optics = scene.optics[number];
+        if (has_pictures<Effects>() && has_textures(scene.textures)) {
+            const MaterialTextures& textures = scene.textures.materials[number];
+            CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+            if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
+                picture = base_colour(textures, on_face, values);
+            }
+            if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
+                const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
+                normal = bent_normal<Real>(scene, textures, values.in(textures.normal.slot), normalize(normal), turned);
+            }
+            if (Effects::has(Effect::emission) && Effects::has(Effect::textures)) {
+                const bool lit = textures.emission.texture != no_texture;
+                const Rgba<Real> at = lit ? values.texture(textures.emission) : picture;
+                if (lit || optics.unlit != 0) glow = {at.r, at.g, at.b};
+            }
+            if (Effects::has(Effect::cutouts)) {
+                surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, picture.a));
+            }
+        }
+        if (Effects::has(Effect::cutouts) && sides == FaceSides::culled) {
+            surface.opaque = surface.opaque && !(here && own.from_inside);
+        }
+        const PhongMaterial& material = scene.materials[number];
+        Vec3<Real> ambient = broadcast<Real>(material.ambient);
+        Vec3<Real> diffuse = broadcast<Real>(material.diffuse);
+        if (Effects::has(Effect::textures) && has_textures(scene.textures)) {
+            const Vec3<Real> factor = {picture.r, picture.g, picture.b};
+            ambient = ambient * factor;
+            diffuse = diffuse * factor;
+        }
+        surface.normal = select(here, normal, surface.normal);
+        surface.ambient = select(here, ambient, surface.ambient);
+        surface.diffuse = select(here, diffuse, surface.diffuse);
+        surface.specular = select(here, broadcast<Real>(material.specular), surface.specular);
+        surface.shininess = select(here, Real(material.shininess), surface.shininess);
+        if (has_bounces<Effects>()) {
+            surface.material = select(here, UInt<Real>(number), surface.material);
+            if (Effects::has(Effect::reflection)) {
+                surface.mirror = select(here, broadcast<Real>(optics.mirror), surface.mirror);
+            }
+            if (Effects::has(Effect::refraction)) {
+                surface.transmission = select(here, Real(optics.transmission), surface.transmission);
+            }
+        }
+        if (Effects::has(Effect::emission)) {
+            if (norm1(optics.emission) > 0.0F) {
+                const bool unlit = optics.unlit != 0;
+                const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
+                surface.emission = select(shines, broadcast<Real>(optics.emission) * glow, surface.emission);
+                surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
+            }
+        }
+    });
+    // once for all lanes: the rays of a packet hit up to as many spheres as it has lanes
+    if (any(on_sphere)) surface.normal = select(on_sphere, normalize(surface.normal), surface.normal);
+    return surface;
+}
+
+}  // namespace tandem

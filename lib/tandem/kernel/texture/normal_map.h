@@ -1,0 +1,30 @@
+/// Normals from a texture.
+#pragma once
+
+#include "tandem/kernel/texture/texture_view.h"
+#include "tandem/math/frame.h"
+
+namespace tandem {
+
+/// Unit normal that a texel of a normal map says, world space.
+///
+/// `frame`: of the surface, tangent along growing u, bitangent along falling v (tangent_frame()). Red, green and blue
+/// from 0 to 1 are coordinates from -1 to 1 along tangent, bitangent and normal; `scale` multiplies the first two.
+/// Where they vanish it is the frame's normal. On the back of a double-sided face: with the frame of the front, then
+/// turned round. Source: glTF 2.0, 3.9.3, normal textures.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> mapped_normal(const Frame<Double<Real>>& frame, const Rgba<Real>& texel, float scale) {
+    using D = Double<Real>;
+    const auto coordinate = [](const Real& level) TANDEM_INLINE_LAMBDA {
+        const D wide = widen(level);
+        return (wide + wide) - D(1.0F);
+    };
+    const Vec3<D> sum = frame.tangent * (coordinate(texel.r) * D(scale)) +
+                        frame.bitangent * (coordinate(texel.g) * D(scale)) + frame.normal * coordinate(texel.b);
+    const Mask<Real> enough = dot(sum, sum) > D(0x1p-40F);
+    const Vec3<D> unit = normalize(sum);
+    return {select(enough, unit.x, frame.normal.x), select(enough, unit.y, frame.normal.y),
+            select(enough, unit.z, frame.normal.z)};
+}
+
+}  // namespace tandem

@@ -1,0 +1,96 @@
+/// The textures of a scene as flat arrays, and which material has which.
+#pragma once
+
+#include "tandem/kernel/texture/texture_view.h"
+
+namespace tandem {
+
+inline constexpr std::uint32_t no_texture = 0xFFFFFFFFU;
+inline constexpr std::uint32_t no_slot = 0xFFFFFFFFU;
+
+/// What the levels of red, green and blue mean: given by what a texture is used for.
+enum class ColourSpace : std::uint32_t { srgb, linear };
+
+/// A texture in the arrays of a TextureSet.
+struct TextureDescriptor {
+    std::uint32_t first_texel = 0;
+    std::uint32_t width = 1, height = 1;
+    Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+    Filter filter = Filter::linear;
+    ColourSpace space = ColourSpace::srgb;
+};
+
+/// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1). A face has
+/// several pairs of values at its corners; `slot` is the one that holds the texture's coordinates. Other primitives
+/// have one parametrisation.
+struct TextureUse {
+    std::uint32_t texture = no_texture;
+    float u_row[3] = {1, 0, 0};
+    float v_row[3] = {0, 1, 0};
+    std::uint32_t slot = 0;
+};
+
+/// The textures of one material. Its alpha is `alpha` times that of the base colour (kernel/base_colour.h); where
+/// that is below `alpha_cutoff`, there is no surface. 0 cuts nothing.
+struct MaterialTextures {
+    TextureUse diffuse;   ///< base colour: multiplies the diffuse and the ambient reflectance
+    TextureUse normal;    ///< normals in the frame of the surface: normal_map.h
+    TextureUse emission;  ///< multiplies the emission
+    float normal_scale = 1;
+    float alpha = 1;
+    float alpha_cutoff = 0;
+    /// Of faces: red and green at the corners in this slot, blue and alpha in the next. They multiply the base colour.
+    std::uint32_t colour_slot = no_slot;
+};
+static_assert(sizeof(MaterialTextures) == 112 && sizeof(TextureDescriptor) == 28,
+              "no byte is undefined; scene_hash() reads all");
+
+/// Pointers are to memory of the side that reads them.
+struct TextureSet {
+#define TANDEM_TEXTURE_ARRAY(Type, names) const Type* names;
+#include "tandem/kernel/texture/texture_arrays.def"
+#undef TANDEM_TEXTURE_ARRAY
+};
+
+TANDEM_HD bool has_textures(const TextureSet& set) { return set.materials != nullptr; }
+
+TANDEM_HD TextureView texture_view(const TextureSet& set, std::uint32_t texture) {
+    const TextureDescriptor& d = set.textures[texture];
+    return {set.texels + d.first_texel,
+            set.levels + (d.space == ColourSpace::srgb ? 0 : 256),
+            d.width,
+            d.height,
+            d.wrap_s,
+            d.wrap_t,
+            d.filter};
+}
+
+/// A texture of a material at the coordinates (u, v) of its surface; white if there is none.
+template <class Real>
+TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, Double<Real> u, Double<Real> v) {
+    using D = Double<Real>;
+    if (use.texture == no_texture) return {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
+    const auto along = [&](const float* row)
+                           TANDEM_INLINE_LAMBDA { return (D(row[0]) * u + D(row[1]) * v) + D(row[2]); };
+    return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
+}
+
+/// The product of two alphas. It is a float in every tier, as what it is compared with is: k / 255 against a cutoff of
+/// k / 255 is opaque.
+template <class Real>
+TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
+    const Float<Real> product = narrow(a) * narrow(b);
+    if constexpr (std::is_same_v<Real, Float<Real>>) {
+        return product;
+    } else {
+        return widen(product);
+    }
+}
+
+/// Where the material is there at all, given the alpha of its base colour.
+template <class Real>
+TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& alpha) {
+    return times_alpha(Real(material.alpha), alpha) >= Real(material.alpha_cutoff);
+}
+
+}  // namespace tandem

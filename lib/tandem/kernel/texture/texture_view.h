@@ -1,0 +1,121 @@
+/// A texture as kernels see it, and its value at a point.
+#pragma once
+
+#include "tandem/kernel/texture/texel_axis.h"
+
+namespace tandem {
+
+/// Pointers are to memory of the side that reads them.
+struct TextureView {
+    const std::uint32_t* texels;  ///< row by row from the top; red in the lowest 8 bits, then green, blue, alpha
+    const float* levels;          ///< what each of the 256 levels of red, green and blue stands for, linear
+    std::uint32_t width, height;  ///< from 1 to 65536
+    Wrap wrap_s, wrap_t;          ///< along u, along v
+    Filter filter;
+};
+
+/// Linear. Without premultiplication: the colour does not know of alpha.
+template <class Real>
+struct Rgba {
+    Real r, g, b, a;
+};
+
+namespace texture_detail {
+
+/// The number of type T whose lane i is make(i).
+template <class T, class Make>
+TANDEM_HD T from_lanes(Make make) {
+    if constexpr (RealTraits<T>::lanes == 1) {
+        return T(make(0));
+    } else {
+        return T::from(make);
+    }
+}
+template <class Real, class Make>
+TANDEM_HD UInt<Real> words_from_lanes(Make make) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return make(0);
+    } else {
+        return UInt<Real>::from(make);
+    }
+}
+
+/// The texel in column x of row y, which are within the texture.
+template <class Real>
+TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, const Double<Real>& y) {
+    return words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
+        const auto column = static_cast<std::uint32_t>(to_wide(lane(x, i)));
+        const auto row = static_cast<std::uint32_t>(to_wide(lane(y, i)));
+        return texture.texels[static_cast<std::size_t>(row) * texture.width + column];
+    });
+}
+
+/// A texel's red, green and blue at `shift` 0, 8 and 16, and its alpha.
+template <class Real>
+TANDEM_HD Double<Real> colour(const TextureView& texture, const UInt<Real>& texel, int shift) {
+    return widen(from_lanes<Float<Real>>(
+        [&](int i) TANDEM_INLINE_LAMBDA { return texture.levels[(lane(texel, i) >> shift) & 0xFFU]; }));
+}
+template <class Real>
+TANDEM_HD Double<Real> alpha(const UInt<Real>& texel) {
+    return widen(from_uint<Float<Real>>(texel >> 24)) / Double<Real>(255.0F);
+}
+
+/// The texels at the corners of a cell, and the place in it.
+template <class Real>
+struct Cell {
+    UInt<Real> corner[4];  ///< (first, first), (second, first), (first, second), (second, second) of x, y
+    Double<Real> x, y;
+
+    /// `value`: of a texel. Exact where the four are equal.
+    template <class Value>
+    TANDEM_HD Real mean(Value value) const {
+        using D = Double<Real>;
+        const D a = value(corner[0]);
+        const D c = value(corner[2]);
+        const D upper = a + x * (value(corner[1]) - a);
+        const D lower = c + x * (value(corner[3]) - c);
+        return to_real<Real>(upper + y * (lower - upper));
+    }
+};
+
+}  // namespace texture_detail
+
+/// The texture at (u, v): (0, 0) is the corner of the first texel, v runs downwards, the whole picture is [0, 1]^2.
+///
+/// Needs: any u and v, in all lanes. One that is not finite counts as 0.
+/// Gives: the texel that holds the point (one of the two on a border), or the mean of the four around it, weighted by
+/// distance. Texels become linear
+///        before the mean, which is formed in double and rounded once; it lies between the least and the greatest of
+///        them but for the rounding of a Real that is a double.
+/// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Held by
+///        tests/kernel/texture/texture_test.cpp.
+template <class Real>
+TANDEM_HD Rgba<Real> sample(const TextureView& texture, const Double<Real>& u, const Double<Real>& v) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const auto size = [](std::uint32_t texels) TANDEM_INLINE_LAMBDA { return D(to_float(texels)); };
+    const TexelPair<D> x = texels_around(u, texture.wrap_s, texture.filter, size(texture.width));
+    const TexelPair<D> y = texels_around(v, texture.wrap_t, texture.filter, size(texture.height));
+    texture_detail::Cell<Real> cell;
+    cell.corner[0] = texture_detail::texel<Real>(texture, x.first, y.first);
+    const auto value_of = [&](auto mean) TANDEM_INLINE_LAMBDA -> Rgba<Real> {
+        const auto colour = [&](int shift) TANDEM_INLINE_LAMBDA {
+            return mean([&, shift](const Word& texel)
+                            TANDEM_INLINE_LAMBDA { return texture_detail::colour<Real>(texture, texel, shift); });
+        };
+        return {colour(0), colour(8), colour(16),
+                mean([](const Word& texel) TANDEM_INLINE_LAMBDA { return texture_detail::alpha<Real>(texel); })};
+    };
+    if (texture.filter == Filter::nearest) {
+        return value_of([&](auto value) TANDEM_INLINE_LAMBDA { return to_real<Real>(value(cell.corner[0])); });
+    }
+    cell.corner[1] = texture_detail::texel<Real>(texture, x.second, y.first);
+    cell.corner[2] = texture_detail::texel<Real>(texture, x.first, y.second);
+    cell.corner[3] = texture_detail::texel<Real>(texture, x.second, y.second);
+    cell.x = x.weight;
+    cell.y = y.weight;
+    return value_of([&](auto value) TANDEM_INLINE_LAMBDA { return cell.mean(value); });
+}
+
+}  // namespace tandem

@@ -1,0 +1,93 @@
+/// Tracing among a handful of spheres and boxes, for a GPU: what the filters read lies in the kernel's parameters, at
+/// addresses known to the compiler, so that no filter loads anything.
+#pragma once
+
+#include "tandem/kernel/traversal/intersect.h"
+
+namespace tandem {
+
+/// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
+struct FewTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
+    static constexpr bool has_hierarchy = false;
+    static constexpr std::uint32_t max_spheres = 8;
+    static constexpr std::uint32_t max_boxes = 4;
+
+    SceneView scene;
+    Sphere spheres[max_spheres];
+    BoxFilter boxes[max_boxes];
+
+    /// As LoopTracer::closest().
+    template <class Real, class From>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+        Closest<Real> best = no_hit<Real>();
+        if (active) find<Search::nearest>(ray, source, best);
+        return best;
+    }
+
+    /// As LoopTracer::occluded().
+    template <class Real>
+    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+                            bool active) const {
+        Closest<Real> best = before<Real>(t_max);
+        if (active) find<Search::any>(ray, source, best);
+        return best.t < t_max;
+    }
+
+  private:
+    template <Search search, class Real, class From>
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        const FilterRay<Real> f = make_filter_ray(ray);
+        const Double<Real> t_max = best.t;
+        std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+        for (std::uint32_t i = 0; i < max_spheres; ++i) {
+            if (i == scene.sphere_count) break;
+            if constexpr (is_fast<Real>) {
+                decide(spheres[i], i, ray, source, true, best);
+                continue;
+            }
+            if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
+        }
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+        for (std::uint32_t i = 0; i < max_boxes; ++i) {
+            if (i == scene.box_count) break;
+            if (may_touch_box(f, boxes[i])) candidates |= 1U << (max_spheres + i);
+        }
+        for (; candidates != 0; candidates &= candidates - 1) {
+            const auto slot = static_cast<std::uint32_t>(lowest_bit(candidates));
+            if (slot < max_spheres) {
+                decide(scene.spheres[slot], slot, ray, source, true, best);
+            } else {
+                const std::uint32_t box = slot - max_spheres;
+                decide(scene.boxes[box], scene.sphere_count + box, ray, source, true, best);
+            }
+            if constexpr (search == Search::any) {
+                if (best.t < t_max) return;
+            }
+        }
+    }
+};
+
+/// Has the scene so few primitives, and of such kinds?
+TANDEM_HD bool fits_few_tracer(const SceneView& scene) {
+    return scene.sphere_count <= FewTracer::max_spheres && scene.box_count <= FewTracer::max_boxes &&
+           primitive_count(scene) == scene.sphere_count + scene.box_count;
+}
+
+/// `on_host`: the scene in host memory, to copy from; `scene`: where the tracer will read it.
+[[nodiscard]] inline FewTracer make_few_tracer(const SceneView& on_host, const SceneView& scene) {
+    FewTracer tracer{};
+    tracer.scene = scene;
+    for (std::uint32_t i = 0; i < on_host.sphere_count; ++i) tracer.spheres[i] = on_host.spheres[i];
+    for (std::uint32_t i = 0; i < on_host.box_count; ++i) {
+        tracer.boxes[i] = make_box_filter(on_host.boxes[i].lower, on_host.boxes[i].upper);
+    }
+    return tracer;
+}
+
+}  // namespace tandem

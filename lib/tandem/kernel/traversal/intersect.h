@@ -1,0 +1,180 @@
+/// A ray against one primitive of a scene, and against all of them.
+#pragma once
+
+#include "tandem/kernel/shapes/filter.h"
+#include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/shapes/ray_source.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+/// Keeps the nearer of `best` and a point at t, in the lanes of `hit`.
+template <class Real>
+TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive, Closest<Real>& best) {
+    const Mask<Real> closer = hit && is_closer(t, primitive, best);
+    best.t = select(closer, t, best.t);
+    best.primitive = select(closer, primitive, best.primitive);
+}
+
+/// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
+/// `candidate`, which the filter let through. `From` is NoSource, Source<Real> or ShadowSource<Real>.
+template <class Real, class From, class Primitive>
+TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
+                      const Mask<Real>& candidate, Closest<Real>& best) {
+    Double<Real> t(0.0);
+    const Mask<Real> hit = first_from(source, primitive, id, ray, candidate, best.t, t);
+    offer<Real>(hit, t, UInt<Real>(id), best);
+}
+
+// The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than
+// the filter allows.
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
+    return may_touch_sphere(f, sphere.centre, sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
+    return may_touch_box(f, box.lower, box.upper);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Placement& body) {
+    return may_touch(f, body.bounding_sphere);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Triangle& triangle) {
+    return may_touch_triangle(f, triangle.v0, triangle.v1, triangle.v2);
+}
+template <class Real>
+TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
+    return may_touch_quad(f, quad);
+}
+
+/// Is a primitive certainly behind a ray? Its filter may know already.
+template <class Real>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Sphere& sphere) {
+    return is_behind_sphere(f, sphere.centre, sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Placement& body) {
+    return is_behind(f, body.bounding_sphere);
+}
+template <class Real, class Primitive>
+TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
+    return Mask<Real>(false);
+}
+
+/// In the tier fast the decision costs hardly more than the filter, but for bodies with a transform.
+template <class Real, class Primitive>
+inline constexpr bool has_filter = !is_fast<Real> || std::is_base_of_v<Placement, Primitive>;
+
+/// One primitive: the float filter first, then the decision.
+template <class Real, class From, class Primitive>
+TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
+                         const Mask<Real>& active, Closest<Real>& best) {
+    if constexpr (!has_filter<Real, Primitive>) {
+        decide(primitive, id, f.ray, source, active, best);
+    } else {
+        const Mask<Real> candidate = active && may_touch(f, primitive);
+        if (any(candidate)) decide(primitive, id, f.ray, source, candidate, best);
+    }
+}
+
+/// Any primitive by its id; `kinds`: the ones that the scene may have.
+template <class Real, std::uint32_t kinds = PrimitiveKinds::all, class From>
+TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
+                                   const From& source, const Mask<Real>& active, Closest<Real>& best) {
+    const auto as_itself = [&](const auto& primitive)
+                               TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, source, active, best); };
+    visit_primitive<kinds>(scene, id, as_itself);
+}
+
+/// What a tracer looks for: the nearest hit, or any one nearer than where the search starts.
+enum class Search { nearest, any };
+
+/// Where a search for any hit with t < t_max starts: nothing at t_max counts, whatever its id.
+template <class Real>
+TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
+    return {t_max, UInt<Real>(0U)};
+}
+
+/// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
+/// `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a kernel for few
+/// of them needs fewer registers.
+template <std::uint32_t kind_set>
+struct LoopTracerFor {
+    static constexpr std::uint32_t kinds = kind_set;
+    static constexpr bool has_hierarchy = false;
+
+    SceneView scene;
+
+    /// The nearest hit of a ray that comes from `source` (NoSource or Source<Real>).
+    template <class Real, class From>
+    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
+        Closest<Real> best = no_hit<Real>();
+        find<Search::nearest>(ray, source, active, best);
+        return best;
+    }
+
+    /// Is anything hit at some t < t_max? The comparison is exact, in the type of decisions.
+    template <class Real, class From>
+    TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
+                                  const Mask<Real>& active) const {
+        Closest<Real> best = before<Real>(t_max);
+        find<Search::any>(ray, source, active, best);
+        return active && best.t < t_max;
+    }
+
+  private:
+    template <Search search, class Real, class From>
+    TANDEM_HD void find(const Ray<Real>& ray, const From& source, const Mask<Real>& active, Closest<Real>& best) const {
+        if (!any(active)) return;
+        const FilterRay<Real> f = make_filter_ray(ray);
+        const Double<Real> t_max = best.t;
+        std::uint32_t id = 0;
+        const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
+            using Primitive = std::decay_t<decltype(*primitives)>;
+            if (search == Search::any && !any(active && !(best.t < t_max))) return;
+            const auto is_candidate = [&](std::uint32_t i) TANDEM_INLINE_LAMBDA {
+                return can_meet<Real, Primitive>(source, id + i, is_behind(f, primitives[i])) &&
+                       may_touch(f, primitives[i]);
+            };
+            if constexpr (has_filter<Real, Primitive> && RealTraits<Real>::lanes == 1) {
+                // first all filters, then the few decisions: threads of a warp that differ in what they may hit decide
+                // at the same time
+                for (std::uint32_t first = 0; first < count; first += 32) {
+                    std::uint32_t candidates = 0;
+                    for (std::uint32_t i = first; i < count && i < first + 32; ++i) {
+                        if (is_candidate(i)) candidates |= 1U << (i - first);
+                    }
+                    for (; candidates != 0; candidates &= candidates - 1) {
+                        const std::uint32_t i = first + static_cast<std::uint32_t>(lowest_bit(candidates));
+                        decide(primitives[i], id + i, ray, source, true, best);
+                        if constexpr (search == Search::any) {
+                            if (best.t < t_max) return;
+                        }
+                    }
+                }
+            } else {
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    Mask<Real> candidate = active;
+                    if constexpr (search == Search::any) {
+                        candidate = candidate && !(best.t < t_max);
+                        if (!any(candidate)) return;
+                    }
+                    if constexpr (has_filter<Real, Primitive>) candidate = candidate && is_candidate(i);
+                    if (any(candidate)) decide(primitives[i], id + i, ray, source, candidate, best);
+                }
+            }
+            id += count;
+        };
+#define TANDEM_PRIMITIVE(Type, name, names)                                           \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                              \
+        if (may_have(PrimitiveKinds::name)) try_all(scene.names, scene.name##_count); \
+    }
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    }
+};
+using LoopTracer = LoopTracerFor<PrimitiveKinds::all>;
+
+}  // namespace tandem

@@ -1,0 +1,142 @@
+/// How an acceleration structure is asked. A structure only proposes candidates; the primitive tests decide, on the
+/// true ray. So that it never loses one, its boxes are padded, and the ray that it is given is brought to where float
+/// arithmetic serves it: near the scene, with a unit direction.
+///
+/// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
+/// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
+/// origin adds 2 u S (it may come to lie up to 2^-6 S beyond S), rounding it 1 u S and rounding the direction 3 u S
+/// along a path of length 2 S. Boxes are padded by 32 u S. Held by tests/agree/structure_test.cpp.
+#pragma once
+
+#include "tandem/kernel/shapes/ray_source.h"
+
+namespace tandem {
+
+/// Where a structure over a scene is valid: its bounds, and by how much boxes in it are padded.
+struct StructureFrame {
+    Aabb bounds;   ///< of all primitives, padded
+    float margin;  ///< padding of each box, metres
+};
+
+/// `scene_bounds`: merged bounds of all primitives, not padded.
+TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
+    // the floor keeps the margin a normal number, which flush-to-zero inside Embree does not eat
+    const float margin = 32.0F * float_roundoff * reach(scene_bounds) + 1e-30F;
+    return {pad(scene_bounds, 2.0F * margin), margin};
+}
+
+/// The ray for the structure: parameter s = (t - t_offset) * length along a unit direction.
+template <class Real>
+struct Proposal {
+    Ray<Float<Real>> ray;
+    Real length;
+    Double<Real> t_offset;
+    Mask<Real> active;  ///< lanes whose ray can touch the bounds at all
+
+    /// A float not below the parameter of true parameter t: where the structure may stop.
+    TANDEM_HD Float<Real> limit(const Double<Real>& t) const {
+        const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
+        const auto most = constant<Double<Real>>(3e38);
+        return narrow(select(s < most, s, most));
+    }
+
+    /// A float in [0, parameter of true parameter t]: where the structure may start for a ray that has passed a hole at
+    /// t.
+    TANDEM_HD Float<Real> start(const Double<Real>& t) const {
+        using D = Double<Real>;
+        const D zero(0.0);
+        const D before = t - t * constant<D>(is_fast<Real> ? 0x1p-20 : 0x1p-50);
+        const D s = (before - t_offset) * widen(length) * constant<D>(1.0 - 0x1p-18);
+        const auto most = constant<D>(3e38);
+        return narrow(select(s > zero, select(s < most, s, most), zero));
+    }
+    template <class From>
+    TANDEM_HD Float<Real> start_for(const From& source) const {
+        if constexpr (std::is_base_of_v<PathSource<Real>, From>) {
+            if (any(source.passed.t > Double<Real>(0.0))) [[unlikely]]
+                return start(source.passed.t);
+        }
+        return Float<Real>(0.0F);
+    }
+
+    /// The true parameter of a hit that the structure itself found at s, roughly: the rounding of t_offset stays.
+    TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
+};
+
+namespace proposal_detail {
+
+/// For rays that are moved to the bounds in float: how far from the origin they may start, in reaches of the bounds,
+/// and how long their direction has to be. For a shorter one the t of the bounds may exceed a float.
+inline constexpr float near_by = 8192;
+inline constexpr float least_length = 1e-15F;
+
+/// Where rays that start outside the bounds cross them. In float for origins `near_by`: each t errs by less than 4 u t;
+/// 16 u t is allowed for, so that no ray that may touch anything is lost and the entry lies up to 2^-6 of the reach
+/// before the bounds, never behind them.
+template <class Real>
+TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, bool is_near_by) {
+    // A processor divides twice as many floats as doubles at a time, and this is done for every camera ray. On a GPU it
+    // is done in double; the other way has not been timed there. Rays in double are not narrowed.
+    constexpr bool in_float = !TANDEM_ON_DEVICE && std::is_same_v<Scalar<Real>, float>;
+    if (!in_float || !is_near_by) return cross_box(Box{bounds.lower, bounds.upper}, ray);
+    const Real infinity(__builtin_huge_valf());
+    Real t_near = -infinity, t_far = infinity;
+    const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
+        // d = 0 gives infinities of the right signs, or NaN on the very border, where nothing is
+        const Real a = (Real(lower) - o) / d;
+        const Real b = (Real(upper) - o) / d;
+        t_near = greater(lesser(a, b), t_near);
+        t_far = lesser(greater(a, b), t_far);
+    };
+    slab(bounds.lower.x, bounds.upper.x, ray.origin.x, ray.direction.x);
+    slab(bounds.lower.y, bounds.upper.y, ray.origin.y, ray.direction.y);
+    slab(bounds.lower.z, bounds.upper.z, ray.origin.z, ray.direction.z);
+    const Real rounding(16.0F * float_roundoff);
+    const Real one(1.0F);
+    return {t_near <= t_far * (one + rounding), widen(t_near * (one - rounding)), widen(t_far)};
+}
+
+}  // namespace proposal_detail
+
+/// Needs traceable rays in the lanes of `active` (is_traceable()).
+template <class Real>
+TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
+    using D = Double<Real>;
+    const Real x = absolute(ray.direction.x), y = absolute(ray.direction.y), z = absolute(ray.direction.z);
+    const Real largest = select(active, greater(greater(x, y), z), Real(1.0F));
+    const Vec3<Real> scaled = {ray.direction.x / largest, ray.direction.y / largest, ray.direction.z / largest};
+    const Real scaled_length = square_root(dot(scaled, scaled));
+    const Real inverse_length = Real(1.0F) / scaled_length;
+    Proposal<Real> proposal;
+    proposal.ray.direction =
+        narrow(Vec3<Real>{scaled.x * inverse_length, scaled.y * inverse_length, scaled.z * inverse_length});
+    proposal.length = largest * scaled_length;
+    proposal.ray.origin = narrow(ray.origin);
+    proposal.t_offset = D(0.0);
+    proposal.active = active;
+    const Real limit(reach(frame.bounds));
+    const auto beyond = [&](const Real& distance) TANDEM_INLINE_LAMBDA {
+        return active && (absolute(ray.origin.x) > distance || absolute(ray.origin.y) > distance ||
+                          absolute(ray.origin.z) > distance);
+    };
+    const Mask<Real> outside = beyond(limit);
+    if (any(outside)) {
+        const Mask<Real> is_short = active && largest < Real(proposal_detail::least_length);
+        const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)) || is_short);
+        const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
+        const D zero(0.0);
+        // in the tier fast t may be infinite: then the bounds are out of reach
+        const Mask<Real> in_reach = c.t_near < D(__builtin_huge_val());
+        proposal.active = active && (!outside || (c.crosses && c.t_far > zero && in_reach));
+        const Mask<Real> move = outside && proposal.active && c.t_near > zero;
+        proposal.t_offset = select(move, c.t_near, zero);
+        const Vec3<D> o = widen(ray.origin);
+        const Vec3<D> d = widen(ray.direction);
+        const D& t = proposal.t_offset;
+        const Vec3<Float<Real>> moved = narrow(Vec3<D>{o.x + t * d.x, o.y + t * d.y, o.z + t * d.z});
+        proposal.ray.origin = select(move, moved, proposal.ray.origin);
+    }
+    return proposal;
+}
+
+}  // namespace tandem

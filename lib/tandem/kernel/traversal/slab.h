@@ -1,0 +1,41 @@
+/// Ray against the boxes of a node, for proposals only: the boxes are padded for these roundings
+/// (kernel/traversal/proposal.h), so that speed decides here and not the last bit. The only place of the kernel side
+/// where fminf and fmaxf may stand.
+#pragma once
+
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+/// A proposal ray, ready for slabs.
+struct SlabRay {
+    Vec3f inverse_direction;
+    Vec3f origin_over_direction;
+};
+
+/// `direction` is a unit vector. A component too small to invert is replaced: over the path through the scene this
+/// moves the ray by less than the boxes are padded.
+TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
+    const auto invert = [](float d) {
+        const float safe = absolute(d) < 1e-18F ? (d < 0.0F ? -1e-18F : 1e-18F) : d;
+        return 1.0F / safe;
+    };
+    const Vec3f inverse = {invert(direction.x), invert(direction.y), invert(direction.z)};
+    return {inverse, origin * inverse};
+}
+
+/// Entry into the box within [start, limit]; above `limit` if it is not entered there.
+TANDEM_HD float slab_entry(const SlabRay& ray, float lower_x, float upper_x, float lower_y, float upper_y,
+                           float lower_z, float upper_z, float start, float limit) {
+    const float x0 = loose_multiply_add(lower_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
+    const float x1 = loose_multiply_add(upper_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
+    const float y0 = loose_multiply_add(lower_y, ray.inverse_direction.y, -ray.origin_over_direction.y);
+    const float y1 = loose_multiply_add(upper_y, ray.inverse_direction.y, -ray.origin_over_direction.y);
+    const float z0 = loose_multiply_add(lower_z, ray.inverse_direction.z, -ray.origin_over_direction.z);
+    const float z1 = loose_multiply_add(upper_z, ray.inverse_direction.z, -ray.origin_over_direction.z);
+    const float entry = fmaxf(fmaxf(fminf(x0, x1), fminf(y0, y1)), fmaxf(fminf(z0, z1), start));
+    const float exit = fminf(fminf(fmaxf(x0, x1), fmaxf(y0, y1)), fminf(fmaxf(z0, z1), limit));
+    return entry <= exit ? entry : 3.4e38F;
+}
+
+}  // namespace tandem

@@ -1,0 +1,133 @@
+/// The window through which kernels see a prepared scene, on the CPU and on the GPU.
+#pragma once
+
+#include "tandem/kernel/bsdf/optics.h"
+#include "tandem/kernel/bsdf/phong.h"
+#include "tandem/kernel/camera/camera.h"
+#include "tandem/kernel/lights/area_light.h"
+#include "tandem/kernel/lights/environment.h"
+#include "tandem/kernel/lights/punctual_light.h"
+#include "tandem/kernel/shapes/affine.h"
+#include "tandem/kernel/shapes/quad.h"
+#include "tandem/kernel/texture/texture_set.h"
+
+namespace tandem {
+
+/// The media that the camera stands in, by material, in the order of entering them.
+struct CameraMedia {
+    std::uint32_t count;
+    std::uint32_t material[8];
+};
+
+/// Pointers are to memory of the side that reads them. Ids as in PreparedScene.
+struct SceneView {
+#define TANDEM_SCENE_ARRAY(Type, names) const Type* names;
+#include "tandem/kernel/view/scene_arrays.def"
+    TextureSet textures;
+#define TANDEM_COUNTED_SCENE_ARRAY(Type, name, names) std::uint32_t name##_count;
+#include "tandem/kernel/view/scene_arrays.def"
+    std::uint32_t area_light_kinds;  ///< PrimitiveKinds
+    std::uint32_t area_lights_cast_shadows;
+    std::uint32_t cutout_kinds;   ///< PrimitiveKinds of those that are cut out by their alpha, or culled
+    std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
+    std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
+    CameraMedia camera_media;
+    Environment environment;
+};
+
+TANDEM_HD std::uint32_t primitive_count(const SceneView& scene) {
+    std::uint32_t count = 0;
+#define TANDEM_PRIMITIVE(Type, name, names) count += scene.name##_count;
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    return count;
+}
+
+/// Sets of kinds, as bits. A tracer that serves some kinds only has the code for the others left out.
+struct PrimitiveKinds {
+    enum Place {
+#define TANDEM_PRIMITIVE(Type, name, names) name##_place,
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    };
+#define TANDEM_PRIMITIVE(Type, name, names) static constexpr std::uint32_t name = 1U << name##_place;
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    static constexpr std::uint32_t all = 0U
+#define TANDEM_PRIMITIVE(Type, name, names) | name
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+        ;
+    static constexpr std::uint32_t faces = triangle | quad;
+    static constexpr std::uint32_t bodies = all & ~faces;
+};
+
+/// The bit of a type of primitive.
+template <class Primitive>
+inline constexpr std::uint32_t kind_of = 0;
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    template <>                             \
+    inline constexpr std::uint32_t kind_of<Type> = PrimitiveKinds::name;
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+
+TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
+
+/// Does a kernel learn what its scene has when it is linked (cuda/linked_facts.h)?
+#ifdef TANDEM_LINKED_KINDS
+inline constexpr bool is_linked = true;
+#else
+inline constexpr bool is_linked = false;
+#endif
+
+/// Can a scene have primitives of one of these kinds?
+TANDEM_HD bool may_have(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
+/// Can primitives of one of these kinds be cut out by their alpha, or culled?
+TANDEM_HD bool may_be_cut_out(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_CUTOUT_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
+/// Can a light with an area be of one of these kinds?
+TANDEM_HD bool may_glow(std::uint32_t kinds) {
+#if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
+    return (TANDEM_LINKED_LIGHT_KINDS & kinds) != 0;
+#else
+    return kinds != 0;
+#endif
+}
+
+/// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
+template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
+TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
+    // the last kind that there may be needs no comparison
+#define TANDEM_PRIMITIVE(Type, name, names)                                                   \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
+        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);              \
+        if (may_have(PrimitiveKinds::name)) {                                                 \
+            if (!may_have(later) || id < scene.name##_count) return visitor(scene.names[id]); \
+            id -= scene.name##_count;                                                         \
+        }                                                                                     \
+    }
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+}
+
+/// World-space bounds of primitive `id`, not padded.
+TANDEM_HD Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
+    Aabb result;
+    visit_primitive(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA { result = bounds(primitive); });
+    return result;
+}
+
+}  // namespace tandem

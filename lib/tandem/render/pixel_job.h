@@ -1,0 +1,20 @@
+/// From a RenderJob to what kernels read.
+#pragma once
+
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/kernel/pixel.h"
+#include "tandem/render/render_job.h"
+
+namespace tandem {
+
+[[nodiscard]] inline PixelJob make_pixel_job(const PreparedCamera& camera, const RenderJob& job) {
+    return {.camera = camera_view(camera, job.width, job.height),
+            .seed = job.seed,
+            .frame = job.frame,
+            .first_sample = static_cast<std::uint32_t>(job.first_sample),
+            .samples = static_cast<std::uint32_t>(job.samples),
+            .width = static_cast<std::uint32_t>(job.width),
+            .limits = job.limits};
+}
+
+}  // namespace tandem

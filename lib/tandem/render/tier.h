@@ -1,0 +1,20 @@
+/// The accuracy tiers: what arithmetic a render runs in and what it promises (docs/numerics.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tandem {
+
+enum class Tier {
+#define TANDEM_TIER(name, promise) name,
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+};
+
+[[nodiscard]] std::string to_string(Tier tier);
+
+/// Throws InputError that lists the tiers there are.
+[[nodiscard]] Tier parse_tier(std::string_view name);
+
+}  // namespace tandem

@@ -1,7 +1,0 @@
-#include "tandem/version/version.h"
-
-namespace tandem {
-
-const char* version() { return TANDEM_VERSION; }
-
-}  // namespace tandem

@@ -1,0 +1,96 @@
+#include "targets.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "loop_backend.h"
+#include "tandem/base/error.h"
+
+namespace tandem::bench {
+namespace {
+
+TargetOptions small_options(std::vector<std::string> only) {
+    TargetOptions options;
+    options.only = std::move(only);
+    options.size = {40, 36};
+    options.samples = 2;
+    options.frames = {0, 3};
+    options.ray_edge = 8;
+    options.repetitions = 3;
+    options.folder = testing::TempDir() + "tandem_targets";
+    return options;
+}
+
+TEST(Targets, IdsAreUniqueAndFollowTheCores) {
+    std::set<std::string> ids;
+    for (const TargetResult& target : list_targets(16)) {
+        EXPECT_TRUE(ids.insert(target.id).second) << target.id;
+        EXPECT_GT(target.required, 0);
+        EXPECT_EQ(target.command, "tandem-bench targets --only " + target.id);
+    }
+    for (const char* id :
+         {"gpu-paper", "cpu-paper-1", "cpu-paper-2", "cpu-paper-16", "cpu-paper-o0", "cpu-rays-coherent",
+          "cpu-rays-random", "gpu-rays-coherent", "gpu-rays-random", "gpu-share"}) {
+        EXPECT_TRUE(ids.contains(id)) << id;
+    }
+    EXPECT_EQ(list_targets(16).size(), list_targets(2).size() + 1) << "two cores cannot show what 16 threads do";
+}
+
+TEST(Targets, TheVerdictFollowsTheMeasuredValue) {
+    Report report;
+    const bool satisfied = run_targets(small_options({"cpu-paper-1", "cpu-paper-o0"}), loop_source(), report);
+    bool all_met = true;
+    for (const char* id : {"cpu-paper-1", "cpu-paper-o0"}) {
+        const std::string suffix = id;
+        const double measured = std::stod(property_of(report, "measured " + suffix));
+        const double required = std::stod(property_of(report, "required " + suffix));
+        EXPECT_GT(measured, 0);
+        EXPECT_EQ(property_of(report, "target " + suffix), measured >= required ? "met" : "MISSED");
+        all_met = all_met && measured >= required;
+    }
+    EXPECT_EQ(satisfied, all_met);
+    ASSERT_EQ(report.rows.size(), 4U);
+    for (const BenchmarkRow& row : report.rows) EXPECT_EQ(row.seconds.size(), 3U) << row.label;
+}
+
+TEST(Targets, AMissedTargetIsNotSatisfied) {
+    // No loop of a test reaches 4 G rays/s over a million spheres; two rays would take milliseconds.
+    TargetOptions options = small_options({"gpu-rays-random"});
+    options.ray_edge = 2;
+    options.repetitions = 1;
+    Report report;
+    EXPECT_FALSE(run_targets(options, loop_source(), report));
+    EXPECT_EQ(property_of(report, "target gpu-rays-random"), "MISSED");
+}
+
+TEST(Targets, TheAnimationIsMeasuredAndExplained) {
+    const TargetOptions options = small_options({"gpu-share"});
+    Report report;
+    const bool satisfied = run_targets(options, loop_source(), report);
+    const double share = std::stod(property_of(report, "measured gpu-share"));
+    EXPECT_GT(share, 0);
+    EXPECT_LE(share, 1);
+    EXPECT_EQ(satisfied, share >= 0.8);
+    EXPECT_NE(prose_of(report).find("What holds it back most"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(options.folder + "/frame-0003.png"));
+    EXPECT_FALSE(std::filesystem::exists(options.folder + "/frame-0003.ppm"));
+    std::filesystem::remove_all(options.folder);
+}
+
+TEST(Targets, WithoutAGpuItsTargetsAreLeftOpenAndNotMissed) {
+    Report report;
+    EXPECT_TRUE(run_targets(small_options({"gpu-paper", "gpu-rays-random", "gpu-share"}),
+                            loop_source([](const auto&, const auto&) { return false; }, "cuda"), report));
+    EXPECT_EQ(property_of(report, "target gpu-paper"), "not measured");
+    EXPECT_EQ(property_of(report, "measured gpu-paper"), "");
+}
+
+TEST(Targets, UnknownIdsAreRefused) {
+    Report report;
+    EXPECT_THROW((void)run_targets(small_options({"gpu-papers"}), loop_source(), report), InputError);
+}
+
+}  // namespace
+}  // namespace tandem::bench

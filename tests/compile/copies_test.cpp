@@ -1,0 +1,98 @@
+#include "tandem/compile/copies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/random.h"
+#include "support/scenes.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/render/traced_job.h"
+
+namespace tandem {
+namespace {
+
+using test::small_scene;
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs(const std::vector<PrimitiveCopy>& copies) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
+    for (const PrimitiveCopy& copy : copies) result.emplace_back(copy.id, copy.of);
+    return result;
+}
+
+PreparedScene spheres(const std::vector<Sphere>& list, const std::vector<std::uint32_t>& materials) {
+    PreparedScene scene;
+    scene.spheres = list;
+    scene.material_of = materials;
+    scene.node_of.assign(list.size(), 0);
+    for (std::uint32_t i = 0; i < list.size(); ++i) scene.node_of[i] = i;
+    scene.materials.resize(2);
+    scene.optics.resize(2);
+    return scene;
+}
+
+TEST(Copies, AreOfOneShapeAndMaterial) {
+    const Sphere a = {{1, 2, 3}, 1}, b = {{1, 2, 3}, 2}, zero = {{0, 0, 0}, 1}, minus = {{-0.0F, 0, 0}, 1};
+    const auto copies = find_copies(spheres({a, b, a, a, zero, b, minus}, {0, 0, 1, 0, 0, 0, 0}));
+    EXPECT_EQ(pairs(copies), (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{3, 0}, {5, 1}}));
+}
+
+TEST(Copies, AreFoundAmongFacesWithSidesAndHoles) {
+    Scene scene = small_scene();
+    scene.meshes.push_back({.name = "sheet",
+                            .positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                            .texcoords = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
+                            .triangles = {0, 1, 2, 0, 1, 2},
+                            .quads = {0, 1, 2, 3, 0, 1, 2, 3, 1, 2, 3, 0}});
+    const auto mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+    scene.nodes[1].geometry[0].shape = MeshShape{mesh};
+    PreparedScene prepared = prepare(scene);
+    const auto first = static_cast<std::uint32_t>(primitive_count(prepared) - 5);
+    EXPECT_EQ(pairs(prepared.copies),
+              (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{first + 1, first}, {first + 3, first + 2}}));
+    prepared.quads[1].attributes.sides = FaceSides::double_sided;
+    EXPECT_EQ(find_copies(prepared).size(), 1U);
+}
+
+TEST(Copies, AreTakenOutAndTheIdsStay) {
+    for (std::uint64_t number = 0; number < 200; ++number) {
+        test::Random random(number);
+        std::vector<Sphere> list;
+        const std::uint32_t count = 1 + random.below(60);
+        for (std::uint32_t i = 0; i < count; ++i) list.push_back({{static_cast<float>(random.below(12)), 0, 0}, 1});
+        PreparedScene scene = spheres(list, std::vector<std::uint32_t>(count, 0));
+        scene.copies = find_copies(scene);
+        const PreparedScene unique = without_copies(scene);
+        ASSERT_EQ(unique.spheres.size() + scene.copies.size(), count);
+        ASSERT_TRUE(find_copies(unique).empty());
+        const TracedIds ids(scene.copies);
+        for (std::uint32_t id = 0; id < count; ++id) {
+            const std::uint32_t traced = ids.traced(id), back = ids.of_scene(traced);
+            ASSERT_LT(traced, unique.spheres.size()) << number;
+            ASSERT_EQ(unique.spheres[traced].centre, list[id].centre) << number;
+            ASSERT_LE(back, id);
+            ASSERT_EQ(list[back].centre, list[id].centre) << number;
+            ASSERT_EQ(unique.node_of[traced], back) << number;
+        }
+        ASSERT_EQ(ids.traced(no_primitive), no_primitive);
+        ASSERT_EQ(ids.of_scene(some_primitive), some_primitive);
+    }
+}
+
+TEST(Copies, AreNoLightsOfTheirOwn) {
+    Scene scene = small_scene();
+    scene.materials[0].optics.emission = {1, 1, 1};
+    Geometry ball = {SphereShape{0.5}, 0, std::vector<Trs>(3)};
+    ball.instances[1].translation = {1, 0, 0};
+    scene.nodes[1].geometry = {ball};
+    const PreparedScene prepared = prepare(scene);
+    ASSERT_EQ(prepared.copies.size(), 1U);
+    std::vector<std::uint32_t> lights;
+    for (const AreaLight& light : prepared.area_lights) lights.push_back(light.primitive);
+    const std::uint32_t copy = prepared.copies[0].id;
+    EXPECT_EQ(std::count(lights.begin(), lights.end(), copy), 0);
+    EXPECT_EQ(std::count(lights.begin(), lights.end(), prepared.copies[0].of), 1);
+}
+
+}  // namespace
+}  // namespace tandem

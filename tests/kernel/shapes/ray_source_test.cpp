@@ -1,0 +1,149 @@
+// Rays that start on a surface: never the root at the origin, and the far one within 1 ulp of exact arithmetic on the
+// same floats (cases A8 and B11 of the catalogue).
+#include "tandem/kernel/shapes/ray_source.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/exact_geometry.h"
+#include "support/random.h"
+
+namespace tandem {
+namespace {
+
+using test::Big;
+using test::BigVector;
+
+constexpr std::uint32_t own_id = 7;
+
+Vec3d unit_vector(test::Random& random) {
+    while (true) {
+        const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+        if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
+    }
+}
+
+/// A unit direction with the given cosine against `normal`.
+Vec3d with_cosine(const Vec3d& normal, double cosine, test::Random& random) {
+    const Vec3d across = normalize(cross(normal, unit_vector(random)));
+    return normal * cosine + across * std::sqrt((1 - cosine) * (1 + cosine));
+}
+
+/// The far root of a line and a ball; where the line misses it by rounding, its nearest point to the centre; at least
+/// the smallest t there is.
+Big far_root(const Sphere& sphere, const Ray<float>& ray) {
+    const BigVector offset = test::big(ray.origin) - test::big(sphere.centre);
+    const BigVector d = test::big(ray.direction);
+    const Big a = test::dot(d, d);
+    const Big b = -test::dot(offset, d);
+    const Big discriminant = b * b - a * (test::dot(offset, offset) - Big(sphere.radius) * Big(sphere.radius));
+    const Big t = (b + (discriminant > 0 ? Big(sqrt(discriminant)) : Big(0))) / a;
+    return t > Big(0x1p-1022) ? t : Big(0x1p-1022);
+}
+
+struct Place {
+    double radius;
+    double distance;  ///< of the centre from the origin
+};
+
+class SphereSurface : public testing::TestWithParam<Place> {};
+
+TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
+    int inward = 0, outward = 0, coarse = 0;
+    for (std::uint64_t number = 0; number < 20'000; ++number) {
+        test::Random random(number);
+        const Sphere sphere = {narrow(unit_vector(random) * GetParam().distance),
+                               static_cast<float>(GetParam().radius)};
+        const Vec3d normal = unit_vector(random);
+        const double magnitude = number % 5 == 0 ? 0 : std::exp2(random.uniform(-24.0, 0.0));
+        const double cosine = number % 2 == 0 ? magnitude : -magnitude;
+        const Ray<float> ray = {narrow(widen(sphere.centre) + normal * widen(sphere.radius)),
+                                narrow(with_cosine(normal, cosine, random) * std::exp2(random.uniform(-30.0, 30.0)))};
+        const RaySource source = {own_id, cosine < 0};
+        double t = -1;
+        const bool hit = first_from<float>(source, sphere, own_id, ray, true, HUGE_VAL, t);
+        ASSERT_EQ(hit, source.inside) << "case " << number << ": " << test::reproducer(ray);
+        ++(hit ? inward : outward);
+        if (!hit) continue;
+        ASSERT_GT(t, 0) << "case " << number << ": " << test::reproducer(ray);
+        const double error = test::error_in_ulps(narrow(t), far_root(sphere, ray));
+        if (error > 1 && ++coarse <= 3)
+            ADD_FAILURE() << error << " ulp, case " << number << ": " << test::reproducer(ray);
+        // for another primitive in the same place, the origin is anywhere
+        double t_other = 0, t_free = 0;
+        const bool other = first_from<float>(source, sphere, own_id + 1, ray, true, HUGE_VAL, t_other);
+        ASSERT_EQ(other, first_from<float>(NoSource{}, sphere, own_id + 1, ray, true, HUGE_VAL, t_free))
+            << "case " << number;
+        if (other) {
+            ASSERT_EQ(t_other, t_free) << "case " << number;
+        }
+    }
+    EXPECT_EQ(coarse, 0);
+    EXPECT_GT(inward, 5'000);
+    EXPECT_GT(outward, 5'000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, SphereSurface,
+                         testing::Values(Place{1e-3, 0}, Place{1e-3, 1}, Place{1, 3}, Place{1, 1000}, Place{1, 1e5},
+                                         Place{6.4e6, 6.4e6}, Place{1e-20, 1e-19}, Place{1e15, 1e16}));
+
+class BoxSurface : public testing::TestWithParam<Place> {};
+
+TEST_P(BoxSurface, IsLeftOutwardAndCrossedInward) {
+    for (std::uint64_t number = 0; number < 20'000; ++number) {
+        test::Random random(number);
+        const Vec3d centre = unit_vector(random) * GetParam().distance;
+        const auto half = [&] { return GetParam().radius * random.uniform(0.1, 1.0); };
+        const Vec3d extent = {half(), half(), half()};
+        const Box box = {narrow(centre - extent), narrow(centre + extent)};
+        const int axis = static_cast<int>(random.below(3));
+        const double side = random.coin() ? 1 : -1;
+        Vec3d normal{0, 0, 0};
+        normal[axis] = side;
+        Vec3f origin;
+        for (int i = 0; i < 3; ++i) {
+            const float s = number % 7 == 0 ? 1.0F : random.uniform(0.0F, 1.0F);  // sometimes a corner
+            origin[i] = std::min(box.upper[i], box.lower[i] + s * (box.upper[i] - box.lower[i]));
+        }
+        origin[axis] = side > 0 ? box.upper[axis] : box.lower[axis];
+        const double magnitude = number % 5 == 0 ? 0 : std::exp2(random.uniform(-24.0, 0.0));
+        Vec3d direction = with_cosine(normal, random.coin() ? magnitude : -magnitude, random);
+        if (number % 5 == 0) direction[axis] = 0;
+        const Ray<float> ray = {origin, narrow(direction)};
+        const RaySource source = {own_id, widen(ray.direction[axis]) * side < 0};
+        double t = -1;
+        const bool hit = first_from<float>(source, box, own_id, ray, true, HUGE_VAL, t);
+        ASSERT_EQ(hit, source.inside) << "case " << number << ": " << test::reproducer(ray);
+        if (!hit) continue;
+        // the earliest exit of the three slabs
+        Big exit;
+        bool moves = false;
+        for (int i = 0; i < 3; ++i) {
+            if (ray.direction[i] == 0) continue;
+            const Big face = ray.direction[i] > 0 ? Big(box.upper[i]) : Big(box.lower[i]);
+            const Big at = (face - Big(origin[i])) / Big(ray.direction[i]);
+            if (!moves || at < exit) exit = at;
+            moves = true;
+        }
+        if (exit < Big(0x1p-1022)) exit = Big(0x1p-1022);
+        ASSERT_LE(test::error_in_ulps(narrow(t), exit), 1) << "case " << number << ": " << test::reproducer(ray);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, BoxSurface,
+                         testing::Values(Place{1e-3, 1}, Place{1, 3}, Place{1, 1000}, Place{1e6, 1e6}));
+
+TEST(ShadowSource, DoesNotSeeTheLight) {
+    const Sphere light = {{0, 0, 5}, 1};
+    const Ray<float> ray = {{0, 0, 0}, {0, 0, 1}};
+    ShadowSource<float> source;
+    double t = 0;
+    EXPECT_TRUE(first_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
+    source.light = 3;
+    EXPECT_FALSE(first_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
+    EXPECT_TRUE(first_from<float>(source, light, 4, ray, true, HUGE_VAL, t));
+}
+
+}  // namespace
+}  // namespace tandem
