@@ -1,5 +1,5 @@
-# The libraries that libtandem.a stands on. One list for two readers: the build, and the installed package, whose users
-# link the same libraries because the archive is static.
+# The libraries that Tandem stands on. One list for two readers: the build, and the installed package, whose users link
+# the same libraries where the library is static.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(TBB)

@@ -7,13 +7,31 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 
-install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
 install(
-  DIRECTORY lib/tandem/
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tandem
-  COMPONENT library
-  FILES_MATCHING PATTERN "*.h" PATTERN "*.def"
+  TARGETS tandem
+  EXPORT TandemTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
 )
+
+# tandem_install_header(HEADER): a header under lib/, and all that it includes of ours.
+function(tandem_install_header header)
+  get_property(known GLOBAL PROPERTY tandem_installed_headers)
+  if(header IN_LIST known)
+    return()
+  endif()
+  set_property(GLOBAL APPEND PROPERTY tandem_installed_headers ${header})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS lib/${header})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES lib/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT library)
+  file(STRINGS lib/${header} lines REGEX "^#include \"tandem/")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+    tandem_install_header(${included})
+  endforeach()
+endfunction()
+tandem_install_header(tandem/tandem.h)
+
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir} COMPONENT library)
 
 configure_package_config_file(
@@ -29,6 +47,7 @@ install(
 
 foreach(program tandem-render tandem-bench tandem-gltf)
   if(TARGET ${program})
+    set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}") # of a shared library
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()

@@ -1,8 +1,6 @@
 #include <iostream>
 
-#include <tandem/backends/make_backend.h>
-#include <tandem/compile/prepare.h>
-#include <tandem/scene/named_scenes.h>
+#include <tandem/tandem.h>
 
 int main() {
     const tandem::PreparedScene scene = tandem::prepare(tandem::named_scene("paper"), {.frame = 30});

@@ -1,0 +1,17 @@
+/// All that a program needs which loads, makes and renders scenes. cmake --install installs this header and what it
+/// includes.
+#pragma once
+
+#include "tandem/backends/make_backend.h"
+#include "tandem/base/error.h"
+#include "tandem/base/version.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/effects/names.h"
+#include "tandem/film/film.h"
+#include "tandem/gltf/load_scene.h"
+#include "tandem/images/compare.h"
+#include "tandem/images/image_io.h"
+#include "tandem/images/tone_curve.h"
+#include "tandem/render/motion_blur.h"
+#include "tandem/scene/named_scenes.h"
+#include "tandem/scene/scene.h"
