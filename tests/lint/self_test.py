@@ -49,6 +49,13 @@ class Patterns(unittest.TestCase):
         for code in ("exact_sin(x)", "cosine(x)", "a.exp(x)", "log_wide<Real>(x)", "square_root(x)", "power(x, y)"):
             self.assertFalse(pattern.search(code), code)
 
+    def test_unsettled_functions(self):
+        pattern = self.modules["sources"].UNSETTLED
+        for code in ("std::sin(x)", "cosf(x)", "::atan2 (y, x)", "= std::cbrt(v)", "powl(a, b)", "std::log10(x)"):
+            self.assertTrue(pattern.search(code), code)
+        for code in ("accurate_sin(x)", "std::sqrt(x)", "std::ldexp(x, 2)", "result.log(x)", "catalog(x)", "log()", "std::lround(x)"):
+            self.assertFalse(pattern.search(code), code)
+
     def test_epsilons(self):
         pattern = self.modules["sources"].EPSILON
         for code in ("float t_min = 0.001F;", "epsilon = 1e-4f", "tmin(1e-3F)", "if (t > 1e-4)", "t_near >= Real(1e-3F)"):

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/lane_operations.h"
+#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/quad_light.h"
 #include "tandem/kernel/lights/sphere_light.h"
 #include "tandem/kernel/roulette.h"
@@ -134,6 +135,27 @@ TANDEM_HD Double<Real> barycentric_sum(const Triangle& t, const Ray<Real>& ray) 
 template <class D>
 TANDEM_HD D uniform(const D& a) {
     return D(1.0) / (D(1.0) + a * a);
+}
+/// A picture of 3 x 2, with tables that need not fit it.
+TANDEM_HD EnvironmentPictureView small_sky() {
+    static constexpr float texels[] = {1, 2, 3, 0.5F, 0, 4, 0, 0, 0, 7, 1, 1e-3F, 2, 2, 2, 1e6F, 3, 5};
+    static constexpr double borders[] = {0, 0.25, 0.75};
+    static constexpr std::uint32_t band_ends[] = {1U << 28, 1U << 30, 1U << 31};
+    static constexpr std::uint32_t cell_ends[] = {1U << 20, 1U << 30, 1U << 31, 0,       1U << 29,
+                                                  1U << 31, 1U << 30, 1U << 30, 1U << 31};
+    return {{0.3, 3, 2, 1.5F}, reinterpret_cast<const Vec3f*>(texels), borders, band_ends, cell_ends};
+}
+template <class Real>
+TANDEM_HD Double<Real> environment(const Double<Real>& a, const Double<Real>& b, const Double<Real>& c) {
+    const auto sight = see_environment<Real>(small_sky(), {a, b, c});
+    const Vec3<Double<Real>> seen = widen(sight.radiance);
+    return ((seen.x + seen.y) + seen.z) * sight.pdf;
+}
+template <class Real>
+TANDEM_HD Float<Real> environment_sample(const UInt<Real>& a, const UInt<Real>& b, const UInt<Real>& c) {
+    const auto sample = sample_environment<Real>(small_sky(), {{a, b, c, a ^ (b << 3)}});
+    const auto direction = (sample.direction.x + sample.direction.y * sample.direction.z) + sample.pdf;
+    return narrow(direction) + norm1(narrow(sample.radiance));
 }
 /// All that a light gives, as one number.
 template <class Real, class View>
@@ -312,6 +334,8 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(D, warp, warp_sum<Real>(a, b))                                                                         \
     OPERATION(D, sphere_light, sphere_light<Real>(a, b, c))                                                          \
     OPERATION(D, quad_light, quad_light<Real>(a, b, c))                                                              \
+    OPERATION(D, environment, environment<Real>(a, b, c))                                                            \
+    OPERATION(U, environment_sample, bits_of(environment_sample<Real>(a, b, c)))                                     \
     OPERATION(D, mis, balance_heuristic(a, b) + power_heuristic(b, c))                                               \
     OPERATION(D, survives, survives<Real>(survival_probability(Vec3<D>{a, b, c}, D(0.05)), uniform(a)))
 

@@ -14,6 +14,7 @@
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/prepare_textures.h"
 #include "tandem/compile/render_origin.h"
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"
@@ -442,7 +443,7 @@ class Preparer {
         // in world space until the origin is chosen
         result_.camera.render_from_camera = {transpose(*axes), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
-            result_.camera.half_height = std::tan(perspective->yfov / 2);
+            result_.camera.half_height = accurate_tan(perspective->yfov / 2);
             result_.camera.lens = perspective->lens;
         } else {
             result_.camera.orthographic = true;

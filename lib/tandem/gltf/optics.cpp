@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tandem/gltf/materials.h"
+#include "tandem/math/accurate_functions.h"
 
 namespace tandem::gltf {
 
@@ -13,7 +14,7 @@ namespace {
 /// Beer's coefficient of a channel whose light is down to `colour` after `distance` metres.
 float absorption(float colour, double distance) {
     const double kept = std::fmax(double{colour}, 1e-30);  // black stays a number
-    return static_cast<float>(-std::log(kept) / distance);
+    return static_cast<float>(-accurate_log(kept) / distance);
 }
 
 }  // namespace

@@ -13,11 +13,12 @@
 
 namespace tandem {
 
-enum class ImageFormat { ppm_text, ppm, pfm, png, exr };
+/// `hdr`, Radiance's, is read only.
+enum class ImageFormat { ppm_text, ppm, pfm, png, exr, hdr };
 
-/// PFM and EXR: the linear values themselves, without exposure and transfer function.
+/// PFM, EXR and HDR: the linear values themselves, without exposure and transfer function.
 [[nodiscard]] constexpr bool holds_floats(ImageFormat format) {
-    return format == ImageFormat::pfm || format == ImageFormat::exr;
+    return format == ImageFormat::pfm || format == ImageFormat::exr || format == ImageFormat::hdr;
 }
 
 struct DecodedImage {
@@ -65,6 +66,11 @@ struct DecodedImage {
 /// R, G, B of an EXR, or its only channel for all three, in the data window of the first part; throws as encode_exr()
 /// does.
 [[nodiscard]] DecodedImage decode_exr(std::span<const std::byte> bytes, const std::string& name);
+
+/// Radiance's RGBE, .hdr: 8 bits a channel and an exponent that they share; flat or run-length encoded, rows from the
+/// top or from the bottom. The radiance is that before the EXPOSURE that the header tells of; other variables, as
+/// PRIMARIES, are passed over.
+[[nodiscard]] DecodedImage decode_hdr(std::span<const std::byte> bytes, const std::string& name);
 
 /// Throws EnvironmentError, saying what to install, if this build cannot do EXR.
 void check_exr_support();

@@ -83,12 +83,13 @@ bool begins_with(std::span<const std::byte> bytes, std::string_view magic) {
 DecodedImage decode(std::span<const std::byte> bytes, const std::string& path) {
     using Decoder = DecodedImage (*)(std::span<const std::byte>, const std::string&);
     static constexpr std::pair<std::string_view, Decoder> decoders[] = {
-        {"P3", decode_ppm}, {"P6", decode_ppm},          {"PF", decode_pfm},
-        {"Pf", decode_pfm}, {"\x89PNG\r\n", decode_png}, {"v/1\x01", decode_exr}};
+        {"P3", decode_ppm},          {"P6", decode_ppm},      {"PF", decode_pfm}, {"Pf", decode_pfm},
+        {"\x89PNG\r\n", decode_png}, {"v/1\x01", decode_exr}, {"#?", decode_hdr}};
     for (const auto& [magic, decoder] : decoders) {
         if (begins_with(bytes, magic)) return decoder(bytes, path);
     }
-    throw InputError(fmt::format("'{}' is not an image that Tandem reads: PPM (P3, P6), PFM, PNG or EXR", path));
+    throw InputError(
+        fmt::format("'{}' is not an image that Tandem reads: PPM (P3, P6), PFM, PNG, EXR or Radiance HDR", path));
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 
 namespace tandem {
@@ -38,9 +38,9 @@ Value slerp(const Value& a, Value b, double fraction) {
     double weight_a = 1 - fraction;
     double weight_b = fraction;
     if (cosine < 1 - 1e-9) {  // nearer than that the arc is a line to within rounding
-        const double angle = std::acos(cosine);
-        weight_a = std::sin((1 - fraction) * angle) / std::sin(angle);
-        weight_b = std::sin(fraction * angle) / std::sin(angle);
+        const double angle = accurate_acos(cosine);
+        weight_a = accurate_sin((1 - fraction) * angle) / accurate_sin(angle);
+        weight_b = accurate_sin(fraction * angle) / accurate_sin(angle);
     }
     Value result;
     for (std::size_t i = 0; i < 4; ++i) result[i] = weight_a * a[i] + weight_b * b[i];

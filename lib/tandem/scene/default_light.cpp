@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tandem/images/levels.h"
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/frame.h"
 #include "tandem/scene/animation.h"
@@ -29,7 +30,7 @@ double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 /// Square metres, in the world. Of an ellipsoid that of the sphere of its volume.
 double area_of(const Scene& scene, const Shape& shape, const Matrix3& m) {
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-        const double radius = sphere->radius * std::cbrt(std::abs(determinant(m)));
+        const double radius = sphere->radius * accurate_cbrt(std::abs(determinant(m)));
         return 4 * std::numbers::pi * radius * radius;
     }
     if (const auto* box = std::get_if<BoxShape>(&shape)) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tandem/base/error.h"
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/surface_reach.h"
@@ -140,7 +141,7 @@ Vec3d place_camera(const SurfaceReach& reach, const Bounds& bounds, const Matrix
     const Vec3d size = bounds.upper - bounds.lower;
     const Vec3d middle = bounds.lower + size * 0.5;
     const Sight sight(reach, middle, backward);
-    const double slope = fill * std::tan(vertical_angle / 2);
+    const double slope = fill * accurate_tan(vertical_angle / 2);
     const Fit width = sight.fit(right, slope * aspect);
     const Fit height = sight.fit(up, slope);
     // a line that is seen end-on fits into every picture, and so does a point: the camera keeps off them

@@ -1,7 +1,7 @@
 /// The cone of a spot light as kernels read it (kernel/lights/punctual_light.h).
 #pragma once
 
-#include <cmath>
+#include "tandem/math/accurate_functions.h"
 
 namespace tandem {
 
@@ -12,8 +12,8 @@ struct LightCone {
 
 /// Angles from the axis, radians. Every digit of them counts, however narrow the cone is: nothing cancels.
 [[nodiscard]] inline LightCone light_cone(double inner, double outer) {
-    const double half = std::sin(outer / 2);
-    return {2 * half * half, 1 / (2 * std::sin((outer + inner) / 2) * std::sin((outer - inner) / 2))};
+    const double half = accurate_sin(outer / 2);
+    return {2 * half * half, 1 / (2 * accurate_sin((outer + inner) / 2) * accurate_sin((outer - inner) / 2))};
 }
 
 }  // namespace tandem

@@ -5,12 +5,12 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "tandem/base/error.h"
 #include "tandem/kernel/sampler/philox.h"
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/scene/icosphere.h"
 
@@ -24,7 +24,7 @@ Node camera_node(const Vec3d& position) {
     Node node;
     node.name = "camera";
     node.trs.translation = position;
-    node.camera = PerspectiveCamera{2 * std::atan(1 / 1.5)};
+    node.camera = PerspectiveCamera{2 * accurate_atan(1 / 1.5)};
     return node;
 }
 
@@ -56,7 +56,7 @@ AnimationChannel circling(std::uint32_t node, double frames_per_second, Position
     for (int frame = 0; frame <= paper_frames; ++frame) {
         const double angle = 2 * std::numbers::pi * (frame % paper_frames) / paper_frames;
         channel.times.push_back(static_cast<float>(frame / frames_per_second));
-        for (const double value : position(std::sin(angle), std::cos(angle))) {
+        for (const double value : position(accurate_sin(angle), accurate_cos(angle))) {
             channel.values.push_back(static_cast<float>(value));
         }
     }
@@ -106,7 +106,7 @@ Scene telescope() {
     Scene scene = paper();
     scene.name = "hard/telescope";
     scene.nodes[0].trs.translation.z += distance;
-    scene.nodes[0].camera = PerspectiveCamera{2 * std::atan(3 / 1.5 / distance)};
+    scene.nodes[0].camera = PerspectiveCamera{2 * accurate_atan(3 / 1.5 / distance)};
     return scene;
 }
 
@@ -166,7 +166,7 @@ struct Placements {
 
 Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t seed, const Placements& wanted) {
     Scene scene = crowd(name);
-    const double radius = 0.6 / std::cbrt(static_cast<double>(count));
+    const double radius = 0.6 / accurate_cbrt(static_cast<double>(count));
     std::vector<int> kinds;
     if (wanted.spheres) kinds.push_back(0);
     if (wanted.boxes) kinds.push_back(1);
@@ -198,7 +198,7 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
 /// rounding of their corners. All are double-sided.
 Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t seed, std::uint32_t corners) {
     Scene scene = crowd(name);
-    const double radius = 0.6 / std::cbrt(static_cast<double>(count));
+    const double radius = 0.6 / accurate_cbrt(static_cast<double>(count));
     scene.meshes.resize(scene.materials.size());
     for (std::uint32_t i = 0; i < count; ++i) {
         ObjectNumbers numbers(seed, i);

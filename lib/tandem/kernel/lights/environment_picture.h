@@ -1,0 +1,333 @@
+/// The background as a light: a picture of all directions, and directions that are drawn in proportion to its radiance.
+///
+/// The picture is equirectangular, its top at +y. Its centre is seen along -z, and its columns go on to the right: u =
+/// 3/4 is +x, and the seam is at +z. `turn` rotates the whole about +y, counter-clockwise as seen from above.
+///
+/// Between the centres of its texels the radiance is linear in the azimuth and in the height y of the unit direction;
+/// above the centres of the first row, and below those of the last one, it does not change with the height. So a cell
+/// between four centres is a rectangle in two variables of which the solid angle is a constant multiple (Archimedes),
+/// and a direction can be drawn exactly in proportion to the brightness that is seen there, (r + g) + b. With linear
+/// interpolation in the angle from the pole, as other programs have it, it could not; the two differ in the first rows
+/// about the poles alone.
+///
+/// The cells of a band, from top to bottom, have their chances in integers: of 2^31 each. Hence the chance that a
+/// sample is divided by is that with which it was drawn, to the last bit of a double, whatever the ratio of the
+/// brightest texel to the darkest. Every cell with light in it has a chance of at least 2^-62 (environment_tables.h).
+///
+/// Held by tests/kernel/lights/environment_picture_test.cpp.
+#pragma once
+
+#include "tandem/kernel/sampler/philox.h"
+#include "tandem/kernel/texture/texture_view.h"
+#include "tandem/math/turns.h"
+#include "tandem/math/vec.h"
+
+namespace tandem {
+
+/// A picture has width * height texels, and (height + 1) * width cells: band 0 is the cap above the first row of
+/// centres, and band `height` that below the last one.
+struct EnvironmentPicture {
+    double turn = 0;           ///< of a full one
+    std::uint32_t width = 0;   ///< from 1 to 65536; 0: there is no picture
+    std::uint32_t height = 0;  ///< from 1 to 65536
+    float intensity = 1;       ///< factor of the texels
+    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+};
+static_assert(sizeof(EnvironmentPicture) == 24, "no byte is undefined; scene_hash() reads all");
+
+/// Pointers are to memory of the side that reads them.
+struct EnvironmentPictureView {
+    EnvironmentPicture picture;
+    const Vec3f* texels;    ///< linear RGB, row by row from the top; finite, not negative
+    const double* borders;  ///< (1 - y) / 2 at the upper border of band i: height / 2 + 2, as the rest is their mirror
+    const std::uint32_t* band_ends;  ///< behind the numbers below 2^31 that choose a band: height + 1
+    const std::uint32_t* cell_ends;  ///< the same for the cells of each band, one band after the other
+};
+
+template <class Real>
+struct EnvironmentSample {
+    Vec3<Double<Real>> direction;  ///< unit, towards the environment
+    Vec3<Real> radiance;           ///< RGB, as seen there
+    Double<Real> pdf;              ///< with respect to solid angle, 1/sr; 0: there is nothing to see
+};
+
+/// What is seen along a direction, and with which density sample_environment() would have drawn it.
+template <class Real>
+struct EnvironmentSight {
+    Vec3<Real> radiance;
+    Double<Real> pdf;
+};
+
+namespace environment_detail {
+
+/// A place in a cell: how far along its columns and, from top to bottom, its rows, in [0, 1].
+template <class Real>
+struct CellPoint {
+    UInt<Real> band, column;
+    Double<Real> x, y;
+};
+
+/// The first of `count` ranges of whole numbers, which lie one behind the other, that holds `number`; the last one
+/// where none does.
+TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
+    std::uint32_t first = 0, last = count - 1;
+    while (first < last) {
+        const std::uint32_t middle = (first + last) / 2;
+        if (number < ends[middle]) {
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return first;
+}
+/// How many numbers it holds.
+TANDEM_HD std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
+    return ends[range] - (range > 0 ? ends[range - 1] : 0);
+}
+
+TANDEM_HD std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
+    return static_cast<std::size_t>(band) * picture.width;
+}
+
+/// Where a band lies, as seen from the nearer pole, so that nothing cancels there: (1 - |y|) / 2 at the border towards
+/// that pole, and how much more at the other one.
+template <class Real>
+struct BandReach {
+    Mask<Real> is_southern;
+    Double<Real> border, extent;
+};
+
+template <class Real>
+TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const UInt<Real>& band) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const Word middle(view.picture.height / 2);
+    const auto border = [&](std::uint32_t step) TANDEM_INLINE_LAMBDA {
+        return texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+            const std::uint32_t here = lane(band, i);
+            const std::uint32_t from_pole = here > view.picture.height / 2 ? view.picture.height - here : here;
+            return static_cast<Scalar<D>>(view.borders[from_pole + step]);
+        });
+    };
+    const D first = border(0);
+    return {middle < band, first, border(1) - first};
+}
+
+/// The cell that a direction goes through. Lanes whose direction is not finite have some cell.
+template <class Real>
+TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+    using D = Double<Real>;
+    const D zero(0.0F);
+    const D one(1.0F);
+    const D two(2.0F);
+    const D width(to_float(view.picture.width));
+    const D height(to_float(view.picture.height));
+    const D radius2 = direction.x * direction.x + direction.z * direction.z;
+    const D radius = square_root(radius2);
+
+    const D u = D(0.5F) + (constant<D>(view.picture.turn) + atan2_turns<Real>(direction.x, -direction.z));
+    const TexelPair<D> columns = texels_around(u, Wrap::repeat, Filter::linear, width);
+    // the order of arguments makes a NaN `height`
+    const D rows = lesser(height, atan2_turns<Real>(radius, direction.y) * (height + height) + D(0.5F));
+    const D band = floor_of(rows);
+    const auto word_of = [](const D& a) TANDEM_INLINE_LAMBDA {
+        return texture_detail::words_from_lanes<Real>(
+            [&](int i) TANDEM_INLINE_LAMBDA { return static_cast<std::uint32_t>(to_wide(lane(a, i))); });
+    };
+    CellPoint<Real> point = {word_of(band), word_of(columns.first), columns.weight, zero};
+
+    const BandReach<Real> reach = band_reach<Real>(view, point.band);
+    const D up = select(reach.is_southern, -direction.y, direction.y);  // towards the nearer pole
+    const D length2 = radius2 + direction.y * direction.y;
+    const D length = square_root(select(length2 > zero, length2, one));
+    const D upward = length + greater(up, zero);
+    const D depth = select(up > zero, radius2 / (two * length * upward), (length - up) / (two * length));
+    const D along = greater(lesser(one, (depth - reach.border) / reach.extent), zero);
+    point.y = select(reach.is_southern, one - along, along);
+    return point;
+}
+
+/// The direction of a place in a cell.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+    using D = Double<Real>;
+    const D one(1.0F);
+    const D half(0.5F);
+    const BandReach<Real> reach = band_reach<Real>(view, point.band);
+    const D along = select(reach.is_southern, one - point.y, point.y);
+    const D depth = reach.border + along * reach.extent;
+    const D up = one - (depth + depth);
+    const D radius = square_root(depth * (one - depth));
+    const D column = widen(from_uint<Float<Real>>(point.column));
+    const D u = (column + (half + point.x)) / D(to_float(view.picture.width));
+    const SineCosine<Real> azimuth = sin_cos_turns<Real>((u - half) - constant<D>(view.picture.turn));
+    return {(radius + radius) * azimuth.sine, select(reach.is_southern, -up, up),
+            -((radius + radius) * azimuth.cosine)};
+}
+
+/// The colours at the corners of a cell: of the upper row, left and right, then of the lower one.
+template <class Real>
+struct CellColours {
+    Vec3<Double<Real>> corner[4];
+};
+
+template <class Real>
+TANDEM_HD CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+    using D = Double<Real>;
+    const EnvironmentPicture& picture = view.picture;
+    CellColours<Real> result;
+    for (int k = 0; k < 4; ++k) {
+        const auto channel = [&](auto of) TANDEM_INLINE_LAMBDA {
+            return widen(texture_detail::from_lanes<Float<Real>>([&](int i) TANDEM_INLINE_LAMBDA {
+                const std::uint32_t band = lane(point.band, i);
+                const std::uint32_t left = lane(point.column, i);
+                const std::uint32_t upper = band > 0 ? band - 1 : 0;
+                const std::uint32_t row = k < 2 ? upper : (band < picture.height ? band : upper);
+                const std::uint32_t right = left + 1 < picture.width ? left + 1 : 0;
+                return of(view.texels[static_cast<std::size_t>(row) * picture.width + (k % 2 == 0 ? left : right)]);
+            }));
+        };
+        result.corner[k] = Vec3<D>{channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.x; }),
+                                   channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.y; }),
+                                   channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.z; })};
+    }
+    return result;
+}
+
+/// Values at the corners of a cell, in the order of CellColours.
+template <class D>
+struct Corners {
+    D value[4];
+};
+
+/// a at 0 and b at 1; exact where they are equal.
+template <class D>
+TANDEM_HD D between(const D& a, const D& b, const D& x) {
+    return a + x * (b - a);
+}
+template <class D>
+TANDEM_HD D between(const Corners<D>& c, const D& x, const D& y) {
+    return between(between(c.value[0], c.value[1], x), between(c.value[2], c.value[3], x), y);
+}
+
+template <class Real>
+TANDEM_HD Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellColours<Real>& colours,
+                                 const CellPoint<Real>& point) {
+    using D = Double<Real>;
+    const auto channel = [&](int c) TANDEM_INLINE_LAMBDA {
+        const Corners<D> corners = {
+            {colours.corner[0][c], colours.corner[1][c], colours.corner[2][c], colours.corner[3][c]}};
+        return to_real<Real>(between(corners, point.x, point.y) * D(picture.intensity));
+    };
+    return {channel(0), channel(1), channel(2)};
+}
+
+/// What directions are drawn in proportion to.
+template <class Real>
+TANDEM_HD Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
+    const auto sum = [](const Vec3<Double<Real>>& a) TANDEM_INLINE_LAMBDA { return (a.x + a.y) + a.z; };
+    return {{sum(colours.corner[0]), sum(colours.corner[1]), sum(colours.corner[2]), sum(colours.corner[3])}};
+}
+
+/// The density of a place in a cell: the chance of the cell over its solid angle, times how much brighter than the cell
+/// the place is.
+template <class Real>
+TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
+                                  const CellPoint<Real>& point) {
+    using D = Double<Real>;
+    const EnvironmentPicture& picture = view.picture;
+    const D chance = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+        const std::uint32_t band = lane(point.band, i);
+        const std::uint32_t of_band = range_length(view.band_ends, band);
+        const std::uint32_t of_cell = range_length(view.cell_ends + first_cell(picture, band), lane(point.column, i));
+        return static_cast<Scalar<D>>(static_cast<double>(of_band) * (static_cast<double>(of_cell) * 0x1p-62));
+    });
+    const D extent = band_reach<Real>(view, point.band).extent;
+    const D& a = brightness.value[0];
+    const D mean = ((a + brightness.value[1]) + (brightness.value[2] + brightness.value[3])) * D(0.25F);
+    const Mask<Real> is_lit = mean > D(0.0F);
+    const D relative = between(brightness, point.x, point.y) / select(is_lit, mean, D(1.0F));
+    const D cells_per_steradian = D(to_float(picture.width)) * constant<D>(inverse_pi / 4) / extent;
+    return select(is_lit, (chance * cells_per_steradian) * relative, D(0.0F));
+}
+
+/// A number in [0, 1] with a density that is linear from `a` at 0 to `b` at 1, both >= 0. 0 where both are 0.
+/// Method: the inverse of the distribution function, in the form that does not cancel and divides by no difference.
+template <class D>
+TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
+    const D zero(0.0F);
+    const D one(1.0F);
+    const D sum = a + b;
+    const D p = a / select(sum > zero, sum, one);
+    const D q = one - p;
+    const D divisor = p + square_root((one - u) * (p * p) + u * (q * q));
+    return lesser(select(divisor > zero, u / select(divisor > zero, divisor, one), zero), one);
+}
+
+}  // namespace environment_detail
+
+/// The environment along `direction`, whose length is within [1e-15, 1e15].
+///
+/// Gives:  the radiance, the exact interpolation of the texels for a direction that is 2^-48 (the tier fast: 2^-18)
+/// from
+///         the given one, rounded once; exact where the four texels are equal. The density is that of
+///         sample_environment(), in full precision; next to a border of two cells it may be that of the other one.
+/// Method: the cell comes from the azimuth and the angle from the pole, and the place in it from (1 - |y|) / 2 =
+///         r^2 / (2 l (l + |y|)), which does not cancel at the poles.
+template <class Real>
+TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
+                                                 const Vec3<Double<Real>>& direction) {
+    using namespace environment_detail;
+    const CellPoint<Real> point = cell_towards<Real>(view, direction);
+    const CellColours<Real> colours = colours_of<Real>(view, point);
+    return {radiance_at<Real>(view.picture, colours, point),
+            density_at<Real>(view, brightness_of<Real>(colours), point)};
+}
+
+/// Its radiance alone.
+template <class Real>
+TANDEM_HD Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+    return see_environment<Real>(view, direction).radiance;
+}
+
+/// Its density alone, 1/sr.
+template <class Real>
+TANDEM_HD Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+    return see_environment<Real>(view, direction).pdf;
+}
+
+/// A direction with a density in proportion to (r + g) + b of the radiance there, by four uniform words.
+///
+/// Gives:  a unit vector within 2^-50; brightness / pdf is the same for all samples but for the rounding of chances to
+///         multiples of 2^-31: relative, 2^-31 over the share that the cell has of its band, or the band of the whole.
+///         Of a black picture the density is 0.
+/// Method: a band, then one of its cells, then a place in it by inversion of the bilinear density.
+/// Source: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, sec. 14.2.4, for the two
+///         steps from marginal to conditional distribution.
+template <class Real>
+TANDEM_HD EnvironmentSample<Real> sample_environment(const EnvironmentPictureView& view,
+                                                     const PhiloxBlock<UInt<Real>>& random) {
+    using namespace environment_detail;
+    using D = Double<Real>;
+    const EnvironmentPicture& picture = view.picture;
+    CellPoint<Real> point;
+    point.band = texture_detail::words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
+        return find_range(view.band_ends, picture.height + 1, lane(random.word[0], i) >> 1);
+    });
+    point.column = texture_detail::words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
+        return find_range(view.cell_ends + first_cell(picture, lane(point.band, i)), picture.width,
+                          lane(random.word[1], i) >> 1);
+    });
+    const CellColours<Real> colours = colours_of<Real>(view, point);
+    const Corners<D> brightness = brightness_of<Real>(colours);
+    const auto& [upper_left, upper_right, lower_left, lower_right] = brightness.value;
+    point.y = sample_linear(upper_left + upper_right, lower_left + lower_right,
+                            widen(to_unit_interval<Real>(random.word[2])));
+    point.x = sample_linear(between(upper_left, lower_left, point.y), between(upper_right, lower_right, point.y),
+                            widen(to_unit_interval<Real>(random.word[3])));
+    return {direction_of<Real>(view, point), radiance_at<Real>(picture, colours, point),
+            density_at<Real>(view, brightness, point)};
+}
+
+}  // namespace tandem
