@@ -1,5 +1,7 @@
 // Everything of the kernel side that computes, for ptx.py to look at: the exact functions and one pixel.
 #include "cuda/render_thread.h"
+#include "tandem/bsdf/lobes.h"
+#include "tandem/bsdf/metallic_roughness.h"
 #include "tandem/geometry/intersect.h"
 #include "tandem/integrator/pixel.h"
 #include "tandem/integrator/roulette.h"
@@ -45,6 +47,24 @@ __global__ void warps(int blades, double u, double v, double* out) {
     out[1] = lens.y;
     out[2] = balance_heuristic(bounce.pdf, probability);
     out[3] = survives<float>(probability, u) ? 1.0 : 0.0;
+}
+
+template <class L>
+TANDEM_HD void ask(const L& lobe, const Vec3d& wo, const Vec3d& wi, double* out) {
+    const LobeSample<float> drawn = lobe.sample(wo, wi);
+    const Vec3f colours = (lobe.f(wo, wi) + lobe.albedo(wo)) + drawn.weight;
+    out[0] = widen((colours.x + colours.y) + colours.z);
+    out[1] = (drawn.wi.x + drawn.wi.y) + drawn.wi.z;
+    out[2] = lobe.pdf(wo, wi) + drawn.pdf;
+}
+
+__global__ void lobes(MetallicRoughness<float> material, float shininess, double eta, Vec3d wo, Vec3d wi, double* out) {
+    const MetallicRoughnessLobes<float> made = lobes_of(material);
+    ask(made.specular, wo, wi, out);
+    ask(made.diffuse, wo, wi, out + 3);
+    ask(PhongLobe<float>{material.base_colour, shininess}, wo, wi, out + 6);
+    ask(Dielectric<float>{eta}, wo, wi, out + 9);
+    ask(Mirror<float>{material.base_colour}, wo, wi, out + 12);
 }
 
 __global__ void one_pixel(SceneView scene, PixelJob job, double* out) {

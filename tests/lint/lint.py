@@ -5,7 +5,7 @@ import pathlib
 import re
 import sys
 
-KERNEL_ROOMS = ("math", "geometry", "material", "light", "camera", "sampler", "texture", "integrator", "bvh")
+KERNEL_ROOMS = ("math", "geometry", "material", "light", "camera", "sampler", "texture", "bsdf", "integrator", "bvh")
 CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 # The paper's method re-created to be measured, not used: its arithmetic is its own.
 BASELINE = "apps/bench/baseline/"

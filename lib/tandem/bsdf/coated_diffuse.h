@@ -8,6 +8,11 @@ namespace tandem {
 
 /// f = reflectance / pi (1 - F), with F of the microfacet that would mirror wo to wi: what glTF 2.0, appendix B, leaves
 /// of a dielectric's diffuse base below the reflection (GgxReflection with the same f0). Drawn as Lambert.
+///
+/// By itself it gives no more than it gets. With a smooth border the two together win energy at grazing angles, because
+/// F of the facet between is small there for most light: a white base under a border with f0 = 0.04 gives 1.15 at
+/// 73 degrees and 1.72 at 87 degrees. With alpha >= 1/2 it is less than 1.05. That is the appendix's own model.
+///
 /// Held by tests/unit/bsdf/coated_diffuse_test.cpp and all_lobes_test.cpp.
 template <class Real>
 struct CoatedDiffuse {
@@ -31,9 +36,7 @@ struct CoatedDiffuse {
     }
 
     /// As if no light grazed.
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const {
-        return base.albedo(wo) * (Real(1.0F) - f0);
-    }
+    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const { return base.albedo(wo) * (Real(1.0F) - f0); }
 
   private:
     [[nodiscard]] TANDEM_HD Real enters(const Vec3<D>& wo, const Vec3<D>& wi) const {

@@ -40,26 +40,36 @@ struct LobeSample {
     Mask<Real> transmits;   ///< wi goes through the surface. Rounding may decide the sign of wi.z next to it.
 };
 
+/// Is a kind of light path said once, and at least one side?
+TANDEM_HD constexpr bool is_complete(LobeFlags flags) {
+    const bool has_side = has(flags, LobeFlags::reflection) || has(flags, LobeFlags::transmission);
+    const int kinds = has(flags, LobeFlags::diffuse) + has(flags, LobeFlags::glossy) + has(flags, LobeFlags::specular);
+    return has_side && kinds == 1;
+}
+
 /// What a lobe has:
 ///
-/// flags        its kind, a constant
-/// numbers      how many of the three random numbers sample() reads, the first ones; a constant
-/// f(wo, wi)    the BSDF, RGB, 1/sr, without the cosine; finite. 0 for a specular lobe
-/// pdf(wo, wi)  the density with which sample(wo) draws wi, 1/sr. 0 for a specular lobe, and where f = 0
+/// flags          its kind, a constant
+/// numbers        how many of the three random numbers sample() reads, the first ones; a constant
+/// f(wo, wi)      the BSDF, RGB, 1/sr, without the cosine; finite. 0 for a specular lobe
+/// pdf(wo, wi)    the density with which sample(wo) draws wi, 1/sr. 0 for a specular lobe
 /// sample(wo, u)  a direction; u: uniform numbers in [0, 1), of 24 bits or more
-/// albedo(wo)   about the share of the light that comes from everywhere that leaves along wo, RGB: to choose a lobe by.
-///              Above 0 wherever the share is.
+/// albedo(wo)     about the share of the light from everywhere that leaves along wo, RGB: to choose a lobe by. Above 0
+///                wherever the share is.
+///
+/// f and pdf are 0, and nothing is drawn, where wo is below the surface; of a lobe that only reflects also where wi is.
+/// A specular lobe takes wo.z = 0, any other does not. albedo() is asked above the surface alone.
 template <class L, class Real>
 concept Lobe = requires(const L& lobe, const Vec3<Double<Real>>& w) {
     requires std::same_as<decltype(L::flags), const LobeFlags>;
+    requires is_complete(L::flags);
     requires std::same_as<decltype(L::numbers), const int>;
+    requires L::numbers >= 0 && L::numbers <= 3;
     { lobe.f(w, w) } -> std::same_as<Vec3<Real>>;
     { lobe.pdf(w, w) } -> std::same_as<Double<Real>>;
     { lobe.sample(w, w) } -> std::same_as<LobeSample<Real>>;
     { lobe.albedo(w) } -> std::same_as<Vec3<Real>>;
-} && L::numbers >= 0 && L::numbers <= 3 &&
-    (has(L::flags, LobeFlags::reflection) || has(L::flags, LobeFlags::transmission)) &&
-    (has(L::flags, LobeFlags::diffuse) + has(L::flags, LobeFlags::glossy) + has(L::flags, LobeFlags::specular) == 1);
+};
 
 /// Are both directions above the surface? Only then does a lobe that reflects, and is not specular, scatter.
 template <class Real>

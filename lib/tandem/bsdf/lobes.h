@@ -10,9 +10,9 @@
 
 namespace tandem {
 
-#define TANDEM_LOBE(type, is)                    \
-    static_assert(Lobe<type<float>, float>);     \
-    static_assert(Lobe<type<double>, double>);   \
+#define TANDEM_LOBE(type, is)                  \
+    static_assert(Lobe<type<float>, float>);   \
+    static_assert(Lobe<type<double>, double>); \
     static_assert(Lobe<type<FastFloat>, FastFloat>);
 #include "tandem/bsdf/lobes.def"
 #undef TANDEM_LOBE

@@ -9,10 +9,10 @@ namespace tandem {
 /// A material of glTF 2.0, at one point of the surface: factors times textures.
 template <class Real>
 struct MetallicRoughness {
-    Vec3<Real> base_colour;       ///< linear RGB, each in [0, 1]
-    Real metallic;                ///< in [0, 1]
-    Real roughness;               ///< in [0, 1]
-    Real ior = Real(1.5F);        ///< of the dielectric, >= 1: KHR_materials_ior
+    Vec3<Real> base_colour;        ///< linear RGB, each in [0, 1]
+    Real metallic;                 ///< in [0, 1]
+    Real roughness;                ///< in [0, 1]
+    Real ior = Real(1.5F);         ///< of the dielectric, >= 1: KHR_materials_ior
     Real anisotropy = Real(0.0F);  ///< in [0, 1]: anisotropyStrength of KHR_materials_anisotropy
 };
 
@@ -25,9 +25,9 @@ struct MetallicRoughnessLobes {
 
 /// The BSDF of glTF 2.0, appendix B: mix(dielectric, metal, metallic).
 ///
-/// Schlick's reflectance is linear in f0, so the specular parts of dielectric and metal are one lobe, whose f0 is the mix
-/// of theirs: the sum is that of the appendix, and no approximation. The direction of KHR_materials_anisotropy is the
-/// frame's x. Held by tests/unit/bsdf/metallic_roughness_test.cpp.
+/// Schlick's reflectance is linear in f0, so the specular parts of dielectric and metal are one lobe, whose f0 is the
+/// mix of theirs: the sum is that of the appendix, and no approximation. The direction of KHR_materials_anisotropy is
+/// the frame's x. Held by tests/unit/bsdf/metallic_roughness_test.cpp.
 template <class Real>
 TANDEM_HD MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<Real>& material) {
     using D = Double<Real>;

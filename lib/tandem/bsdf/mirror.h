@@ -22,8 +22,8 @@ struct Mirror {
         return sample_about(local_normal<Real>(), wo, u);
     }
 
-    /// The same in any frame: `normal` is a unit vector in that of `wo`. A caller that has the directions in world space
-    /// saves the way to the local frame and back, and its rounding.
+    /// The same in any frame: `normal` is a unit vector in that of `wo`. A caller that has the directions in world
+    /// space saves the way to the local frame and back, and its rounding.
     [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const Vec3<D>& normal, const Vec3<D>& wo,
                                                           const Vec3<D>&) const {
         const Mask<Real> valid = dot(wo, normal) >= D(0.0F);
