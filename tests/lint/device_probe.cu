@@ -1,5 +1,7 @@
 // Everything of the kernel side that computes, for ptx.py to look at: the exact functions and one pixel.
 #include "cuda/render_thread.h"
+#include "tandem/kernel/bsdf/lobes.h"
+#include "tandem/kernel/bsdf/metallic_roughness.h"
 #include "tandem/kernel/lights/quad_light.h"
 #include "tandem/kernel/lights/sphere_light.h"
 #include "tandem/kernel/pixel.h"
@@ -18,6 +20,24 @@ __global__ void exact_functions(const float* x, const float* y, float* out) {
     out[2 * blockDim.x + i] = exact_exp(x[i]);
     out[3 * blockDim.x + i] = exact_log(x[i]);
     out[4 * blockDim.x + i] = exact_pow(x[i], y[i]);
+}
+
+template <class L>
+TANDEM_HD void ask(const L& lobe, const Vec3d& wo, const Vec3d& wi, double* out) {
+    const LobeSample<float> drawn = lobe.sample(wo, wi);
+    const Vec3f colours = (lobe.f(wo, wi) + lobe.albedo(wo)) + drawn.weight;
+    out[0] = widen((colours.x + colours.y) + colours.z);
+    out[1] = (drawn.wi.x + drawn.wi.y) + drawn.wi.z;
+    out[2] = lobe.pdf(wo, wi) + drawn.pdf;
+}
+
+__global__ void lobes(MetallicRoughness<float> material, float shininess, double eta, Vec3d wo, Vec3d wi, double* out) {
+    const MetallicRoughnessLobes<float> made = lobes_of(material);
+    ask(made.specular, wo, wi, out);
+    ask(made.diffuse, wo, wi, out + 3);
+    ask(PhongLobe<float>{material.base_colour, shininess}, wo, wi, out + 6);
+    ask(Dielectric<float>{eta}, wo, wi, out + 9);
+    ask(Mirror<float>{material.base_colour}, wo, wi, out + 12);
 }
 
 template <class View>

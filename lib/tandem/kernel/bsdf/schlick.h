@@ -1,0 +1,40 @@
+/// Schlick's approximation of Fresnel's formulas for microfacets: from the reflectance at normal incidence to 1.
+///
+/// Source: C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994, as glTF 2.0 has
+///         it in appendix B. Held by tests/kernel/bsdf/ggx_reflection_test.cpp.
+#pragma once
+
+#include "tandem/kernel/bsdf/lobe.h"
+
+namespace tandem {
+
+/// (1 - cosine)^5 for a cosine in [0, 1] or rounded beyond it: the share of the way to 1.
+template <class Real>
+TANDEM_HD Real schlick_weight(const Double<Real>& cosine) {
+    using D = Double<Real>;
+    const D rest = greater(D(1.0F) - cosine, D(0.0F));
+    const D square = rest * rest;
+    return to_real<Real>(square * square * rest);
+}
+
+/// The same for the microfacet that mirrors wo to wi. Its normal halves their angle, and |wo + wi| / 2 is the cosine of
+/// the half: no quotient, and right to the last places also where both directions graze.
+template <class Real>
+TANDEM_HD Real schlick_weight_between(const Vec3<Double<Real>>& wo, const Vec3<Double<Real>>& wi) {
+    const Vec3<Double<Real>> both = wo + wi;
+    return schlick_weight<Real>(Double<Real>(0.5F) * square_root(dot(both, both)));
+}
+
+/// Reflectance with the weight given; `f0`: at normal incidence.
+template <class Real>
+TANDEM_HD Vec3<Real> schlick(const Vec3<Real>& f0, const Real& weight) {
+    return f0 + (white<Real>() - f0) * weight;
+}
+
+/// 1 - reflectance.
+template <class Real>
+TANDEM_HD Real schlick_transmittance(const Real& f0, const Real& weight) {
+    return (Real(1.0F) - f0) * (Real(1.0F) - weight);
+}
+
+}  // namespace tandem
