@@ -3,6 +3,7 @@
 
 #include "kernel/bsdf/lobe_lanes.h"
 #include "tandem/kernel/bsdf/lobes.h"
+#include "tandem/math/fast_float.h"
 
 namespace tandem::test {
 namespace {
@@ -23,7 +24,7 @@ TANDEM_HD T fill(Make make) {
     } else {
         // not by set(): g++ 12 takes that for a use of uninitialised lanes
         Scalar<T> numbers[T::size];
-        for (int i = 0; i < T::size; ++i) numbers[i] = make(i);
+        for (int i = 0; i < T::size; ++i) numbers[i] = static_cast<Scalar<T>>(make(i));
         T value;
         std::memcpy(&value, numbers, sizeof value);
         return value;
@@ -74,6 +75,7 @@ TANDEM_HD void make(const LobeNumbers<Real>& n, GgxReflection<Real>& lobe) {
 
 TANDEM_HD std::uint64_t bits_of_number(float v) { return bits_of(v); }
 TANDEM_HD std::uint64_t bits_of_number(double v) { return bits_of(v); }
+TANDEM_HD std::uint64_t bits_of_number(FastFloat v) { return bits_of(v); }
 TANDEM_HD std::uint64_t bits_of_number(bool v) { return v ? 1 : 0; }
 
 /// Writes the numbers of lobe number `at`, lane by lane.

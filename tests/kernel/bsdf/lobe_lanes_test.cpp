@@ -54,6 +54,43 @@ TEST(LobeLanes, AgreeWithSingleRaysOnV4) {
     compare(lobe_runners_v4());
 }
 
+// Away from grazing directions and from the smoothest surfaces, where float has no place for the facets' slopes.
+TEST(LobeLanes, TheFastTierIsNearTheStrictOne) {
+    int compared = 0, chose_otherwise = 0;
+    for (std::uint64_t number = 0; number < 100'000; ++number) {
+        LobeInput in = lobe_input(number);
+        if (in.wo[2] < 0.05 || in.wi[2] < 0.05 || in.roughness[0] < 0.05 || in.roughness[1] < 0.05) continue;
+        LobeBits strict, fast;
+        run_lobes<float>(&in, &strict);
+        run_lobes<FastFloat>(&in, &fast);
+        for (int lobe = 0; lobe < lobe_count; ++lobe) {
+            const auto in_fast = [&](int k) { return float_of(static_cast<std::uint32_t>(fast.number[lobe][k])); };
+            // numbers of decisions are doubles
+            const auto in_strict = [&](int k) {
+                const bool is_double = k == 3 || (k >= 7 && k <= 10);
+                const std::uint64_t bits = strict.number[lobe][k];
+                return is_double ? double_of(bits) : widen(float_of(static_cast<std::uint32_t>(bits)));
+            };
+            const auto expect_near = [&](int k, double relative, double absolute) {
+                EXPECT_NEAR(in_fast(k), in_strict(k), relative * std::abs(in_strict(k)) + absolute)
+                    << lobe_names[lobe] << ", number " << k << ", lobe_input(" << number << ")";
+            };
+            for (int k = 0; k < 4; ++k) expect_near(k, 5e-3, 1e-6);
+            for (int k = 4; k < 7; ++k) expect_near(k, 1e-5, 1e-6);
+            ++compared;
+            if (fast.number[lobe][14] != strict.number[lobe][14] || fast.number[lobe][15] != strict.number[lobe][15]) {
+                ++chose_otherwise;
+                continue;
+            }
+            for (int k = 7; k < 10; ++k) expect_near(k, 0, 5e-3);
+            for (int k = 11; k < 14; ++k) expect_near(k, 5e-3, 5e-3);
+        }
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(compared, 50'000);
+    EXPECT_LT(chose_otherwise, compared / 1000);
+}
+
 TEST(LobeLanes, InputsReachEveryAnswer) {
     for (int lobe = 0; lobe < lobe_count; ++lobe) {
         int valid = 0;
