@@ -26,7 +26,7 @@ namespace tandem {
 
 namespace {
 
-/// Up to here a packet tries every primitive; beyond, it asks Embree (docs/performance.md has the crossing point).
+/// Up to here a packet tests every primitive; beyond, it queries Embree (docs/performance.md: the crossing point).
 constexpr std::size_t loop_limit = 24;
 
 /// Owns an Embree handle.
@@ -121,7 +121,7 @@ class CpuScene final : public ResidentScene {
         rtcAttachGeometryByID(embree_.get(), geometry.get(), our_primitives);
     }
 
-    /// Faces as Embree's. It reads their corners where they lie.
+    /// Faces as Embree's own. It reads their corners in place.
     template <class Face>
     void add_faces(RTCDevice device, const TierKernels& kernels, GeometryId id, const std::vector<Face>& faces) {
         if (faces.empty()) return;
@@ -176,7 +176,7 @@ class CpuBackend final : public Backend {
         parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                              static_cast<std::size_t>(threads));
         arena_.initialize(threads);
-        // TBB starts here, before Embree's first commit can arm flush-to-zero in its workers
+        // TBB starts here, before Embree's first commit can set flush-to-zero in its workers
         arena_.execute([] { tbb::parallel_for(0, 64, [](int) { const DefaultFpEnvironment guard; }); });
         device_ = EmbreeDevice(rtcNewDevice(nullptr));
         if (device_.get() == nullptr) throw EnvironmentError("Embree cannot make a device on this machine");

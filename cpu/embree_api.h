@@ -15,7 +15,7 @@ using QueryContext = RTCRayQueryContext;
 using QueryContext = RTCIntersectContext;
 #endif
 
-/// Prepares the head of a context that extends QueryContext. `coherent`: the rays of a packet run alike.
+/// Prepares the head of a context that extends QueryContext. `coherent`: the rays of a packet are similar.
 inline void init_context(QueryContext& context, bool coherent) {
 #if TANDEM_EMBREE_MAJOR == 4
     rtcInitRayQueryContext(&context);

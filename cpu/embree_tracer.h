@@ -1,5 +1,5 @@
-/// Tracing through Embree: it proposes primitives, the shared intersectors decide. In the tier fast it decides on faces
-/// itself.
+/// Tracing through Embree: it proposes primitives, and the shared intersectors decide. In the tier fast Embree itself
+/// decides on faces.
 #pragma once
 
 #include <cstring>
@@ -47,7 +47,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     }
 }
 
-/// As intersect_callback() for any hit before best.t. Embree, and who asks, takes a tfar of -infinity for "occluded".
+/// As intersect_callback() for any hit before best.t. Embree and its caller take a tfar of -infinity for "occluded".
 template <class One, class Packet>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
@@ -74,7 +74,7 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 
 namespace embree_detail {
 
-/// Which of the hits that Embree found on its own faces do not count. `s`: where they are, `id`: on which primitive.
+/// Which of Embree's hits on its own faces do not count. `s`: their parameter, `id`: their primitive.
 template <Search search, class Real>
 TANDEM_HD Mask<Real> is_excluded(const QueryContext<Real>& query, const Float<Real>& s, const UInt<Real>& id) {
     const QuerySource<Real>& source = *query.source;
@@ -94,8 +94,8 @@ TANDEM_HD T load(const void* field) {
 
 }  // namespace embree_detail
 
-/// Embree's filter of hits on its own faces: none on the face that a ray leaves, none on the light that a shadow ray
-/// runs to or beyond it.
+/// Embree's filter for hits on its own faces: rejects the face that a ray leaves, and the light that a shadow ray aims
+/// at and everything beyond it.
 template <Search search, class One, class Packet>
 void filter_callback(const RTCFilterFunctionNArguments* args) {
     using embree_detail::is_excluded;
@@ -210,7 +210,7 @@ struct EmbreeTracer {
     }
 
   private:
-    /// Fills what all queries have; false if no lane can hit anything.
+    /// Fills the part common to all queries; false if no lane can hit anything.
     template <class Real>
     TANDEM_HD bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,
                          bool coherent) const {

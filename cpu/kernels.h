@@ -18,11 +18,11 @@
 
 namespace tandem {
 
-/// What lies in an Embree scene, by geomID: our primitives, all of them in the exact tiers; in the tier fast faces are
-/// Embree's own.
+/// The geometries of an Embree scene, by geomID: our primitives, which are all in the exact tiers; in the tier fast
+/// faces are Embree's own.
 enum GeometryId : std::uint32_t { our_primitives, embree_triangles, embree_quads, geometry_count };
 
-/// A scene as the kernels read it. `embree` is null for a scene of few primitives, which are tried one by one.
+/// A scene as the kernels read it. `embree` is null for a scene of few primitives, which are tested one by one.
 struct CpuSceneView {
     SceneView scene;
     StructureFrame frame;
@@ -35,7 +35,7 @@ struct Tile {
     std::uint32_t x0, x1, y0, y1;
 };
 
-/// What happened in one.
+/// Statistics of one tile.
 struct TileStats {
     RenderCounters counters;
     std::uint64_t rays = 0;  ///< if the path loop counts them (counted_ray_effects)
@@ -49,8 +49,8 @@ struct TileStats {
     }
 };
 
-/// The sets of effects that the path loop is compiled for: chosen by what scenes of assets/scenes pay for effects that
-/// they do not call for (docs/performance.md, "CPU").
+/// The sets of effects that the path loop is compiled for: chosen by the cost of effects that the scenes of
+/// assets/scenes do not need (docs/performance.md, "CPU").
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
     {"direct", all_effects - bouncing_effects},

@@ -1,4 +1,4 @@
-/// Paths that change places, so that the paths of a packet meet the same thing.
+/// Re-sorts paths between packets by what they hit, to reduce divergence.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ struct LanePlaces {
     Word packet;  ///< bytes from the first packet
     Word lane;
 
-    /// The numbers that lie there. `first`: the member of the first packet.
+    /// The numbers at these places. `first`: the member of the first packet.
     template <class T>
     [[nodiscard]] TANDEM_HD Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
         return Lanes<T, Isa>::gather(&first, packet + (lane << (sizeof(T) == 8 ? 3 : 2)));
@@ -28,9 +28,9 @@ struct LanePlaces {
     }
 };
 
-/// Some packets of paths. A packet runs through the code of all that any of its paths meets, and paths that have gone
-/// on from a surface meet many things; so once it is known what each meets next, they are sorted by it.
-/// Where a path is changes no bit: held by tests/agree/effects_test.cpp, between packets of 4, 8 and 16 and the GPU.
+/// Several packets of paths. A packet runs the code for everything that any of its paths hits, and paths that have left
+/// a surface diverge. So once the next hit of each path is known, the paths are sorted by it. Moving a path changes no
+/// bit: tested by tests/agree/effects_test.cpp, with packets of 4, 8 and 16 and the GPU.
 /// Source: after S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
 template <class Effects, class Real>
 class PathPool {
@@ -48,7 +48,7 @@ class PathPool {
         }
     }
 
-    /// Brings all paths to their next vertex and on from there, and adds what those bring that end to `sums`, by
+    /// Follows all paths to their next vertex and from there, and adds the radiance of those that end to `sums`, by
     /// pixel. False if there was no path.
     template <class Tracer>
     TANDEM_HD bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
@@ -59,7 +59,7 @@ class PathPool {
             gone_on = gone_on || now_[i].walk.gone_on();
         }
         if (!any(working)) return false;
-        // camera rays are neighbours as they are
+        // camera rays are neighbours anyway
         const bool sorts = any(gone_on);
         const int together = sorts ? packet_count : 1;
         PathTally<Real> tally;
@@ -94,8 +94,8 @@ class PathPool {
         TANDEM_HD auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
     };
 
-    // Paths that meet the same primitive or, if there are many, the same material; then those that meet nothing, and
-    // those that are none.
+    // First paths that hit the same primitive or, if there are many, the same material; then those that hit nothing,
+    // and lanes without a path.
     static constexpr std::uint32_t bucket_count = 64;
     static constexpr std::uint32_t no_path = bucket_count - 1;
     static constexpr std::uint32_t nothing = bucket_count - 2;

@@ -1,4 +1,4 @@
-/// What a ray of the CPU's tracers leaves and runs to: one type for all rays, so that each decision is compiled once.
+/// The source and target of a ray of the CPU's tracers: one type for all rays, so that each decision is compiled once.
 #pragma once
 
 #include "tandem/kernel/traversal/intersect.h"
@@ -18,7 +18,7 @@ struct QuerySource : PathSource<Real> {
 
 namespace query_detail {
 
-/// first_from() of rays that start on the primitive itself, or that have passed a hole.
+/// first_from() of rays that start on the primitive itself, or that have passed a masked hit.
 template <class Real, class Primitive>
 TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                                              const PathSource<Real>& source, const Mask<Real>& active,
@@ -28,7 +28,7 @@ TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::ui
 
 }  // namespace query_detail
 
-/// decide() as a call: so many places ask for it that the compiler would take minutes to inline it everywhere.
+/// decide() as a call: it has so many callers that the compiler would take minutes to inline it everywhere.
 template <class Real, class Primitive>
 TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                            const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {

@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-/// The pixels of a tile in the order in which lanes take them: in blocks as square as can be of as many as a packet has
-/// lanes, whose rays see the same things.
+/// The pixels of a tile in the order in which lanes take them: in nearly square blocks of as many pixels as a packet
+/// has lanes, so that its rays are coherent.
 template <class Real>
 class TilePixels {
   public:
@@ -29,7 +29,7 @@ class TilePixels {
   private:
     static constexpr std::uint32_t width = Real::size == 4 ? 2 : 4;
 
-    /// Goes on to a pixel within the tile; false if there is none.
+    /// Advances to the next pixel within the tile; false if there is none.
     TANDEM_HD bool find() {
         while (true) {
             if (at_ == static_cast<std::uint32_t>(Real::size)) {

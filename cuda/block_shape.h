@@ -1,4 +1,4 @@
-/// How the threads of kernels are laid out: one a pixel, or as many as the GPU holds, which take pixels from a queue.
+/// The thread layout of kernels: one per pixel, or as many as the GPU holds, which take pixels from a queue.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -8,14 +8,14 @@
 
 namespace tandem::cuda {
 
-// A block covers 16 x 8 pixels as four warps of 8 x 4: neighbours in a warp see the same things.
+// A block covers 16 x 8 pixels as four warps of 8 x 4: so that the rays of a warp are coherent.
 inline constexpr unsigned int warp_width = 8;
 inline constexpr unsigned int warp_height = 4;
 inline constexpr unsigned int block_width = 16;
 inline constexpr unsigned int block_height = 8;
 inline constexpr unsigned int block_threads = block_width * block_height;
 
-// One block of the kernels with a queue fills a multiprocessor, at 128 registers a thread.
+// One block of the kernels with a queue fills a multiprocessor, with 128 registers per thread.
 inline constexpr unsigned int queue_threads = 512;
 
 inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
@@ -29,7 +29,7 @@ struct RenderGrid {
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
     return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
 }
-/// A block for each multiprocessor of the current GPU.
+/// One block per multiprocessor of the current GPU.
 [[nodiscard]] RenderGrid pixel_queue();
 
 }  // namespace tandem::cuda

@@ -1,4 +1,4 @@
-/// What a cubin says about a kernel in it, read from the file itself: no tool, no driver and no GPU is needed. A cubin
+/// The properties of a kernel in a cubin, read from the file itself: no tool, no driver and no GPU is needed. A cubin
 /// is an ELF file of 64 bits; the parts that are NVIDIA's own are described in "CUDA Binary Utilities" only as far as
 /// cuobjdump prints them, and were compared with it.
 #pragma once
@@ -16,7 +16,7 @@ struct CubinFacts {
     std::span<const std::byte> code;  ///< its instructions, with padding and the subroutines that are its own
 };
 
-/// Empty if the bytes are not a whole cubin, or have no such kernel. `code` points into `cubin`.
+/// Empty if the bytes are not a complete cubin, or contain no such kernel. `code` points into `cubin`.
 [[nodiscard]] std::optional<CubinFacts> cubin_facts(std::span<const std::byte> cubin, std::string_view kernel);
 
 }  // namespace tandem::cuda

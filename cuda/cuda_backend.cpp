@@ -18,7 +18,7 @@ namespace {
 
 using namespace cuda;
 
-/// Memory and marks of one frame in flight.
+/// Memory and events of one frame in flight.
 struct FrameMemory {
     Buffer<DeviceMemory> film;
     Buffer<DeviceMemory> counters;
@@ -85,7 +85,7 @@ class CudaBackend final : public Backend {
         kernels_.emplace(properties_.major * 10 + properties_.minor);
     }
 
-    /// Nothing may be running when the streams go.
+    /// Nothing may be running when the streams are destroyed.
     ~CudaBackend() override { (void)cudaDeviceSynchronize(); }
 
     [[nodiscard]] std::string name() const override { return "cuda"; }
@@ -217,7 +217,7 @@ class CudaBackend final : public Backend {
     static void check(const TraceJob& job) { tandem::check(job); }
     static void check(const RenderJob& job, Tier loaded_for) { tandem::check(job, loaded_for); }
 
-    /// Starts a copy to the device, and says where it goes; null for nothing.
+    /// Starts a copy to the device and returns its address; null for nothing.
     template <class T>
     const T* upload(std::span<const T> from, Buffer<DeviceMemory>& to) {
         if (from.empty()) return nullptr;

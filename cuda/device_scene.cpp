@@ -12,10 +12,10 @@ namespace tandem::cuda {
 
 namespace {
 
-/// Up to here a kernel tries every primitive (docs/performance.md has the crossing point).
+/// Up to this number a kernel tests every primitive (docs/performance.md has the crossing point).
 constexpr std::size_t loop_limit = 12;
 
-/// Lays arrays out one behind another, each aligned for 16-byte loads.
+/// Lays arrays out one after another, each aligned for 16-byte loads.
 class Layout {
   public:
     /// `pointer` is to point at the array's copy on the GPU.

@@ -23,7 +23,7 @@ class DeviceScene final : public ResidentScene {
     /// Starts the upload on `stream`. A scene of many primitives gets a hierarchy, built here on the host.
     DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream);
 
-    /// Waits for the upload to know its time.
+    /// Waits for the upload, to measure its time.
     [[nodiscard]] PhaseTimes load_times() const override;
     [[nodiscard]] const DeviceSceneView& view() const { return view_; }
     [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }

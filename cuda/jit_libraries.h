@@ -1,7 +1,7 @@
 /// The libraries of the CUDA toolkit that specialise kernels at load: nvJitLink, which links LTO-IR, and NVRTC, which
 /// compiles the constants. Opened at run time, so that programs start without them. Their functions are declared here
-/// by hand, so that a toolkit without their headers builds Tandem all the same (nvJitLink.h, nvrtc.h: plain C, results
-/// are enums, handles are pointers).
+/// by hand, so that a toolkit without their headers can build Tandem too (nvJitLink.h, nvrtc.h: plain C, results are
+/// enums, handles are pointers).
 #pragma once
 
 #include <cstddef>
@@ -54,8 +54,8 @@ struct JitLibraries {
     std::string problem;  ///< empty if both are there: what is missing, where it was looked for, what to do
 };
 
-/// Where the libraries may be: the folders of TANDEM_CUDA_LIBRARIES (separated by colons) and no others, if that is
-/// set; else the loader's own path, written "", the toolkit that built Tandem, and /usr/local/cuda.
+/// The folders to search: those of TANDEM_CUDA_LIBRARIES (separated by colons) and no others, if that is set; else the
+/// loader's own path, written "", the toolkit that built Tandem, and /usr/local/cuda.
 [[nodiscard]] std::vector<std::string> jit_folders();
 
 /// The first of each library that is of the release that built Tandem's kernels, or a later one of the same major

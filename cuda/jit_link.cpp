@@ -18,7 +18,7 @@ namespace {
 /// nvJitLinkInputType.
 enum class InputKind { ltoir = 3, fatbin = 4 };
 
-/// A handle of one of the libraries, let go of in the end.
+/// A handle of one of the libraries, released in the end.
 class Handle {
   public:
     explicit Handle(int (*destroy)(void**)) : destroy_(destroy) {}

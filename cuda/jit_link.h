@@ -1,6 +1,6 @@
 /// Specialises a kernel by link-time constant folding: nvcc compiled it to LTO-IR, in which it reads facts of the scene
-/// from an undefined constant; here a module that defines the constant is linked with it, and the optimiser removes
-/// what the facts exclude. Needs no GPU and no driver.
+/// from an undefined constant; here a module that defines the constant is linked with it, and the optimiser removes the
+/// code that the facts exclude. Needs no GPU and no driver.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct JitInput {
     std::string kernel;                ///< the one to keep
     std::string facts_name;            ///< of the `extern "C" __device__ const` struct that the kernel reads
     std::vector<std::uint32_t> facts;  ///< what is in it: words_of()
-    Tier tier = Tier::strict;          ///< whose arithmetic the link keeps to
+    Tier tier = Tier::strict;          ///< whose arithmetic the link must keep
     int architecture = 0;              ///< of the GPU: 90 for compute capability 9.0; not below that of the LTO-IR
 };
 
@@ -40,8 +40,8 @@ template <class Facts>
 /// "nvJitLink 13.0, NVRTC 13.0": what the machine code depends on besides the input. Throws as link() does.
 [[nodiscard]] std::string jit_version();
 
-/// What nvJitLink is told. With LTO the link decides about contraction and flushes, whatever nvcc was told: so strict
-/// and precise say here again that there are none.
+/// The options of nvJitLink. With LTO the link decides about contraction and flushes, whatever nvcc's options were: so
+/// for strict and precise it is told again that there are none.
 [[nodiscard]] std::vector<std::string> link_options(const JitInput& input);
 
 /// The specialised kernel as a cubin. Throws EnvironmentError with why_jit_unavailable() if the libraries are missing;

@@ -1,7 +1,7 @@
-/// Cubins of specialised kernels, kept on disk. Processes and threads may share a folder: an entry is put in place
-/// whole by renaming, the last one wins, and all that could be put under a key are equally good. Entries that are torn,
-/// altered or of something else are not used. The cache is there for speed: nothing in it throws, and what does not
-/// work is told in words.
+/// Cubins of specialised kernels, kept on disk. Processes and threads may share a folder: an entry is written
+/// completely and then renamed, the last one wins, and all entries for a key are equally good. Entries that are
+/// incomplete, altered or foreign are not used. The cache only saves time: nothing in it throws, and problems are
+/// returned as text.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class KernelCache {
   public:
     static constexpr std::uint64_t default_limit_bytes = std::uint64_t{256} << 20;
 
-    /// An empty path is a cache that keeps nothing. The folder is made when there is something to put into it.
+    /// An empty path is a cache that keeps nothing. The folder is created when there is something to put into it.
     explicit KernelCache(std::filesystem::path folder, std::uint64_t limit_bytes = default_limit_bytes)
         : folder_(std::move(folder)), limit_bytes_(limit_bytes) {}
 
@@ -25,11 +25,11 @@ class KernelCache {
         std::vector<std::byte> cubin;  ///< empty if there is no entry, or none to be trusted
         std::string problem;           ///< what is wrong with the entry; empty if it is good, or if there is none
     };
-    /// `key` is a SHA-256 in hexadecimal of all that the cubin depends on.
+    /// `key` is a SHA-256 in hexadecimal of everything that the cubin depends on.
     [[nodiscard]] Found find(const std::string& key) const;
 
-    /// Empty, or why the cubin could not be kept. Then removes the entries that were not used for longest, down to the
-    /// limit; files that are no entries stay.
+    /// Empty, or why the cubin could not be kept. Then removes the least recently used entries, down to the limit;
+    /// other files stay.
     [[nodiscard]] std::string store(const std::string& key, std::span<const std::byte> cubin) const;
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

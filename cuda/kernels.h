@@ -20,7 +20,7 @@ namespace tandem::cuda {
 /// A scene in device memory.
 struct DeviceSceneView {
     SceneView scene;
-    BvhView bvh;    ///< without nodes for a scene of not so many primitives, which are tried one by one
+    BvhView bvh;    ///< without nodes for a scene of few primitives, which are tested one by one
     FewTracer few;  ///< filled for a scene that fits_few_tracer()
 };
 
@@ -46,7 +46,7 @@ inline constexpr KernelVariant variants[] = {
     {"full", all_effects},
 };
 
-/// Every pixel adds its rays to one of so many counters: the threads of a warp to different ones.
+/// The number of ray counters: each pixel adds to one of them, the threads of a warp to different ones.
 inline constexpr std::size_t ray_counters = 32;
 
 /// What kernels count, in device memory.
@@ -82,7 +82,7 @@ struct RenderKernel {
 /// The kernels of one tier.
 struct TierKernels {
     RenderKernel render[std::size(variants)];
-    /// Starts the answers to the rays.
+    /// Starts tracing the rays.
     void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 };
 

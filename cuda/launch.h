@@ -1,4 +1,4 @@
-/// The one door to the GPU: every kernel is started here. For .cu files.
+/// The one place where kernels are launched. For .cu files.
 #pragma once
 
 #include "cuda/cuda_error.h"

@@ -1,5 +1,5 @@
-/// What a render kernel is specialised for at load (cuda/scene_kernels.h): one struct, made on the host from the scene
-/// and the job, a constant to the kernel once it is linked.
+/// The facts that a render kernel is specialised for at load (cuda/scene_kernels.h): one struct, made on the host from
+/// the scene and the job, a constant to the kernel once it is linked.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ struct LinkedFacts {
 
     std::uint32_t effects = 0;                                  ///< EffectMask::bits()
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
-    std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the lights with an area
-    std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds that have holes
-    std::uint32_t lights = 0;                                   ///< without one
+    std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the area lights
+    std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds that are cut out by alpha, or culled
+    std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;

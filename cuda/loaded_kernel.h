@@ -1,6 +1,6 @@
 /// A kernel from a cubin, through the runtime's library interface: like all of the runtime it opens the driver only
-/// when it is used, so that programs start without one. The other door to the GPU beside launch.h; host code can use
-/// it.
+/// when it is used, so that programs start without one. The only other way to launch a kernel than launch.h; host code
+/// can use it.
 #pragma once
 
 #include <cuda_runtime_api.h>

@@ -17,7 +17,7 @@ struct DeviceMemory {
         check(cudaMalloc(&address, bytes), "allocating GPU memory");
         return address;
     }
-    // a failure to free cannot be answered, and happens only when the driver is going down
+    // a failure to free cannot be handled, and happens only when the driver shuts down
     static void release(void* address) { (void)cudaFree(address); }
 };
 
@@ -61,11 +61,11 @@ class Buffer {
     std::size_t bytes_ = 0;
 };
 
-/// Things that are dear to make: returned ones are handed out again. A lease outlives the pool's owner safely.
+/// Objects that are expensive to make: returned ones are reused. A lease may outlive the pool's owner.
 template <class T>
 class Pool : public std::enable_shared_from_this<Pool<T>> {
   public:
-    /// Exclusive use of one, until the pointer is let go.
+    /// Exclusive use of one, until the pointer is released.
     [[nodiscard]] std::shared_ptr<T> lease() {
         std::unique_ptr<T> item;
         {

@@ -1,4 +1,4 @@
-/// What a thread of a render kernel does: one pixel, or one after the other.
+/// The work of a thread of a render kernel: one pixel, or several one after the other.
 #pragma once
 
 #include "cuda/block_shape.h"
@@ -31,9 +31,9 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
-/// Pixels from a queue, for all others (gathering_effects): whoever is done takes the next. All threads of a block
-/// start each vertex together, because the code of a vertex is longer than the caches for instructions close to the
-/// cores: so one warp's instructions are fetched for all (docs/performance.md). Which thread has which pixel changes no
+/// Pixels from a queue, for all others (gathering_effects): a thread that is done takes the next. The threads of a
+/// block synchronise before each vertex, because the code of a vertex is larger than the instruction caches: so
+/// the instructions are fetched once for all warps (docs/performance.md). Which thread has which pixel changes no
 /// bit.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,

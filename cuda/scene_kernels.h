@@ -1,4 +1,4 @@
-/// The render kernels that are specialised for scenes: each is linked once per backend, and kept on disk.
+/// The render kernels that are specialised for scenes: each is linked once per backend, and cached on disk.
 #pragma once
 
 #include <map>
@@ -14,14 +14,14 @@
 
 namespace tandem::cuda {
 
-/// What a scene and a job ask of the kernel that draws them. What they do not use is left out, so that scenes that
-/// differ in it share a kernel.
+/// The facts of a scene and a job for the kernel that renders them. Unused facts are left out, so that scenes that
+/// differ only in them share a kernel.
 [[nodiscard]] LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits);
 
 /// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
-/// A kernel that is made for a scene.
+/// A kernel that is linked for a scene.
 struct SceneKernel {
     LoadedCode code;
     bool has_queue;  ///< its threads take pixels from a queue (cuda/render_thread.h)
@@ -35,7 +35,7 @@ class SceneKernels {
     struct Found {
         const SceneKernel* kernel = nullptr;  ///< lives as long as this; null if there can be none
         double seconds = 0;                   ///< that it took to make or to fetch; 0 if it was there
-        std::string warning;                  ///< why there is no kernel, or why the cache did not work; told once
+        std::string warning;                  ///< why there is no kernel, or why the cache did not work; reported once
     };
     /// Not for several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);

@@ -7,7 +7,7 @@
 
 namespace tandem::cuda {
 
-/// A mark in a stream, with a time.
+/// An event in a stream, with a time.
 class Event {
   public:
     Event() { check(cudaEventCreate(&handle_), "creating an event"); }

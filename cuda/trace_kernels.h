@@ -1,4 +1,4 @@
-/// The CUDA kernels that answer rays, as templates over the Real of a tier (math/real.h).
+/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h).
 #pragma once
 
 #include "cuda/launch.h"
@@ -6,8 +6,8 @@
 
 namespace tandem::cuda {
 
-/// What a trace asks: the nearest hits of rays that leave nothing, of rays that leave surfaces, or only whether shadow
-/// rays are stopped.
+/// The queries of a trace: the nearest hits of rays that start in space or on surfaces, or only whether shadow rays are
+/// blocked.
 enum class Ask { nearest, nearest_from_surface, occluded };
 
 template <class Real, Ask ask, class Tracer>

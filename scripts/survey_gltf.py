@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Draws glTF files that nobody here wrote, and says what came of each: drawn, refused and why, or worse.
+"""Renders glTF files from other sources and reports the outcome of each: rendered, refused and why, or a failure.
 
   scripts/survey_gltf.py [NAME=]FILE|FOLDER... [--corpus FOLDER] --json survey.json
   scripts/survey_gltf.py ... --summary docs/results/gltf-files/survey.json --page docs/results/gltf-files.md
 
-FILEs and FOLDERs are listed one by one. --corpus names a folder of folders, one a source: these are counted, without copies.
-It runs tandem-render on every file, --jobs at a time. A run with --json that was stopped goes on where it was.
+The page lists FILEs and FOLDERs one by one. --corpus names a folder of folders, one per source: their files are only counted,
+without duplicates. The script runs tandem-render on every file, --jobs at a time. An interrupted run with --json resumes.
 
-Exit status: 0 every file was drawn or refused with a sentence; 1 a crash, a hang or an odd status, or with --parity films that
-differ; 2 wrong usage; 3 the machine lacks something.
+Exit status: 0 every file was rendered, or refused with a message; 1 a crash, a hang or an unexpected status, or with --parity
+films that differ; 2 wrong usage; 3 the machine lacks something.
 """
 
 import argparse
@@ -30,8 +30,8 @@ def stop(message, status=2):
 
 def options_of(arguments):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", nargs="*", metavar="[NAME=]FILE|FOLDER", help="listed one by one, under the name or the folder's")
-    parser.add_argument("--corpus", metavar="FOLDER", help="a folder of sources, which are counted")
+    parser.add_argument("folders", nargs="*", metavar="[NAME=]FILE|FOLDER", help="files that the page lists one by one, under NAME or the folder's name")
+    parser.add_argument("--corpus", metavar="FOLDER", help="a folder of sources whose files are only counted")
     parser.add_argument("--render", default=os.path.join(ROOT, "build", "release", "bin", "tandem-render"), metavar="PROGRAM")
     parser.add_argument("--size", default="16x12")
     parser.add_argument("--spp", type=int, default=1)
@@ -39,23 +39,23 @@ def options_of(arguments):
     parser.add_argument("--tier", default="strict")
     parser.add_argument("--jobs", type=int, default=1, help="files at a time (1)")
     parser.add_argument("--timeout", type=float, default=120, help="seconds until a run counts as a hang (120)")
-    parser.add_argument("--memory", type=int, default=8192, metavar="MIB", help="of addresses a run may have (8192); 0: no limit")
+    parser.add_argument("--memory", type=int, default=8192, metavar="MIB", help="address space of a run in MiB (8192); 0: no limit")
     parser.add_argument("--json", metavar="FILE", help="write the record of every file")
-    parser.add_argument("--summary", metavar="FILE", help="write what the page quotes")
+    parser.add_argument("--summary", metavar="FILE", help="write the figures that the page quotes")
     parser.add_argument("--page", metavar="FILE", help="write the Markdown page; needs --summary")
-    parser.add_argument("--from", dest="read", metavar="JSON", help="read the records of an earlier --json instead of drawing")
-    parser.add_argument("--sheet", metavar="FOLDER", help="write contact sheets of what is drawn; needs Pillow, and a larger --size")
+    parser.add_argument("--from", dest="read", metavar="JSON", help="read the records of an earlier --json instead of rendering")
+    parser.add_argument("--sheet", metavar="FOLDER", help="write contact sheets of the images; needs Pillow, and a larger --size")
     parser.add_argument("--parity", action="store_true", help="compare the films of cpu and cuda, in strict and precise")
-    parser.add_argument("--commit", help="what the program was built from; this tree's HEAD if not given")
+    parser.add_argument("--commit", help="the commit that the program was built from; default: HEAD of this tree")
     parser.add_argument("--remark", default="", help="a sentence about the run for the page")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     options = parser.parse_args(arguments)
     if not (options.folders or options.corpus or options.read):
         stop("name files or folders, a --corpus, or --from an earlier survey")
     if options.page and not options.summary:
-        stop("--page quotes the file of --summary; name that too")
+        stop("--page needs --summary: the page quotes that file")
     if options.sheet and not sheets.pillow():
-        stop("--sheet needs the Python package Pillow, which is absent; install it with 'pip install pillow'", 3)
+        stop("--sheet needs the Python package Pillow; install it with 'pip install pillow'", 3)
     for path in [*(files.named(folder)[1] for folder in options.folders), *([options.corpus] if options.corpus else [])]:
         if not os.path.exists(path):
             stop(f"there is no {path}")
@@ -113,14 +113,14 @@ def drawn_survey(options, renderer, listed, corpus):
             kept.add(record)
         return record
 
-    records = runs.each([*listed, *corpus], options.jobs, record_of, progress_line("drawn", options.quiet))
+    records = runs.each([*listed, *corpus], options.jobs, record_of, progress_line("rendered", options.quiet))
     kept.close()
     commits = files.commits(options.corpus) if options.corpus else {}
     return {"run": about(options), "commits": commits, "listed": records[: len(listed)], "corpus": records[len(listed) :]}
 
 
 def report_of(survey):
-    """Prints the totals; whether every file was drawn or refused with a sentence."""
+    """Prints the totals; returns whether every file was rendered, or refused with a message."""
     records = survey["listed"] + survey["corpus"]
     for name, count in summary.counts(records).items():
         print(f"{count:6} {name}")

@@ -77,18 +77,19 @@ bool equal_where_promised(const std::vector<Outcome>& outcomes, Report& report) 
 }  // namespace
 
 bool accuracy_of_frames(const AccuracyOptions& options, const AccuracyStage& stage, Report& report) {
-    Table table{fmt::format("Frames of {} x {} with {} samples a pixel; differences from the film of the tier precise",
-                            options.size.width, options.size.height, options.samples),
-                {{"Scene"},
-                 {"Backend and tier"},
-                 {"Render", true},
-                 {"Samples/s", true},
-                 {"Times the fastest", true},
-                 {"Registers", true},
-                 {"Mean difference", true},
-                 {"Largest", true},
-                 {"Pixels off by 1/255", true}},
-                {}};
+    Table table{
+        fmt::format("Frames of {} x {} with {} samples per pixel; differences from the film of the tier precise",
+                    options.size.width, options.size.height, options.samples),
+        {{"Scene"},
+         {"Backend and tier"},
+         {"Render", true},
+         {"Samples/s", true},
+         {"Times the fastest", true},
+         {"Registers", true},
+         {"Mean difference", true},
+         {"Largest", true},
+         {"Pixels off by 1/255", true}},
+        {}};
     bool equal = true;
     for (const std::string& name : options.scenes) {
         std::vector<Outcome> outcomes = measure(options, stage, name);
@@ -122,7 +123,7 @@ bool accuracy_of_frames(const AccuracyOptions& options, const AccuracyStage& sta
     report.blocks.emplace_back(std::move(table));
     if (equal) {
         report.blocks.emplace_back(
-            Callout{Callout::Kind::good, "Strict and precise drew the same bits on every backend."});
+            Callout{Callout::Kind::good, "Strict and precise gave equal bits on every backend."});
     }
     return equal;
 }

@@ -130,13 +130,13 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
 }  // namespace
 
 bool accuracy_of_rays(const AccuracyOptions& options, const AccuracyStage& stage, Report& report) {
-    Table table{fmt::format("{} rays per kind of primitive, {} of them checked against the oracle. \"Wrong\": another "
-                            "primitive than the nearest. Errors of t in units of the last place of float, and of t in "
-                            "the tier's own precision relative to t",
+    Table table{fmt::format("{} rays per kind of primitive, {} of them checked against the oracle. \"Wrong\": not the "
+                            "nearest primitive. Errors of t are in units of the last place of float; the relative "
+                            "error is that of t in the tier's own precision",
                             format_number(options.rays), format_number(std::min(options.checked_rays, options.rays))),
                 {{"Rays at"},
                  {"Backend and tier"},
-                 {"Time a ray", true},
+                 {"Time per ray", true},
                  {"Times the fastest", true},
                  {"Wrong", true},
                  {"Worst ulp", true},
@@ -153,11 +153,10 @@ bool accuracy_of_rays(const AccuracyOptions& options, const AccuracyStage& stage
     report.blocks.emplace_back(Heading{"A ray"});
     report.blocks.emplace_back(std::move(table));
     report.blocks.emplace_back(
-        right
-            ? Callout{Callout::Kind::good,
-                      "Strict and precise decided every ray right, t within one unit of the last place, with the same "
-                      "bits on every backend."}
-            : Callout{Callout::Kind::bad, "A tier that promises right decisions and equal bits broke its promise."});
+        right ? Callout{Callout::Kind::good,
+                        "Strict and precise decided every ray correctly, with t within one unit of the last place and "
+                        "equal bits on every backend."}
+              : Callout{Callout::Kind::bad, "A tier that guarantees correct decisions and equal bits failed."});
     return right;
 }
 

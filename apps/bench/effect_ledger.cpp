@@ -48,12 +48,12 @@ class FirstFrames {
         const auto small = [](const FloatImage& of, const std::string& caption, const Display& display) {
             return small_picture(of, picture_width, caption, display);
         };
-        ledger_.pictures.push_back(
-            PictureGrid{{small(whole_image_, "The whole set", display_),
-                         small(image, fmt::format("{}: RMSE {}", row.arm.name(), format_number(row.rmse)), display_),
-                         small(flip_map(difference),
-                               fmt::format("FLIP between the two: mean {}; black 0, pale 1", format_number(row.flip)),
-                               {TransferFunction::linear})}});
+        ledger_.pictures.push_back(PictureGrid{
+            {small(whole_image_, "The whole set", display_),
+             small(image, fmt::format("{}: RMSE {}", row.arm.name(), format_number(row.rmse)), display_),
+             small(flip_map(difference),
+                   fmt::format("FLIP between the two: mean {}; black is 0, light is 1", format_number(row.flip)),
+                   {TransferFunction::linear})}});
     }
 
     Ledger& ledger_;
@@ -153,7 +153,7 @@ std::vector<Ledger> measure_ledgers(const EffectsOptions& options, const std::st
     };
     std::vector<Ledger> ledgers;
     std::vector<Entry> entries;
-    log_progress(fmt::format("{}: {} rounds of {} arms", name, options.repetitions,
+    log_progress(fmt::format("{}: {} rounds of {} renders", name, options.repetitions,
                              plan.arms.size() * backends.size() * tiers.size()));
     for (const LedgerBackends& backend : backends) {
         for (const Tier tier : tiers) {

@@ -29,12 +29,12 @@ std::vector<LedgerBackends> make_backends(const EffectsOptions& options, const B
                 source.make(name, {.threads = options.threads, .instruction_set = {}, .specialise = Specialise::never});
         }
     }
-    if (backends.empty()) throw EnvironmentError("none of the backends that were asked for can run here");
+    if (backends.empty()) throw EnvironmentError("none of the requested backends can run on this machine");
     return backends;
 }
 
 Table needs_table(const LedgerPlan& plan) {
-    Table table{"What the scene calls for", {{"Effect"}, {"Because"}, {"Adds"}}, {}};
+    Table table{"What the scene needs", {{"Effect"}, {"Reason"}, {"Adds"}}, {}};
     for (const EffectNeed& need : plan.needs) {
         const char* adds = effect_names()[static_cast<std::size_t>(need.effect)].adds;
         table.rows.push_back({to_string(need.effect), need.reason, adds});
@@ -75,7 +75,7 @@ Table empty_table(std::string caption, std::string difference, std::string ratio
              {"Compile", true},
              {"RMSE", true},
              {"Mean FLIP", true},
-             {"Also gone"},
+             {"Also removed"},
              {"Code"}},
             {}};
 }
@@ -84,9 +84,9 @@ std::string label(const Ledger& ledger) { return fmt::format("{} {}", ledger.bac
 
 Table leave_one_out(const Ledger& ledger) {
     Table table = empty_table(
-        fmt::format("{}: leave one out. RMSE and FLIP are what it changed in the picture, against the whole set",
+        fmt::format("{}: without one effect. RMSE and FLIP measure the change of the image, relative to the whole set",
                     label(ledger)),
-        "It costs", "Whole over this");
+        "Cost", "Whole over this");
     const LedgerRow& whole = ledger.rows.front();
     for (const LedgerRow& row : ledger.rows) {
         if (row.arm.kind == Kind::whole) {
@@ -100,8 +100,9 @@ Table leave_one_out(const Ledger& ledger) {
 }
 
 Table add_one_in(const Ledger& ledger) {
-    Table table = empty_table(fmt::format("{}: add one in. RMSE and FLIP are against the whole set", label(ledger)),
-                              "It costs", "This over none");
+    Table table =
+        empty_table(fmt::format("{}: one effect alone. RMSE and FLIP are relative to the whole set", label(ledger)),
+                    "Cost", "This over none");
     const LedgerRow* none = nullptr;
     for (const LedgerRow& row : ledger.rows) {
         if (row.arm.kind == Kind::none) {
@@ -123,8 +124,8 @@ class BitCheck {
         if (row.hash == other.hash) return;
         holds_ = false;
         report_.blocks.emplace_back(
-            Callout{Callout::Kind::bad, fmt::format("{}: the films of {}, {} and {}, {} are not the same bits.",
-                                                    a.scene, label(a), row.arm.name(), label(b), other.arm.name())});
+            Callout{Callout::Kind::bad, fmt::format("{}: the films of {}, {} and {}, {} differ.", a.scene, label(a),
+                                                    row.arm.name(), label(b), other.arm.name())});
     }
     [[nodiscard]] bool holds() const { return holds_; }
 
@@ -150,7 +151,7 @@ bool bits_hold(const std::vector<Ledger>& ledgers, Report& report) {
         const Ledger& first = first_like(ledger, ledgers);
         if (&first == &ledger) continue;
         for (std::size_t i = 0; i < ledger.rows.size(); ++i) check.demand(first, first.rows[i], ledger, ledger.rows[i]);
-        held += fmt::format(" {} draws the same {} films as {}.", label(ledger), ledger.rows.size(), label(first));
+        held += fmt::format(" {} renders the same {} films as {}.", label(ledger), ledger.rows.size(), label(first));
     }
     if (check.holds() && !held.empty()) {
         report.blocks.emplace_back(Callout{Callout::Kind::good, ledgers.front().scene + ":" + held});
@@ -159,7 +160,7 @@ bool bits_hold(const std::vector<Ledger>& ledgers, Report& report) {
 }
 
 Table price_table() {
-    return {"The price of not specialising: the kernel that carries all effects over the exact one",
+    return {"The price of not specialising: the time of the kernel that carries all effects over that of the exact one",
             {{"Scene"},
              {"Backend and tier"},
              {"Exact", true},
@@ -207,7 +208,7 @@ bool ledger_of_scene(const EffectsOptions& options, const std::string& name, con
     std::vector<Ledger> ledgers = measure_ledgers(options, name, scene, plan, backends, tiers);
     report.blocks.emplace_back(Heading{name});
     if (plan.needs.empty()) {
-        report.blocks.emplace_back(Paragraph{"The scene calls for no effects: there is nothing to leave out."});
+        report.blocks.emplace_back(Paragraph{"The scene needs no effects: there is nothing to leave out."});
     } else {
         report.blocks.emplace_back(needs_table(plan));
     }
@@ -217,8 +218,8 @@ bool ledger_of_scene(const EffectsOptions& options, const std::string& name, con
     if (!plan.dependent.empty()) {
         std::vector<std::string> names;
         for (const Effect effect : plan.dependent) names.emplace_back(to_string(effect));
-        report.blocks.emplace_back(Paragraph{fmt::format(
-            "Not added in alone, because without others it does nothing here: {}.", fmt::join(names, ", "))});
+        report.blocks.emplace_back(Paragraph{
+            fmt::format("Not shown alone, because it does nothing here without others: {}.", fmt::join(names, ", "))});
     }
     for (Ledger& ledger : ledgers) {
         add_price(ledger, prices, report);
@@ -237,10 +238,10 @@ bool run_effects(const EffectsOptions& options, const BackendSource& source, Rep
     if (options.scenes.empty()) {
         throw InputError("effects needs a scene: name glTF files, such as assets/scenes/glass.gltf, or named:NAME");
     }
-    report.title = "Effects: what each costs, and what it buys";
+    report.title = "Effects: what each costs and how it changes the image";
     report.summary = fmt::format(
-        "Frame 0 at {} x {} with {} samples a pixel, with and without each effect that the scene calls for; {} rounds "
-        "that go forth and back.",
+        "Frame 0 at {} x {} with {} samples per pixel, with and without each effect that the scene needs; {} rounds "
+        "in alternating order.",
         options.size.width, options.size.height, options.samples, options.repetitions);
     const std::vector<Tier> tiers = parse_tiers(options.tiers);
     const std::vector<LedgerBackends> backends = make_backends(options, source, report);

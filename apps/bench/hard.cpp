@@ -67,7 +67,7 @@ Table table_of(const std::vector<Result>& results, const std::string& caption) {
                  {"Worst ulp", true},
                  {"Median ulp", true},
                  {"Time", true},
-                 {"Mark"}},
+                 {"Bound"}},
                 {}};
     for (const Result& r : results) {
         const Score& s = r.score;
@@ -77,7 +77,7 @@ Table table_of(const std::vector<Result>& results, const std::string& caption) {
                               fmt::format("{}", s.nans), fmt::format("{}", s.refused), format_ulps(s.worst_ulps()),
                               format_ulps(s.median_ulps()),
                               r.times_fastest == 0 ? "" : fmt::format("{:.2f}", r.times_fastest),
-                              missed.empty() ? "held" : "MISSED: " + missed});
+                              missed.empty() ? "kept" : "EXCEEDED: " + missed});
     }
     return table;
 }
@@ -111,12 +111,13 @@ bool report_results(const std::vector<Result>& results, const std::string& capti
         ++missed;
         const std::string& line =
             result.score.first_failure.empty() ? result.score.worst_description() : result.score.first_failure;
-        report.blocks.emplace_back(Callout{
-            Callout::Kind::bad,
-            fmt::format("{} {} {} misses its mark: {}. {}", result.id, result.backend, result.tier, what, line)});
+        report.blocks.emplace_back(
+            Callout{Callout::Kind::bad, fmt::format("{} {} {} exceeds its error bound: {}. {}", result.id,
+                                                    result.backend, result.tier, what, line)});
     }
     if (missed == 0) {
-        report.blocks.emplace_back(Callout{Callout::Kind::good, fmt::format("All {} marks are held.", results.size())});
+        report.blocks.emplace_back(
+            Callout{Callout::Kind::good, fmt::format("All {} error bounds are kept.", results.size())});
     }
     report.properties.emplace_back("marks held", fmt::format("{} of {}", results.size() - missed, results.size()));
     return missed == 0;
@@ -207,7 +208,7 @@ class Trials {
 bool run_export(const HardOptions& options, Report& report) {
     const auto cases = hard::select_cases(options.cases);
     const std::size_t count = hard::export_cases(cases, options.rays, options.export_folder);
-    report.summary = "Scenes, rays and right answers for another renderer.";
+    report.summary = "Scenes, rays and correct answers for another renderer.";
     report.blocks.emplace_back(Callout{
         Callout::Kind::good, fmt::format("{} cases are in {}. Write the answers to {}/answers, then run "
                                          "tandem-bench hard --check {}/answers.",
@@ -216,16 +217,18 @@ bool run_export(const HardOptions& options, Report& report) {
 }
 
 bool run_check(const HardOptions& options, Report& report) {
-    report.summary = fmt::format("The answers in {}, held to the marks of the tier strict.", options.answers);
+    report.summary =
+        fmt::format("The answers in {}, checked against the error bounds of the tier strict.", options.answers);
     std::vector<Result> results;
     for (hard::CheckedCase& checked : hard::check_answers(options.answers)) {
         const Mark* mark = find_mark(checked.id, Tier::strict);
-        if (mark == nullptr) throw InputError(fmt::format("{}: no case is called {}", options.answers, checked.id));
+        if (mark == nullptr) throw InputError(fmt::format("{}: there is no case {}", options.answers, checked.id));
         if (checked.missing.empty()) {
             results.push_back({checked.id, checked.title, "answers", "strict", std::move(checked.score), mark, 0});
         } else {
-            report.blocks.emplace_back(Callout{
-                Callout::Kind::note, fmt::format("{} is not answered: {} is not there.", checked.id, checked.missing)});
+            report.blocks.emplace_back(
+                Callout{Callout::Kind::note,
+                        fmt::format("{} is not answered: {} does not exist.", checked.id, checked.missing)});
         }
     }
     return report_results(results, "Answers against the exact ones", report);
@@ -236,20 +239,21 @@ bool run_check(const HardOptions& options, Report& report) {
 bool run_hard(const HardOptions& options, const BackendSource& source, Report& report) {
     report.title = "Hard cases";
     if (!options.export_folder.empty() && !options.answers.empty()) {
-        throw InputError("--export writes the corpus and --check reads answers to it; take one at a time");
+        throw InputError("--export writes the corpus and --check reads answers to it; give only one at a time");
     }
     if (!options.export_folder.empty()) return run_export(options, report);
     if (!options.answers.empty()) return run_check(options, report);
     const auto cases = hard::select_cases(options.cases);
     report.summary = fmt::format(
-        "{} cases with up to {} rays each, against exact answers. What each tier may miss is in docs/accuracy.md, the "
-        "cases are in docs/hard-corpus.md.",
+        "{} cases with up to {} rays each, checked against exact answers. docs/accuracy.md lists the error bounds of "
+        "each "
+        "tier, docs/hard-corpus.md the cases.",
         cases.size(), options.rays);
     Trials trials(options, source, report);
     for (const HardCase* hard_case : cases) trials.run(*hard_case);
-    if (trials.results().empty()) throw InputError("none of these cases is tried on these backends and tiers");
+    if (trials.results().empty()) throw InputError("none of these cases runs on these backends and tiers");
     compare_times(trials.results());
-    return report_results(trials.results(), "Time: over that of the fastest tier on this backend, one run, no more",
+    return report_results(trials.results(), "Time: over that of the fastest tier on this backend, from a single run",
                           report);
 }
 

@@ -15,13 +15,13 @@ struct HardOptions {
     std::vector<std::string> backends = {"cpu", "cuda"};
     std::vector<std::string> tiers;  ///< empty means all
     std::size_t rays = 50'000;       ///< per case
-    std::string export_folder;       ///< write the ray cases there and try nothing
-    std::string answers;             ///< score what another renderer answered, and try nothing
+    std::string export_folder;       ///< write the ray cases there and run nothing
+    std::string answers;             ///< score another renderer's answers, and run nothing
 };
 
-/// Tries the cases, or exports or checks; fills `report`. True if every mark of tests/hard/corpus/marks.def was held;
-/// answers of others are held to those of strict. Throws EnvironmentError in a build without the corpus, which needs
-/// MPFR.
+/// Runs the cases, or exports or checks; fills `report`. True if every error bound of tests/hard/corpus/marks.def was
+/// kept; answers of others are checked against those of strict. Throws EnvironmentError in a build without the corpus,
+/// which needs MPFR.
 [[nodiscard]] bool run_hard(const HardOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

@@ -7,8 +7,7 @@ namespace tandem::bench {
 bool run_hard(const HardOptions&, const BackendSource&, Report&) {
     throw EnvironmentError(
         "this build has no corpus of hard cases: its exact answers need MPFR, GMP and Boost.Multiprecision (on Debian "
-        "and "
-        "Ubuntu libmpfr-dev, libgmp-dev and libboost-dev); install them and configure again");
+        "and Ubuntu libmpfr-dev, libgmp-dev and libboost-dev); install them, configure and build again");
 }
 
 }  // namespace tandem::bench

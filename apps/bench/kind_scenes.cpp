@@ -65,7 +65,7 @@ std::vector<std::string> primitive_kinds() {
 
 KindScene make_kind_scene(const std::string& name, Difficulty difficulty, std::size_t ray_count) {
     const auto* const kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return name == k.name; });
-    if (kind == kinds.end()) throw InputError("no kind of primitive is named '" + name + "'");
+    if (kind == kinds.end()) throw InputError("there is no kind of primitive '" + name + "'");
     const auto [offset, size, distance] = setting_of(difficulty);
     const Vec3d centre = {offset, offset, offset};
 

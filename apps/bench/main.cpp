@@ -39,64 +39,69 @@ struct Everything {
 };
 
 void add_output_options(CLI::App& app, OutputOptions& output) {
-    app.add_option("--json", output.json, "Write everything, with every single measurement; - is standard output");
-    app.add_option("--csv", output.csv, "Write one line per row");
-    app.add_option("--html", output.html, "Write a self-contained page");
+    app.add_option("--json", output.json, "Write a JSON file with every measurement; - is standard output");
+    app.add_option("--csv", output.csv, "Write a CSV file with one line per row");
+    app.add_option("--html", output.html, "Write a self-contained HTML page");
 }
 
 template <class Options>
 void add_picture_options(CLI::App& app, Texts& texts, Options& options) {
-    app.add_option("--size", texts.size, fmt::format("Pixels; default {}x{}", options.size.width, options.size.height));
-    app.add_option("--spp", options.samples, "Samples a pixel")->capture_default_str()->check(CLI::Range(1, 1 << 24));
+    app.add_option("--size", texts.size,
+                   fmt::format("Width and height in pixels; default {}x{}", options.size.width, options.size.height));
+    app.add_option("--spp", options.samples, "Samples per pixel")->capture_default_str()->check(CLI::Range(1, 1 << 24));
 }
 
 template <class Options>
 void add_frames_option(CLI::App& app, Texts& texts, Options& options) {
     app.add_option("--frames", texts.frames,
-                   fmt::format("Frames, both included; default {}-{}", options.frames.first, options.frames.last));
+                   fmt::format("First and last frame; default {}-{}", options.frames.first, options.frames.last));
 }
 
 template <class Options>
 void add_backends_option(CLI::App& app, Options& options) {
-    app.add_option("--backends", options.backends, "Which take part")->delimiter(',')->capture_default_str();
+    app.add_option("--backends", options.backends, "Backends to run")->delimiter(',')->capture_default_str();
 }
 
 template <class Options>
 void add_tiers_option(CLI::App& app, Options& options) {
-    app.add_option("--tiers,--tier", options.tiers, "Which take part")->delimiter(',')->capture_default_str();
+    app.add_option("--tiers,--tier", options.tiers, "Accuracy tiers to run")->delimiter(',')->capture_default_str();
 }
 
 template <class Options>
 void add_round_options(CLI::App& app, Options& options) {
-    app.add_option("--threads", options.threads, "Of the CPU; 0 is one per core")
+    app.add_option("--threads", options.threads, "CPU threads; 0 is one per core")
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
-    app.add_option("--repetitions", options.repetitions, "Rounds")->capture_default_str()->check(CLI::Range(1, 1000));
-    app.add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
+    app.add_option("--repetitions", options.repetitions, "Rounds of measurements")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    app.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 
 CLI::App* add_parity(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("parity", "Does everything draw the same picture? Status 1 if not");
-    command->add_option("SCENE", all.parity.scenes, "Files, or named:NAME")->capture_default_str();
+    CLI::App* command =
+        app.add_subcommand("parity", "Compare the films of all backends and variants. Status 1 if they differ");
+    command->add_option("SCENE", all.parity.scenes, "glTF files or named:NAME")->capture_default_str();
     add_backends_option(*command, all.parity);
     add_tiers_option(*command, all.parity);
     add_frames_option(*command, all.texts, all.parity);
     add_picture_options(*command, all.texts, all.parity);
-    command->add_option("--seed", all.parity.seed, "Of the random numbers")->capture_default_str();
+    command->add_option("--seed", all.parity.seed, "Seed of the random numbers")->capture_default_str();
     return command;
 }
 
 CLI::App* add_versus(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("versus", "CPU against GPU, phases apart; or rays per second");
-    command->add_option("SCENE", all.versus.scene, "A file, or named:NAME")->capture_default_str();
+    CLI::App* command =
+        app.add_subcommand("versus", "Time the backends against each other, phase by phase, or their rays per second");
+    command->add_option("SCENE", all.versus.scene, "A glTF file or named:NAME")->capture_default_str();
     add_backends_option(*command, all.versus);
-    command->add_option("--tier", all.versus.tier, "fast, strict or precise")->capture_default_str();
+    command->add_option("--tier", all.versus.tier, "Accuracy tier: fast, strict or precise")->capture_default_str();
     add_picture_options(*command, all.texts, all.versus);
-    command->add_option("--frame", all.versus.frame, "Of the animation")
+    command->add_option("--frame", all.versus.frame, "Frame of the animation")
         ->capture_default_str()
         ->check(CLI::NonNegativeNumber);
-    command->add_option("--rays", all.texts.rays, "Trace rays in place of rendering: coherent or random");
-    command->add_option("--ray-edge", all.versus.ray_edge, "Trace the square of this many rays")
+    command->add_option("--rays", all.texts.rays, "Trace rays instead of rendering: coherent or random");
+    command->add_option("--ray-edge", all.versus.ray_edge, "Rays per side of a square: trace this number squared")
         ->capture_default_str()
         ->check(CLI::Range(1, 16384));
     add_round_options(*command, all.versus);
@@ -104,12 +109,12 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
 }
 
 CLI::App* add_accuracy(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("accuracy", "What each digit costs: every tier, its time beside its error");
-    command->add_option("SCENE", all.accuracy.scenes, "Files, or named:NAME")->capture_default_str();
+    CLI::App* command = app.add_subcommand("accuracy", "Measure time and error of every accuracy tier");
+    command->add_option("SCENE", all.accuracy.scenes, "glTF files or named:NAME")->capture_default_str();
     add_backends_option(*command, all.accuracy);
     add_tiers_option(*command, all.accuracy);
     add_picture_options(*command, all.texts, all.accuracy);
-    command->add_option("--rays", all.accuracy.rays, "Per kind of primitive")
+    command->add_option("--rays", all.accuracy.rays, "Rays per kind of primitive")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 26));
     add_round_options(*command, all.accuracy);
@@ -117,55 +122,61 @@ CLI::App* add_accuracy(CLI::App& app, Everything& all) {
 }
 
 CLI::App* add_paper(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("paper", "The paper's speed-up, audited: pictures and a page");
-    command->add_option("--out", all.paper.out, "Folder for the pictures, report.html, report.json and report.csv")
+    CLI::App* command = app.add_subcommand("paper", "Audit the paper's speed-up: images and a report");
+    command->add_option("--out", all.paper.out, "Folder for the images, report.html, report.json and report.csv")
         ->capture_default_str();
     add_backends_option(*command, all.paper);
     add_frames_option(*command, all.texts, all.paper);
     add_picture_options(*command, all.texts, all.paper);
     command
         ->add_option("--slow-frames", all.paper.slow_frames,
-                     "Frames that the paper's CPU program renders without optimisation; three times as many with it, "
-                     "on one thread; 0 is 3 with a GPU and 1 without")
+                     "Frames that the paper's CPU program renders without optimisation; with optimisation, on one "
+                     "thread, it renders three times as many. 0 is 3 with a GPU and 1 without")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000));
-    command->add_option("--threads", all.paper.threads, "Of the CPU; 0 is one per core")
+    command->add_option("--threads", all.paper.threads, "CPU threads; 0 is one per core")
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
-    command->add_option("--seed", all.paper.seed, "Of the random numbers")->capture_default_str();
+    command->add_option("--seed", all.paper.seed, "Seed of the random numbers")->capture_default_str();
     return command;
 }
 
 CLI::App* add_targets(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("targets", "Is Tandem as fast as it must be? Status 1 if not");
-    command->add_option("--only", all.targets.only, "Ids of targets")->delimiter(',');
-    command->add_flag("--list", all.list_targets, "Print the targets of this machine and measure nothing");
+    CLI::App* command = app.add_subcommand("targets", "Check the performance targets. Status 1 if one is missed");
+    command->add_option("--only", all.targets.only, "Ids of the targets to measure; default all")->delimiter(',');
+    command->add_flag("--list", all.list_targets, "List the targets of this machine without measuring");
     add_frames_option(*command, all.texts, all.targets);
     add_picture_options(*command, all.texts, all.targets);
-    command->add_option("--ray-edge", all.targets.ray_edge, "Trace the square of this many rays")
+    command->add_option("--ray-edge", all.targets.ray_edge, "Rays per side of a square: trace this number squared")
         ->capture_default_str()
         ->check(CLI::Range(1, 16384));
-    command->add_option("--repetitions", all.targets.repetitions, "Rounds")
+    command->add_option("--repetitions", all.targets.repetitions, "Rounds of measurements")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
-    command->add_option("--out", all.targets.folder, "Folder for the pictures of the animation")->capture_default_str();
+    command->add_option("--out", all.targets.folder, "Folder for the images of the animation")->capture_default_str();
     return command;
 }
 
 CLI::App* add_hard(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("hard", "Hard cases against exact answers. Status 1 if a mark is missed");
-    command->add_option("--cases", all.hard.cases, "Such as A1,B*; default all")->delimiter(',');
+    CLI::App* command = app.add_subcommand(
+        "hard", "Check hard cases against exact answers. Status 1 if an error bound (mark) is exceeded");
+    command->add_option("--cases", all.hard.cases, "Cases to run, such as A1,B*; default all")->delimiter(',');
     add_backends_option(*command, all.hard);
-    command->add_option("--tiers", all.hard.tiers, "fast, strict, precise; default all")->delimiter(',');
-    command->add_option("--rays", all.hard.rays, "Per case")->capture_default_str()->check(CLI::Range(16, 100'000'000));
-    command->add_option("--export", all.hard.export_folder, "Write scenes, rays and answers to this folder instead");
-    command->add_option("--check", all.hard.answers, "Score another renderer's answers, FOLDER/answers, instead");
+    command->add_option("--tiers", all.hard.tiers, "Accuracy tiers to run: fast, strict, precise; default all")
+        ->delimiter(',');
+    command->add_option("--rays", all.hard.rays, "Rays per case")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 100'000'000));
+    command->add_option("--export", all.hard.export_folder,
+                        "Only write scenes, rays and correct answers to this folder");
+    command->add_option("--check", all.hard.answers, "Only score another renderer's answers in FOLDER/answers");
     return command;
 }
 
 CLI::App* add_effects(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("effects", "What each effect of a scene costs, and what it buys");
-    command->add_option("SCENE", all.effects.scenes, "Files, or named:NAME");
+    CLI::App* command =
+        app.add_subcommand("effects", "Measure what each effect of a scene costs and how it changes the image");
+    command->add_option("SCENE", all.effects.scenes, "glTF files or named:NAME");
     add_backends_option(*command, all.effects);
     add_tiers_option(*command, all.effects);
     add_picture_options(*command, all.texts, all.effects);
@@ -202,7 +213,7 @@ void print_targets() {
 }
 
 int run(int count, char** words) {
-    CLI::App app{"Measures Tandem: time beside error, phases apart, every number with its spread.", "tandem-bench"};
+    CLI::App app{"Measures Tandem: time and error, phase by phase, every number with its spread.", "tandem-bench"};
     app.require_subcommand(1);
     Everything all;
     const CLI::App* parity = add_parity(app, all);

@@ -22,7 +22,8 @@ bool write_report(const Report& report, const OutputOptions& options) {
             write_file(path, text, Durability::written);
             return;
         }
-        if (standard_output_taken) throw InputError(fmt::format("{} - : standard output is taken already", option));
+        if (standard_output_taken)
+            throw InputError(fmt::format("{} -: standard output is already in use by another option", option));
         standard_output_taken = true;
         std::fwrite(text.data(), 1, text.size(), stdout);
     };

@@ -54,9 +54,10 @@ void explain_factor(const PaperMeasurements& m, Report& report) {
     blocks.emplace_back(Heading{"Where the factor comes from"});
     blocks.emplace_back(Paragraph{fmt::format(
         "The paper compares a GPU with a CPU program that was compiled without optimisation and runs on one thread. "
-        "Here, "
-        "-O3 alone makes that program {} times faster, and all threads of this machine another {} times: together {} "
-        "times, with not one line of it changed. That part of any factor over the paper's program is its baseline.",
+        "Here, -O3 alone makes that program {} times faster, and all threads of this machine another {} times: "
+        "together "
+        "{} times, without changing a line of it. That part of any factor over the paper's program is due to the "
+        "baseline.",
         short_factor(rows.naive_o0, rows.naive_o3), short_factor(rows.naive_o3, rows.naive_o3_threads),
         short_factor(rows.naive_o0, rows.naive_o3_threads))});
     if (m.has_naive_gpu) {
@@ -66,9 +67,8 @@ void explain_factor(const PaperMeasurements& m, Report& report) {
                                   "as the paper's CPU program "
                                   "(the paper says 139, and its times give {}). Against the same source with -O3 on "
                                   "all threads it is {} times as "
-                                  "fast, and its kernel alone {} times: that is the part of the GPU. {} of that frame "
-                                  "is not the kernel (in the "
-                                  "paper {}).",
+                                  "fast, and its kernel alone {} times: that part is due to the GPU. {} of that frame "
+                                  "is spent outside the kernel (in the paper {}).",
                                   short_factor(rows.naive_o0, rows.naive_gpu_frame), format_number(paper::factor),
                                   short_factor(rows.naive_o3_threads, rows.naive_gpu_frame),
                                   short_factor(rows.naive_o3_threads, rows.naive_gpu_kernel), format_share(share),
@@ -76,14 +76,16 @@ void explain_factor(const PaperMeasurements& m, Report& report) {
     }
     if (m.has_cpu && m.has_gpu) {
         blocks.emplace_back(Paragraph{fmt::format(
-            "Tandem draws the same picture, bit for bit, on both sides. Its kernel is {} times as fast as its own CPU "
-            "renderer on all threads, and from the scene to the film in host memory the GPU is {} times as fast as the "
-            "CPU renders. This is the factor to quote for this machine: nothing differs but the processor.",
+            "Tandem renders the same image, bit for bit, on both processors. Its kernel is {} times as fast as its own "
+            "CPU "
+            "renderer on all threads; from the scene to the film in host memory the GPU is {} times as fast as the CPU "
+            "renderer. Quote this factor for this machine: only the processor differs.",
             times_faster(rows.cpu, rows.gpu), short_factor(rows.cpu, rows.whole))});
     }
     if (!m.has_gpu) {
-        blocks.emplace_back(Callout{Callout::Kind::note,
-                                    "No GPU took part: this page says what the baseline is worth, not what a GPU is."});
+        blocks.emplace_back(
+            Callout{Callout::Kind::note,
+                    "No GPU took part: this page shows the effect of the baseline, not the speed of a GPU."});
     }
 }
 
@@ -97,8 +99,8 @@ Table beside_the_paper(const PaperMeasurements& m) {
             rates.push_back(difference.residual_rate(tolerance));
         return format_share(median(rates));
     };
-    Table table{"The paper's machine is another one; what compares are the relations, not the times",
-                {{"Figure"}, {"The paper prints"}, {"Its numbers give"}, {"Measured here, with its method"}},
+    Table table{"The paper used another machine: compare ratios, not times",
+                {{"Figure"}, {"Printed in the paper"}, {"From its numbers"}, {"Measured here, with its method"}},
                 {}};
     table.rows.push_back({"CPU time per frame", "35,329.4 ms", "", format_seconds(middle(rows.naive_o0))});
     table.rows.push_back({"GPU time per frame", "225.6 ms", "",
@@ -169,7 +171,7 @@ Table kernel_table(const PaperRows& rows) {
 void report_sequences(const PaperMeasurements& m, Report& report) {
     report.blocks.emplace_back(Heading{"The whole animation"});
     Table table{
-        "Frames are kept in flight, other threads write the files; wall-clock time from the first frame to the "
+        "Several frames are in flight and other threads write the files; wall-clock time from the first frame to the "
         "last file",
         {{"Output"}, {"Frames", true}, {"Wall", true}, {"Rendering", true}, {"Share", true}, {"Frames/s", true}},
         {}};
@@ -201,34 +203,33 @@ void report_equality(const PaperMeasurements& m, Report& report) {
     report.properties.emplace_back("pixels compared", fmt::format("{}", pixels));
     report.blocks.emplace_back(Callout{
         differing == 0 ? Callout::Kind::good : Callout::Kind::bad,
-        fmt::format("{} of {} pixels differ between Tandem's CPU and GPU, in any bit of their sums.",
+        fmt::format("{} of {} pixels differ in any bit of their sums between Tandem's CPU and GPU.",
                     format_number(static_cast<double>(differing)), format_number(static_cast<double>(pixels)))});
 }
 
 constexpr const char* how_measured =
-    "All rows take turns on the same frames, forth and then back, so that a drift of the machine falls on all alike. "
+    "All rows take turns on the same frames, in alternating order, so that drift of the machine affects all alike. "
     "Rows "
-    "of the paper's method are its source written again, plainly, and compiled with the flags that the row names; its "
-    "CPU rows time rendering alone, its GPU frame what the paper timed: allocation, random states, kernel, copy, text. "
-    "Tandem's rows time the kernel or the loop over tiles, then everything from the scene to the film in host memory, "
-    "then "
-    "a file as well, one after the other. A slow row measures fewer frames; no time is extrapolated.";
+    "of the paper's method are a plain reimplementation, compiled with the flags that the row names. Its CPU rows time "
+    "rendering only, its GPU frame what the paper timed: allocation, random states, kernel, copy, text. Tandem's rows "
+    "time the kernel or the loop over tiles, then everything from the scene to the film in host memory, then a file as "
+    "well, one after the other. A slow row measures fewer frames; no time is extrapolated.";
 
 }  // namespace
 
 void report_paper(PaperMeasurements m, const PaperOptions& options, Report& report) {
     report.title = "The paper's speed-up, audited";
     report.summary = fmt::format(
-        "The paper's scene, frames {} to {}, {} x {} pixels, {} samples a pixel: by the paper's method on CPU and GPU, "
-        "and "
-        "by Tandem on both.",
+        "The paper's scene, frames {} to {}, {} x {} pixels, {} samples per pixel: by the paper's method on CPU and "
+        "GPU, "
+        "and by Tandem on both.",
         options.frames.first, options.frames.last, options.size.width, options.size.height, options.samples);
     auto& blocks = report.blocks;
     report_equality(m, report);
-    blocks.emplace_back(Heading{"What it costs"});
+    blocks.emplace_back(Heading{"Time per frame"});
     blocks.emplace_back(ladder_table(m.rows));
     explain_factor(m, report);
-    blocks.emplace_back(Heading{"Beside the paper's numbers"});
+    blocks.emplace_back(Heading{"Comparison with the paper's numbers"});
     blocks.emplace_back(beside_the_paper(m));
     blocks.emplace_back(Heading{"Time per frame (after the paper's figures 4, 6 and 7)"});
     add_time_plots(m, report);
@@ -238,11 +239,9 @@ void report_paper(PaperMeasurements m, const PaperOptions& options, Report& repo
     blocks.emplace_back(phase_table(m.rows));
     blocks.emplace_back(Heading{"Residual (after the paper's figure 10)"});
     blocks.emplace_back(
-        Paragraph{"The paper calls the share of differing pixels the residual. One tolerance alone can be chosen to "
-                  "flatter, so here "
-                  "are several. Two random sequences differ by noise whatever computes them; only with the same random "
-                  "numbers does "
-                  "a difference say something about arithmetic."});
+        Paragraph{"The paper calls the share of differing pixels the residual. A single tolerance can be chosen to "
+                  "flatter, so here are several. Two random sequences always differ by noise; only with the same "
+                  "random numbers does a difference show the arithmetic."});
     blocks.emplace_back(residual_table(m));
     add_residual_plots(m, report);
     report_sequences(m, report);

@@ -5,7 +5,7 @@
 
 namespace tandem::bench {
 
-/// Measures, fills `report`. True if Tandem's CPU and GPU drew the same films, or only one of them ran.
+/// Measures, fills `report`. True if Tandem's CPU and GPU rendered the same films, or only one of them ran.
 [[nodiscard]] bool run_paper(const PaperOptions& options, const BackendSource& source, Report& report);
 
 /// The page of measurements.

@@ -41,7 +41,7 @@ class PaperRun {
           text_path_(options.out + "/frame.ppm") {
         std::error_code error;
         std::filesystem::create_directories(frames_folder_, error);
-        if (error) throw InputError(fmt::format("--out: cannot make {}: {}", frames_folder_, error.message()));
+        if (error) throw InputError(fmt::format("--out: cannot create {}: {}", frames_folder_, error.message()));
         make_backends(source, report);
         name_rows();
         make_variants();
@@ -82,7 +82,7 @@ class PaperRun {
         }
         result_.has_cpu = cpu_ != nullptr;
         result_.has_gpu = gpu_ != nullptr;
-        if (!cpu_ && !gpu_) throw EnvironmentError("none of the backends that were asked for can run here");
+        if (!cpu_ && !gpu_) throw EnvironmentError("none of the requested backends can run on this machine");
         const std::string reason = naive_gpu_why_unavailable();
         result_.has_naive_gpu = reason.empty() && gpu_ != nullptr;
         result_.output_backend = output_backend().name();

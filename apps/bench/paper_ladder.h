@@ -34,9 +34,9 @@ struct PaperRows {
     BenchmarkRow naive_gpu_frame;   ///< with allocation, copy and text, as the paper timed it
     BenchmarkRow cpu;               ///< Tandem, rendering alone
     BenchmarkRow gpu;               ///< Tandem, kernel alone
-    BenchmarkRow whole;             ///< Tandem from the scene to the film on the host: what is best here, GPU or CPU
+    BenchmarkRow whole;             ///< Tandem from the scene to the film on the host: on the best backend here
     BenchmarkRow text;              ///< and a P3 file
-    BenchmarkRow png;               ///< a PNG file in its place
+    BenchmarkRow png;               ///< a PNG file instead
 
     [[nodiscard]] std::vector<BenchmarkRow*> all();
 };

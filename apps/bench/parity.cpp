@@ -55,7 +55,7 @@ class SceneParity {
             outcome.variant = variant;
             if (variant.backend == "oracle" && tests > most_oracle_tests) {
                 outcome.reason =
-                    fmt::format("not run: brute force would take {} primitive tests a frame", format_count(tests));
+                    fmt::format("not run: brute force would take {} primitive tests per frame", format_count(tests));
             }
         }
     }
@@ -137,14 +137,14 @@ Table hash_table(const std::vector<std::string>& hashes, std::int32_t first_fram
 
 std::string verdict_of(const Outcome& outcome, bool is_reference) {
     if (!outcome.reason.empty()) return outcome.reason;
-    if (is_reference) return "compared with";
+    if (is_reference) return "reference";
     if (outcome.differing_pixels == 0) return "equal bits";
-    return outcome.exact ? "DIFFERS" : "differs, as it may";
+    return outcome.exact ? "DIFFERS" : "differs, as allowed";
 }
 
 Table outcome_table(const std::vector<Outcome>& outcomes) {
     Table table{
-        "Differing pixels over all frames; residual rate: share of pixels off by more than the tolerance, in "
+        "Differing pixels over all frames; residual rate: share of pixels that differ by more than the tolerance, in "
         "the worst frame",
         {{"Variant"}, {"Verdict"}, {"Differing pixels", true}},
         {}};
@@ -193,12 +193,11 @@ bool report_parity(SceneParity& parity, const ParityOptions& options, Report& re
         report.rows.push_back(std::move(outcome.row));
     }
     if (!broken.empty()) {
-        report.blocks.emplace_back(
-            Callout{Callout::Kind::bad, fmt::format("{}: not the same picture: {}.", name, broken)});
+        report.blocks.emplace_back(Callout{Callout::Kind::bad, fmt::format("{}: the films differ: {}.", name, broken)});
         return false;
     }
     report.blocks.emplace_back(
-        Callout{Callout::Kind::good, fmt::format("{}: {} variants, {} pixels, the same bits in all.", name, variants,
+        Callout{Callout::Kind::good, fmt::format("{}: {} variants, {} pixels, equal bits in all.", name, variants,
                                                  format_number(static_cast<double>(pixels)))});
     return true;
 }
@@ -207,7 +206,7 @@ bool report_parity(SceneParity& parity, const ParityOptions& options, Report& re
 std::vector<Tier> exact_tiers(const std::vector<std::string>& names) {
     std::vector<Tier> tiers = parse_tiers(names);
     if (std::find(tiers.begin(), tiers.end(), Tier::fast) != tiers.end()) {
-        throw InputError("parity: the tier fast promises no equal bits; take strict or precise");
+        throw InputError("parity: the tier fast does not guarantee equal bits; use strict or precise");
     }
     return tiers;
 }
@@ -236,7 +235,7 @@ std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backe
 bool run_parity(const ParityOptions& options, const BackendSource& source, Report& report) {
     report.title = "Parity";
     report.summary = fmt::format(
-        "Frames {} to {} at {} x {} with {} samples a pixel, rendered in every way that must not change the picture.",
+        "Frames {} to {} at {} x {} with {} samples per pixel, rendered in every way that must not change the image.",
         options.frames.first, options.frames.last, options.size.width, options.size.height, options.samples);
     const std::vector<Tier> tiers = exact_tiers(options.tiers);
     const std::vector<std::string> backends = available_backends(source, options.backends, report);

@@ -1,4 +1,4 @@
-/// tandem-bench parity: the same picture from everything that can render it, or not.
+/// tandem-bench parity: compares the films of everything that can render a scene.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct ParityOptions {
     std::uint64_t seed = 0;
 };
 
-/// A way to render that must not change the picture.
+/// A way to render that must not change the image.
 struct ParityVariant {
     std::string label;
     std::string backend;
@@ -34,8 +34,9 @@ struct ParityVariant {
 [[nodiscard]] std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backends,
                                                          const std::vector<std::string>& instruction_sets);
 
-/// Renders and compares; fills `report`. Throws InputError for a tier that promises no equal bits. True if all films of
-/// backends that promise bits are equal. The others (the oracle) are compared by tolerance and only reported.
+/// Renders and compares; fills `report`. Throws InputError for a tier that does not guarantee equal bits. True if all
+/// films of backends that guarantee them are equal. The others (the oracle) are compared by tolerance and only
+/// reported.
 [[nodiscard]] bool run_parity(const ParityOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

@@ -12,13 +12,13 @@
 
 namespace tandem::bench {
 
-/// What a file says about itself, without the hashes: they cost more than the encoding and are in the report.
+/// The metadata of a file, without the hashes: they cost more than the encoding and are in the report.
 [[nodiscard]] ImageMetadata describe_picture(const RenderJob& job, const std::string& backend);
 
 /// By the extension; .ppm becomes P3 text, as the paper wrote it. `display`: Scene::display.
 void write_picture(const std::string& path, Film film, const ImageMetadata& metadata, const Display& display);
 
-/// A film of colours that something else than Tandem made: 3 * width * height floats from the top left.
+/// A film of colours that Tandem did not render: 3 * width * height floats from the top left.
 [[nodiscard]] Film film_of(std::span<const float> rgb, int width, int height);
 
 /// For a page: shrunk by whole steps until it is at most `most_width` pixels wide, each pixel the mean of those it

@@ -156,11 +156,10 @@ std::string what_holds_it_back(const SequenceTimes& times) {
     const Load& most = *std::max_element(loads.begin(), loads.end(),
                                          [](const Load& a, const Load& b) { return a.seconds < b.seconds; });
     return fmt::format(
-        "Rendering takes {} of {} wall-clock time ({}). Next to it run, at the same time: encoding and writing files, "
+        "Rendering takes {} of {} wall-clock time ({}). Other work runs at the same time: encoding and writing files, "
         "{} "
-        "on {} threads; copies to the host, {}; preparing and loading scenes, {}; the driving thread waited {} "
-        "for "
-        "an encoder. What holds it back most is {}.",
+        "on {} threads; copies to the host, {}; preparing and loading scenes, {}; the main thread waited {} for an "
+        "encoder. The bottleneck is {}.",
         format_seconds(times.render), format_seconds(times.wall), format_share(times.render_share()),
         format_seconds(times.encode), times.encoders, format_seconds(times.download), format_seconds(times.host),
         format_seconds(times.blocked), most.name);

@@ -1,4 +1,4 @@
-/// A whole animation as a production renders it: frames in flight on the backend, files written by other threads.
+/// A whole animation as in production: frames in flight on the backend, files written by other threads.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace tandem::bench {
 
-/// Share of the wall-clock time that rendering ought to have.
+/// The target for rendering's share of the wall-clock time.
 inline constexpr double least_render_share = 0.8;
 
 enum class SequenceOutput {
-    none,      ///< films are let go
+    none,      ///< films are discarded
     png,       ///< one file per frame, by the encoding threads
     ppm_text,  ///< P3, the same way
 };
@@ -42,12 +42,12 @@ struct SequenceTimes {
     [[nodiscard]] double render_share() const { return wall > 0 ? render / wall : 0; }
 };
 
-/// `job.frame` is set from the options. Each frame is one moment, without motion blur. Errors of the encoding threads
+/// `job.frame` is set from the options. Each frame is one instant, without motion blur. Errors of the encoding threads
 /// are thrown here.
 [[nodiscard]] SequenceTimes render_sequence(Backend& backend, const Scene& scene, const RenderJob& job,
                                             const SequenceOptions& options);
 
-/// What keeps the backend from rendering all the time, in a sentence with the figures.
+/// The bottleneck of the sequence, in a sentence with the figures.
 [[nodiscard]] std::string what_holds_it_back(const SequenceTimes& times);
 
 }  // namespace tandem::bench

@@ -95,7 +95,7 @@ class TargetRun {
         result.shown = format_share(result.measured);
         result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
         report_.blocks.emplace_back(Paragraph{"PNG files: " + what_holds_it_back(png)});
-        report_.blocks.emplace_back(Paragraph{"PPM text in their place: " + what_holds_it_back(text)});
+        report_.blocks.emplace_back(Paragraph{"PPM text instead: " + what_holds_it_back(text)});
     }
 
   private:
@@ -209,8 +209,8 @@ std::vector<Target> all_targets(int cores) {
     }
     targets.push_back(target(
         "cpu-paper-o0",
-        fmt::format("Paper's scene, CPU, a thread per core ({}): at least 4 times the naive loops with -O0", cores), 4,
-        false, [cores](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o0, cores); }));
+        fmt::format("Paper's scene, CPU, one thread per core ({}): at least 4 times the naive loops with -O0", cores),
+        4, false, [cores](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o0, cores); }));
     targets.push_back(target("cpu-rays-coherent",
                              "A million spheres, CPU, coherent rays: at least 0.8 times raw Embree", 0.8, false,
                              [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::coherent); }));
@@ -243,7 +243,7 @@ void check_ids(const std::vector<std::string>& wanted, const std::vector<Target>
     for (const Target& one : targets) known.push_back(one.description.id);
     for (const std::string& id : wanted) {
         if (std::find(known.begin(), known.end(), id) == known.end()) {
-            throw InputError(fmt::format("--only: there is no target '{}' on this machine; there are {}", id,
+            throw InputError(fmt::format("--only: there is no target '{}' on this machine; the targets are {}", id,
                                          fmt::join(known, ", ")));
         }
     }
@@ -252,8 +252,8 @@ void check_ids(const std::vector<std::string>& wanted, const std::vector<Target>
 int core_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void report_results(const std::vector<TargetResult>& results, Report& report) {
-    Table table{"The measured value decides; brackets hold its 95 % interval",
-                {{"Target"}, {"What"}, {"Measured", true}, {"Verdict"}},
+    Table table{"The measured value decides; its 95 % interval is in brackets",
+                {{"Target"}, {"Requirement"}, {"Measured", true}, {"Verdict"}},
                 {}};
     std::size_t missed = 0, met = 0;
     for (const TargetResult& result : results) {
@@ -283,8 +283,8 @@ std::vector<TargetResult> list_targets(int cores) {
 
 bool run_targets(const TargetOptions& options, const BackendSource& source, Report& report) {
     report.title = "Targets";
-    report.summary = fmt::format("What Tandem must reach, measured in one run: {} rounds that go forth and back.",
-                                 options.repetitions);
+    report.summary =
+        fmt::format("Performance targets, measured in one run: {} rounds in alternating order.", options.repetitions);
     std::vector<Target> targets = all_targets(core_count());
     check_ids(options.only, targets);
     const std::string no_gpu = source.why_unavailable("cuda");

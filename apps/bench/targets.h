@@ -1,4 +1,4 @@
-/// tandem-bench targets: is Tandem as fast as it must be? Everything is measured in this one run, on this machine.
+/// tandem-bench targets: checks the performance targets. Everything is measured in one run, on this machine.
 #pragma once
 
 #include <string>
@@ -36,8 +36,8 @@ struct TargetResult {
 /// Ids and statements of all targets, for usage texts; with the thread counts of a machine of `cores` cores.
 [[nodiscard]] std::vector<TargetResult> list_targets(int cores);
 
-/// Measures and fills `report`. True if no target that could be measured is missed. Throws InputError for an id that
-/// there is not.
+/// Measures and fills `report`. True if no target that could be measured is missed. Throws InputError for an unknown
+/// id.
 [[nodiscard]] bool run_targets(const TargetOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

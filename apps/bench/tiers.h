@@ -1,4 +1,4 @@
-/// The tiers that a command is asked for.
+/// The tiers that a command runs.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tandem::bench {
 
-/// Throws InputError for a name that is no tier's.
+/// Throws InputError for an unknown name.
 inline std::vector<Tier> parse_tiers(const std::vector<std::string>& names) {
     std::vector<Tier> tiers;
     tiers.reserve(names.size());

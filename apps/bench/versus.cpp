@@ -24,7 +24,8 @@ std::vector<double> phase_seconds(const BenchmarkRow& row, const std::string& na
 
 /// "cuda over cpu: 12.9 (12.5 to 13.3)" for one phase, from the first row to each of the others.
 Table ratio_table(const std::vector<BenchmarkRow>& rows, const std::vector<std::string>& phases) {
-    Table table{fmt::format("Times faster than {}; in brackets the 95 % interval", rows.front().label), {{"What"}}, {}};
+    Table table{
+        fmt::format("Times as fast as {}; the 95 % interval is in brackets", rows.front().label), {{"What"}}, {}};
     for (std::size_t i = 1; i < rows.size(); ++i) table.columns.push_back({rows[i].label, true});
     for (const std::string& name : phases) {
         std::vector<std::string> cells = {name};
@@ -126,7 +127,7 @@ bool versus_frames(const VersusOptions& options, const std::vector<std::string>&
 bool versus_rays(const VersusOptions& options, const std::vector<std::string>& names, const BackendSource& source,
                  Report& report) {
     RayTiming timing = time_rays(options, names, source, report);
-    Table table{fmt::format("{} {} rays, {} of them hit; build and upload are apart",
+    Table table{fmt::format("{} {} rays, {} of them hit; build and upload are separate",
                             format_number(timing.rows.front().rays), to_string(*options.rays),
                             format_share(static_cast<double>(timing.hits) / timing.rows.front().rays)),
                 {{"Row"}, {"Trace", true}, {"Rays/s", true}, {"Build", true}, {"Upload", true}},
@@ -146,7 +147,7 @@ bool versus_rays(const VersusOptions& options, const std::vector<std::string>& n
     report.blocks.emplace_back(rate_plot_of("Rays per second", "rays/s", timing.rows, rays_per_second));
     if (names.size() > 1) {
         report.blocks.emplace_back(Callout{kind_of(timing.differing_hits, parse_tier(options.tier)),
-                                           fmt::format("{} hits differ among {}, in id or in a bit of t.",
+                                           fmt::format("{} hits differ among {}, in id or in any bit of t.",
                                                        timing.differing_hits, fmt::join(names, ", "))});
     }
     if (timing.has_native) {
@@ -167,16 +168,17 @@ bool run_versus(const VersusOptions& options, const BackendSource& source, Repor
     report.title = "Versus: " + options.scene;
     report.summary =
         options.rays
-            ? fmt::format("Rays per second, {} rays, {} rounds that go forth and back.", to_string(*options.rays),
+            ? fmt::format("Rays per second, {} rays, {} rounds in alternating order.", to_string(*options.rays),
                           options.repetitions)
-            : fmt::format("Frame {} at {} x {} with {} samples a pixel, tier {}, {} rounds that go forth and back.",
+            : fmt::format("Frame {} at {} x {} with {} samples per pixel, tier {}, {} rounds in alternating order.",
                           options.frame, options.size.width, options.size.height, options.samples, options.tier,
                           options.repetitions);
     const std::vector<std::string> names = available_backends(source, options.backends, report);
-    if (names.empty()) throw EnvironmentError("none of the backends that were asked for can run here");
+    if (names.empty()) throw EnvironmentError("none of the requested backends can run on this machine");
     if (names.size() == 1) {
         report.blocks.emplace_back(
-            Callout{Callout::Kind::note, fmt::format("Only {} can run here: its times stand alone.", names[0])});
+            Callout{Callout::Kind::note,
+                    fmt::format("Only {} can run here: there is nothing to compare its times with.", names[0])});
     }
     return options.rays ? versus_rays(options, names, source, report) : versus_frames(options, names, source, report);
 }

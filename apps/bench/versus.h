@@ -1,4 +1,4 @@
-/// tandem-bench versus: one scene on every backend, phases apart; or rays per second.
+/// tandem-bench versus: one scene on every backend, phase by phase; or rays per second.
 #pragma once
 
 #include <optional>
@@ -24,12 +24,12 @@ struct VersusOptions {
     std::uint64_t seed = 0;
     std::int32_t frame = 0;
     // rays
-    std::optional<RaySet> rays;  ///< trace rays in place of rendering
+    std::optional<RaySet> rays;  ///< trace rays instead of rendering
     int ray_edge = 2048;         ///< rays: edge * edge
 };
 
-/// Renders the frame (or traces the rays) with every backend, in rounds that go forth and back; fills `report`. True
-/// if the films (hits) of all backends are equal, or need not be since the tier is fast.
+/// Renders the frame (or traces the rays) with every backend, in rounds of alternating order; fills `report`. True if
+/// the films (hits) of all backends are equal, or need not be since the tier is fast.
 [[nodiscard]] bool run_versus(const VersusOptions& options, const BackendSource& source, Report& report);
 
 /// Rays per second of backends, and of raw Embree for a scene of spheres. `rows` come in that order.

@@ -27,7 +27,7 @@ int run_main(const char* program, Body body) {
     } catch (const EnvironmentError& error) {
         return report(error.what(), exit_environment);
     } catch (const std::bad_alloc&) {
-        return report("the machine's memory does not suffice", exit_environment);
+        return report("not enough memory on this machine", exit_environment);
     } catch (const std::exception& error) {
         return report(error.what(), exit_short_of_target);
     }

@@ -171,13 +171,13 @@ std::string line_of_camera(const Json& camera) {
         line = fmt::format("{}, perspective, {:.4g} degrees high", quoted(camera["node"]),
                            camera["yfov_radians"].get<double>() * 180 / std::numbers::pi);
         if (const auto radius = camera["aperture_radius_metres"].get<double>(); radius > 0) {
-            line += fmt::format(", aperture {:g} m in radius, sharp at {:g} m", radius,
+            line += fmt::format(", aperture radius {:g} m, focused at {:g} m", radius,
                                 camera["focus_distance_metres"].get<double>());
         }
     }
     const auto open = camera["shutter_seconds"][0].get<double>(), close = camera["shutter_seconds"][1].get<double>();
     if (close > open) {
-        line += fmt::format(", shutter open from {:g} s to {:g} s of a frame, {} instants", open, close,
+        line += fmt::format(", shutter open from {:g} s to {:g} s after the frame time, {} instants", open, close,
                             camera["shutter_instants"].get<int>());
     }
     return line;
@@ -248,7 +248,7 @@ std::string to_text(const Json& description) {
     std::string text =
         fmt::format("{}: scene {}\n", description["file"].get<std::string>(), quoted(description["scene"]));
     if (const Json& primitives = description["primitives"]; primitives.is_null()) {
-        text += "primitives: none that can be prepared; 'tandem-gltf check' says why\n";
+        text += "primitives: the scene cannot be prepared; 'tandem-gltf check' says why\n";
     } else {
         std::string kinds;
         std::size_t total = 0;
@@ -261,11 +261,11 @@ std::string to_text(const Json& description) {
             text += fmt::format("dropped: {} primitives without extent\n", dropped);
         }
         if (const auto dropped = description["dropped_lights"].get<std::size_t>(); dropped > 0) {
-            text += fmt::format("dropped: {} lights without direction, under a scale of 0\n", dropped);
+            text += fmt::format("dropped: {} lights without direction (scale 0)\n", dropped);
         }
     }
     if (const Json& effects = description["effects"]; !effects.is_null()) {
-        add_list(text, "effects beyond Phong's sum", effects, most_lines, [](const Json& need) {
+        add_list(text, "effects beyond Phong shading", effects, most_lines, [](const Json& need) {
             return fmt::format("{}: {}", need["effect"].get<std::string>(), need["reason"].get<std::string>());
         });
     }
@@ -280,10 +280,10 @@ std::string to_text(const Json& description) {
                         environment["illuminates"].get<bool>() ? ", lights surfaces" : "",
                         environment["indirect"].get<bool>() ? ", indirect light" : "");
     const Json& display = description["display"];
-    text += fmt::format("8-bit pictures: {}\n", in_words({parse_transfer(display["transfer"].get<std::string>()),
-                                                          display["exposure_stops"].get<double>()}));
+    text += fmt::format("8-bit images: {}\n", in_words({parse_transfer(display["transfer"].get<std::string>()),
+                                                        display["exposure_stops"].get<double>()}));
     const Json& animation = description["animation"];
-    text += fmt::format("animation: {} channels, {} keys, {} frames at {:g} a second\n",
+    text += fmt::format("animation: {} channels, {} keys, {} frames at {:g} per second\n",
                         animation["channels"].get<std::size_t>(), animation["keys"].get<std::size_t>(),
                         animation["frames"].get<std::int64_t>(), animation["frames_per_second"].get<double>());
     add_list(text, "import report", description["report"], SIZE_MAX,

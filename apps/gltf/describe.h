@@ -1,4 +1,4 @@
-/// What a scene holds, for people and for programs.
+/// The contents of a scene, for people and for programs.
 #pragma once
 
 #include <nlohmann/json.hpp>

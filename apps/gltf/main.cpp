@@ -58,20 +58,20 @@ int run_check(const std::string& scene_name, const std::string& json_target) {
 
 int run(int argc, char** argv) {
     CLI::App app(
-        "Says what a glTF file holds and what is wrong with it.\n"
-        "Exit status: 0 fine, 2 bad usage or input, 3 the machine lacks something.",
+        "Prints what a glTF file contains and what is wrong with it.\n"
+        "Exit status: 0 fine, 2 wrong usage or input, 3 the machine lacks something.",
         "tandem-gltf");
     app.require_subcommand(1);
     std::string scene;
     std::string json_target;
     const auto add = [&](const char* name, const char* what) {
         CLI::App* command = app.add_subcommand(name, what);
-        command->add_option("SCENE", scene, "a .gltf or .glb file, or named:NAME")->required();
-        command->add_option("--json", json_target, "write the answer as JSON to a file; - is standard output");
+        command->add_option("SCENE", scene, ".gltf or .glb file, or named:NAME")->required();
+        command->add_option("--json", json_target, "write the result to a JSON file; - is standard output");
         return command;
     };
-    const CLI::App* info = add("info", "What the scene holds, and what Tandem makes of it");
-    add("check", "What keeps the scene from being rendered, and what is not rendered as the file means it");
+    const CLI::App* info = add("info", "Print what the scene contains and how Tandem renders it");
+    add("check", "Print what prevents the scene from being rendered, and what is approximated or ignored");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -15,7 +15,7 @@ FramePattern::FramePattern(const std::string& path) : before_(path) {
     const std::sregex_iterator first(start, path.end(), place), end;
     if (first == end) return;
     if (std::next(first) != end) {
-        throw InputError(fmt::format("'{}' has more than one place for the frame number; leave one", path));
+        throw InputError(fmt::format("'{}' has more than one placeholder for the frame number; keep one", path));
     }
     const std::string found = first->str();
     has_frame_ = true;

@@ -6,15 +6,15 @@
 
 namespace tandem {
 
-/// A path whose last part may hold one place for the frame number: "%d", "%04d" (any width from 1 to 9) or a run of
-/// "#", one for each digit. Numbers are padded with zeros; longer ones are written whole.
+/// A path whose last part may contain one placeholder for the frame number: "%d", "%04d" (any width from 1 to 9) or a
+/// run of "#", one for each digit. Numbers are padded with zeros; longer ones are not cut.
 class FramePattern {
   public:
-    /// Throws InputError if there is more than one place.
+    /// Throws InputError if there is more than one placeholder.
     explicit FramePattern(const std::string& path);
 
     [[nodiscard]] bool has_frame() const { return has_frame_; }
-    /// The file of a frame; the path itself where there is no place.
+    /// The file of a frame; the path itself if there is no placeholder.
     [[nodiscard]] std::string path(std::uint32_t frame) const;
 
   private:

@@ -41,69 +41,69 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     std::string scenes;
     for (const std::string& name : scene_names()) scenes += " named:" + name;
     app.set_version_flag("--version", version());
-    app.add_option("SCENE", command.scene, "a glTF file, or one of" + scenes)->required();
+    app.add_option("SCENE", command.scene, "glTF file, or a built-in scene:" + scenes)->required();
     app.add_option("-o,--output", sequence.output,
-                   "image file: .png, .ppm, .pfm or .exr; the name may hold the frame number as %04d or ####")
+                   "image file: .png, .ppm, .pfm or .exr; %04d or #### in the name stands for the frame number")
         ->required();
     app.add_option("--size", words.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-    auto* const samples = app.add_option("--spp", sequence.job.samples,
-                                         "samples per pixel; if not given, fewer where rays are very much work")
-                              ->capture_default_str();
+    auto* const samples =
+        app.add_option("--spp", sequence.job.samples,
+                       "samples per pixel; if not given, fewer where large primitives overlap (docs/images.md)")
+            ->capture_default_str();
     app.callback([&sequence, samples] { sequence.fewer_samples = samples->empty(); });
-    app.add_option("--seed", sequence.job.seed, "of the random numbers")
+    app.add_option("--seed", sequence.job.seed, "seed of the random numbers")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    auto* const frame = app.add_option("--frame", words.frame, "one frame")
+    auto* const frame = app.add_option("--frame", words.frame, "frame to render")
                             ->type_name("K")
                             ->check(CLI::NonNegativeNumber)
                             ->capture_default_str();
-    app.add_option("--frames", words.frames, "from A to B, both included, or all of the animation")
+    app.add_option("--frames", words.frames, "frames A to B, both included, or the whole animation")
         ->type_name("A-B|all")
         ->excludes(frame);
     app.add_option("--camera", sequence.camera,
-                   "name of the camera's node, or a view of the whole scene where no camera has that name: " +
-                       view_names() + ". If not given, the scene's first camera, or auto where there is none")
+                   "name of the camera's node, or a view of the whole scene if no camera has that name: " +
+                       view_names() + ". Default: the scene's first camera, or auto if there is none")
         ->type_name("NAME");
     app.add_option("--light", words.light,
-                   "what lights a file in which nothing gives light: default, a sky and a light from the upper left of "
-                   "the camera; or none")
+                   "lights for a file that has none: default adds a background and lights from the upper left of the "
+                   "camera and from the camera; none adds nothing")
         ->check(CLI::IsMember({"default", "none"}))
         ->capture_default_str();
-    app.add_option("--effects", words.effects,
-                   "force effects on or off, as in -shadows,+refraction; all or none. What the scene calls for if not "
-                   "given");
+    app.add_option(
+        "--effects", words.effects,
+        "force effects on or off, as in -shadows,+refraction; or all, or none. Default: the effects that the "
+        "scene needs");
     app.add_option("--shutter-instants", words.instants,
-                   "at how many moments of an open shutter a frame is rendered, but no more than samples; what the "
-                   "camera says if not given")
+                   "instants of an open shutter at which a frame is rendered, at most as many as samples. Default: the "
+                   "camera's own number")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--limits", words.limits, "how often a path may be reflected, refracted and scattered")
+    app.add_option("--limits", words.limits, "most reflections, refractions and diffuse bounces of a path")
         ->type_name("R,T,D")
         ->capture_default_str();
-    app.add_option("--backend", words.backend, "cpu, cuda or oracle")->capture_default_str();
-    app.add_option("--tier", words.tier, "accuracy tier")->capture_default_str();
-    app.add_option("--threads", backend.threads, "of the CPU backends; 0: one per core")
+    app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
+    app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
+    app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
-    app.add_option("--specialise", words.specialise, "GPU: make a kernel for the scene always, or never")
+    app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
         ->capture_default_str();
     app.add_option(
            "--exposure", words.exposure,
-           "of .png and .ppm: stops by which the picture is made brighter, or auto: the first frame decides for "
-           "all; what the scene says if not given")
+           "exposure of .png and .ppm in stops, each of which doubles the brightness; auto takes it from the first "
+           "frame. Default: the scene's own")
         ->type_name("STOPS|auto");
-    app.add_option(
-           "--transfer", words.transfer,
-           "of .png and .ppm: the function from light to the values of the file, srgb or linear; what the scene "
-           "says if not given")
+    app.add_option("--transfer", words.transfer,
+                   "transfer function of .png and .ppm: srgb or linear. Default: the scene's own")
         ->type_name("srgb|linear");
-    app.add_option("--json", command.json, "write times, hashes and counts there; - is standard output");
-    app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as P3 text instead of P6");
-    app.add_option("--png-level", sequence.write.png_level, "compression of .png, 0 to 9")
+    app.add_option("--json", command.json, "write times, hashes and counts to a JSON file; - is standard output");
+    app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as text (P3) instead of binary (P6)");
+    app.add_option("--png-level", sequence.write.png_level, "compression level of .png, 0 to 9")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
-    app.add_flag("--force", sequence.force, "render frames again whose files are there with the same metadata");
-    app.add_flag("--quiet", command.quiet, "print no lines and no progress, only errors");
+    app.add_flag("--force", sequence.force, "render every frame, even if its file exists with the same metadata");
+    app.add_flag("--quiet", command.quiet, "print only errors");
 }
 
 FrameRange frames_of(const Words& words, const Scene& scene) {
@@ -111,8 +111,7 @@ FrameRange frames_of(const Words& words, const Scene& scene) {
     if (words.frames != "all") return parse_frames(words.frames);
     const std::int32_t count = frame_count(scene);
     if (count == std::numeric_limits<std::int32_t>::max()) {
-        throw InputError(
-            "--frames all: the animation has no last frame that could be numbered; name frames, as in 0-99");
+        throw InputError("--frames all: the animation has too many frames to number; give a range, such as 0-99");
     }
     return {0, count - 1};
 }

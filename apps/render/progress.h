@@ -18,10 +18,10 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Takes the bar from the terminal, so that something else can be printed.
+    /// Clears the bar from the terminal, so that something else can be printed.
     void clear() const;
     void draw() const;
-    /// One more frame is done. Does not draw.
+    /// Counts a finished frame. Does not draw.
     void advance(bool rendered);
 
   private:

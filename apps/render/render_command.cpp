@@ -29,7 +29,7 @@ void put_json(const std::string& target, const nlohmann::ordered_json& json) {
 void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_t total) {
     const char* advice = command.sequence.force ? " without --force" : "";
     std::fprintf(stderr, "tandem-render: interrupted; %zu of %zu frames are done. ", done, total);
-    if (done < total) std::fprintf(stderr, "Run the same command again%s to render the others.", advice);
+    if (done < total) std::fprintf(stderr, "Run the same command again%s to render the rest.", advice);
     std::fputc('\n', stderr);
 }
 
@@ -37,10 +37,10 @@ void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_
 void say_exposure(const FrameRecord& first) {
     const ImageMetadata& metadata = first.metadata;
     if (metadata.exposure_rule.empty()) return;
-    const std::string source =
-        first.skipped ? fmt::format("that of '{}'", first.file) : fmt::format("found from frame {}", metadata.frame);
-    const std::string sentence =
-        fmt::format("the exposure is {0} stops, {1}; --exposure {0} gives the same", metadata.exposure_stops, source);
+    const std::string source = first.skipped ? fmt::format("taken from '{}'", first.file)
+                                             : fmt::format("derived from frame {}", metadata.frame);
+    const std::string sentence = fmt::format("the exposure is {0} stops, {1}; --exposure {0} gives the same result",
+                                             metadata.exposure_stops, source);
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 

@@ -1,4 +1,4 @@
-/// What tandem-render says about frames: lines for people, JSON for programs.
+/// The output of tandem-render about frames: lines for people, JSON for programs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

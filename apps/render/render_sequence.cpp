@@ -327,8 +327,8 @@ void check_output(const SequenceOptions& options) {
     const FramePattern pattern(options.output);
     (void)format_of(options.output, options.write);
     if (options.frames.count() > 1 && !pattern.has_frame()) {
-        throw InputError(
-            fmt::format("'{}' has no place for the frame number; write a name as in frame-####.png", options.output));
+        throw InputError(fmt::format("'{}' has no placeholder for the frame number; use a name such as frame-####.png",
+                                     options.output));
     }
     check_can_write(pattern.path(static_cast<std::uint32_t>(options.frames.first)));
 }

@@ -26,11 +26,11 @@ struct SequenceOptions {
     WriteOptions write;  ///< its display is the scene's, but for these two:
     std::optional<TransferFunction> transfer;
     std::optional<ExposureChoice> exposure;
-    bool force = false;  ///< render frames again whose files are there
+    bool force = false;  ///< render frames again whose files exist
     int writers = 0;     ///< threads that hash, encode and write; 0: one per core
 };
 
-/// Where the time of a frame went, in seconds. Frames overlap, so the sums are more than the wall time.
+/// The time of a frame by phase, in seconds. Frames overlap, so the sums are more than the wall time.
 struct FrameSeconds {
     double prepare = 0;  ///< scene to flat arrays, and their hash; for all instants of a frame with motion blur
     PhaseTimes backend;  ///< zero build and upload where the scene is that of the frame before
@@ -63,8 +63,8 @@ struct FrameRecord {
 /// same scene hash, frame, size, samples, seed, limits, tier, version, transfer function and exposure. The backend may
 /// differ: films are equal. Once `interrupted` is set no frame is started; those in flight are finished and written.
 ///
-/// With an automatic exposure the first frame decides for all, so that nothing flickers: auto_exposure() of its
-/// foreground. If its file is there already and says that its exposure was found so, it is taken from the file.
+/// An automatic exposure is that of the first frame, so that nothing flickers: auto_exposure() of its foreground. If
+/// its file exists and says that its exposure was automatic, it is taken from the file.
 ///
 /// With `fewer_samples` the first frame decides for all how many there are.
 ///

@@ -1,4 +1,4 @@
-/// The tracer of a scene, whichever that is, by calls.
+/// The tracer of a scene, of either kind, through calls.
 #pragma once
 
 #include "cpu/kernels.h"
@@ -15,8 +15,8 @@ template <class Isa, class Real>
 [[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                                  const QuerySource<Real>& source, const Mask<Real>& active);
 
-/// One copy of each call serves the path loop, wherever it asks, and trace(). The plain path loop has its own tracer,
-/// inline.
+/// One copy of each call serves all places of the path loop, and trace(). The plain path loop has its own inline
+/// tracer.
 template <class Isa>
 struct CalledTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all;

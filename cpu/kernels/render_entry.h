@@ -30,7 +30,7 @@ TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const Pixe
     }
 }
 
-/// Paths that go on: a lane that is done takes the next pixel of the tile.
+/// Paths that continue: a lane that is done takes the next pixel of the tile.
 template <class Effects, class Real, class Tracer>
 TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                        Vec3d* sums) {

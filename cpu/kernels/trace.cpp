@@ -6,8 +6,8 @@ namespace tandem {
 
 namespace {
 
-/// Do the rays run alike? Then a packet is faster than its rays one by one. One origin, and directions whose signs
-/// agree: true of camera rays, and cheap to see.
+/// Are the rays coherent? Then a packet is faster than its rays one by one. The test, one origin and directions with
+/// equal signs, holds for camera rays and is cheap.
 template <class Real>
 TANDEM_HD bool is_coherent(const Ray<Real>& rays) {
     const auto same = [](const Real& a) { return a == Real(a[0]); };
@@ -49,7 +49,7 @@ TANDEM_HD PathSource<Packet> gather_sources(const TraceJob& job, std::size_t fir
              gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U)}};
 }
 
-// What a job asks of a tracer, for one ray and for a packet: the nearest hits of rays that leave nothing, ...
+// The queries of a job, for one ray and for a packet: the nearest hits of rays that start in space, ...
 template <class Reals>
 struct AskNearest {
     using One = typename Reals::One;
@@ -94,7 +94,7 @@ struct AskNearestFromSurface {
     }
 };
 
-/// ... or whether shadow rays are stopped.
+/// ... or whether shadow rays are blocked.
 template <class Reals>
 struct AskOccluded {
     using One = typename Reals::One;

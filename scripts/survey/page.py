@@ -47,10 +47,10 @@ def listed(records):
         rows = []
         for record in group:
             why = features_of(record) if "film_sha256" in record else record["sentence"]
-            what = "drawn" if "film_sha256" in record else record["outcome"]
-            blank = ", all of one colour" if record.get("one_colour") else ""
+            what = "rendered" if "film_sha256" in record else record["outcome"]
+            blank = ", a single colour" if record.get("one_colour") else ""
             rows.append([cell(record["file"]), what + blank, cell(why), f"{record['cpu_seconds']:.2f}", f"{record['peak_mib']:.0f}"])
-        parts.append(f"## {source}\n\n" + table(["file", "outcome", "why, or what is not as the file means it", "CPU s", "peak MiB"], rows))
+        parts.append(f"## {source}\n\n" + table(["file", "outcome", "reason, or what is approximated or ignored", "CPU s", "peak MiB"], rows))
     return "\n\n".join(parts)
 
 
@@ -62,11 +62,11 @@ def sources(totals):
         rows.append(
             [cell(group["source"]), group["commit"][:10], f"{group['files']:,}", share(drawn(found), group["files"]), found.get(outcome.REFUSED, 0), other]
         )
-    return table(["source", "commit", "files", "drawn", "refused", "other"], rows)
+    return table(["source", "commit", "files", "rendered", "refused", "other"], rows)
 
 
 def refusals(totals):
-    return table(["why", "files", "an example"], [[cell(g["why"]), g["files"], cell(g["example"])] for g in totals["refusals"]])
+    return table(["reason", "files", "example"], [[cell(g["why"]), g["files"], cell(g["example"])] for g in totals["refusals"]])
 
 
 def features(totals, most):
@@ -85,7 +85,7 @@ def cost(totals):
     ]
     costly = figures["costly_small_files"]
     limits = f"{summary.MOST_MIB} MiB or {summary.MOST_CPU_SECONDS} s of CPU"
-    lines.append(f"Files under {summary.SMALL_BYTES // 10**6} MB, with what they name, that took more than {limits}: {len(costly)} of {figures['small_files']:,}.")
+    lines.append(f"Files under {summary.SMALL_BYTES // 10**6} MB, including the files that they reference, that took more than {limits}: {len(costly)} of {figures['small_files']:,}.")
     if costly:
         rows = [[cell(r["source"] + "/" + r["file"]), f"{r['bytes']:,}", f"{r['cpu_seconds']:.1f}", f"{r['peak_mib']:,.0f}"] for r in costly]
         lines.append(table(["file", "bytes", "CPU s", "peak MiB"], rows))
@@ -106,21 +106,20 @@ def paragraph(text):
 def page_of(data, json_name, most_features=40):
     """The whole page; json_name is where the summary stands, relative to the page."""
     run, corpus, files = data["run"], data["corpus"], data["listed_totals"]
-    head = ["", "files", "drawn", "of these without a note", "refused", "environment", "crash, hang, odd status"]
+    head = ["", "files", "rendered", "without a note", "refused", "environment", "crash, hang, odd status"]
     rows = [overview("listed below", files)] + ([overview("the corpus", corpus)] if corpus["files"] else [])
     parts = [
-        "# Files that nobody here wrote",
+        "# glTF files from other sources",
         paragraph(
-            f"""glTF files of other people, each drawn once as `tandem-render FILE -o PICTURE --size {run['size']} --spp {run['spp']}`
-            draws it, without any change to the file. `scripts/survey_gltf.py` ran the programs, wrote [the figures]({json_name}) and made
-            this page from them. Version {run['version']}, commit {run['commit']}, backend {run['backend']}; {run['machine']}. {run['remark']} The command:"""
+            f"""Each file is rendered once, unchanged, with `tandem-render FILE -o PICTURE --size {run['size']} --spp {run['spp']}`.
+            `scripts/survey_gltf.py` ran the program, wrote [the figures]({json_name}) and generated this page from them. Version {run['version']}, commit {run['commit']}, backend {run['backend']}; {run['machine']}. {run['remark']} The command:"""
         ),
         "```\n" + run["command"] + "\n```",
         table(head, rows),
         paragraph(
-            """**Drawn** is exit status 0 and a picture; what is approximated or ignored is said in notes. **Refused** is status 2 with a
-            sentence. **Environment** is status 3: the machine lacks something, such as memory. A crash is a signal, a hang is a run
-            that was ended after the time limit."""
+            """**Rendered** means exit status 0 and an image; notes say what is approximated or ignored. **Refused** means status 2 with a
+            message. **Environment** means status 3: the machine lacks something, such as memory. A crash is a signal; a hang is a run
+            that exceeded the time limit and was ended."""
         ),
         listed(data["listed"]),
     ]
@@ -128,16 +127,16 @@ def page_of(data, json_name, most_features=40):
         parts += [
             "## The corpus",
             paragraph(
-                """Files of public repositories, as far as their snapshots were whole: tests of loaders, samples, parts of engines and
-                viewers. Of files that are equal byte for byte one counts. Many are wrong on purpose: they test what a
-                loader refuses. The commit is that of the snapshot."""
+                """Files of public repositories, as far as their snapshots were complete: tests of loaders, samples, parts of engines and
+                viewers. Identical files count once. Many are invalid on purpose, to test what a loader refuses. The commit is
+                that of the snapshot."""
             ),
             sources(corpus),
             "### What is refused",
-            "Equal sentences are one row; `#` stands for a number, `…` for a name.",
+            "Equal messages share a row; `#` stands for a number, `…` for a name.",
             refusals(corpus),
-            "### What is not as the files mean it",
-            f"Drawn files of the corpus with a note, by feature{', the ' + str(most_features) + ' most frequent' if len(corpus['features']) > most_features else ''}.",
+            "### What is approximated or ignored",
+            f"Rendered files of the corpus with a note, by feature{', the ' + str(most_features) + ' most frequent' if len(corpus['features']) > most_features else ''}.",
             features(corpus, most_features),
             "### What a file costs",
             cost(corpus),

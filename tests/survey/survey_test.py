@@ -25,7 +25,7 @@ case "$1" in
     *odd*) echo "tandem-render: some exception" >&2; exit 1 ;;
     *silent*) exit 2 ;;
     *nothing*) exit 0 ;;
-    *memory*) echo "tandem-render: the machine's memory does not suffice" >&2; exit 3 ;;
+    *memory*) echo "tandem-render: not enough memory on this machine" >&2; exit 3 ;;
     *noted*) echo "tandem-render: ignored: skin at skins[0] (2 uses): why: because" >&2 ;;
 esac
 printf 'P6\\n# a comment\\n2 1\\n255\\nabcabc' > "$3"

@@ -17,7 +17,7 @@ struct PrimitiveCopy {
 };
 
 /// The primitives that have the same shape, bit by bit, and the same material as one with a lower id, in the order of
-/// their ids. Faces with holes that a texture or vertex colours cut out are left out, since their holes may differ.
+/// their ids. Faces with an alpha mask by a texture or vertex colours are left out, since their masks may differ.
 [[nodiscard]] std::vector<PrimitiveCopy> find_copies(const PreparedScene& scene);
 
 /// The scene without its copies. The others keep their order and get new ids, and what refers to primitives

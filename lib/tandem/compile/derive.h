@@ -1,4 +1,4 @@
-/// Which effects a scene calls for, and why.
+/// Which effects a scene needs, and why.
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ struct EffectNeed {
 /// it. PreparedScene::effects is without them.
 inline constexpr EffectMask host_effects = Effect::motion_blur;
 
-/// In the order of effects.def. A pure function of the scene and what prepare() made of it; what no ray can meet, such
-/// as a material without a primitive or a light without intensity, calls for nothing.
+/// In the order of effects.def. A pure function of the scene and what prepare() made of it; what no ray can hit, such
+/// as a material without a primitive, and a light without intensity need nothing.
 [[nodiscard]] std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& prepared);
 
 [[nodiscard]] EffectMask mask_of(const std::vector<EffectNeed>& needs);
 
-/// The scene without what calls for these effects: its lights cast no shadows, its mirrors and glass are gone, and so
-/// on. That is how an effect is forced off: the kernels then have nothing to leave out.
+/// The scene without what needs these effects: its lights cast no shadows, its mirrors and dielectrics are gone, and so
+/// on. This is how an effect is forced off: the kernels then have nothing to leave out.
 [[nodiscard]] Scene without_effects(Scene scene, EffectMask off);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// How bright the emissive texture of a light is over its surface.
+/// Estimates of an emissive texture's brightness over a light.
 #pragma once
 
 #include <map>
@@ -9,15 +9,15 @@
 
 namespace tandem {
 
-/// Estimates for choosing among lights: a light's chance changes the noise of a picture and not its mean, as long as
-/// what emits anything has a chance.
+/// Estimates for choosing among lights: a light's probability changes the noise of an image and not its mean, as long
+/// as every emitter has one.
 class EmissiveTextures {
   public:
     /// `scene` must outlive it.
     explicit EmissiveTextures(const SceneView& scene) : scene_(scene) {}
 
-    /// About the mean over a primitive of what multiplies its emission (the mean of red, green and blue); 0 only where
-    /// all of it is black. 1 without a texture.
+    /// Approximately the mean over a primitive of the factor of its emission (the mean of red, green and blue); 0 only
+    /// where all of it is black. 1 without a texture.
     [[nodiscard]] double brightness(std::uint32_t primitive);
 
   private:

@@ -1,4 +1,4 @@
-/// Which bodies of glass lie where, as far as a kernel has to know before it starts.
+/// Facts about the dielectric solids of a scene that a kernel needs before it starts.
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
@@ -7,10 +7,10 @@ namespace tandem {
 
 /// Fills media_overlap and camera_media; everything else must be there.
 ///
-/// Bodies lie apart if none of glass is a mesh, which need not be closed, and the bounds of none touch those of another
-/// primitive or hold the camera; spheres are compared by their distance. Over 10^8 pairs are not compared, and overlap.
-/// Of an orthographic camera the middle of its film counts. The media around a camera are ordered by the size of
-/// their bodies, the largest as if entered first.
+/// Solids are disjoint if no dielectric is a mesh, which need not be closed, and the bounds of none touch those of
+/// another primitive or contain the camera; spheres are compared by their distance. Over 10^8 pairs are not compared,
+/// and overlap. Of an orthographic camera the middle of its film counts. The media around a camera are ordered by the
+/// size of their solids, the largest as if entered first.
 void find_media(PreparedScene& scene);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// From an author's mesh to the faces that kernels read.
+/// From an authored mesh to the faces that kernels read.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct PlacedMesh {
 };
 
 /// Appends the faces of `mesh` (valid, validate()) under world_from_object to the triangles and quads of `scene`, with
-/// their normals and the values of `slots`, and counts those without area in dropped_primitives. A set of texture
+/// their normals and the values of `slots`, and counts degenerate ones in dropped_primitives. A set of texture
 /// coordinates that the mesh lacks is (0, 0), and colours that it lacks are white.
 ///
 /// Every vertex is transformed once, in double, and rounded once, so that faces that share one share its bits. Areas

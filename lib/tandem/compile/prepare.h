@@ -1,4 +1,4 @@
-/// From the author's scene to flat arrays at one moment.
+/// From the authored scene to flat arrays at one instant.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ struct PrepareOptions {
     std::int32_t frame = 0;
     std::string camera{};           ///< name of the camera's node; empty means the first camera of the scene
     std::optional<Vec3d> origin{};  ///< of render space, in world space; empty: chosen for precision (RenderOrigin)
-    ForcedEffects effects{};        ///< simulated in any case, or not even if the scene calls for them
-    std::optional<double> time{};   ///< seconds: an instant in place of the frame's time, with the shutter closed
+    ForcedEffects effects{};        ///< forced on, or forced off even if the scene needs them
+    std::optional<double> time{};   ///< seconds: an instant instead of the frame's time, with the shutter closed
 };
 
 /// Throws InputError with the list of validate() if that is not empty.
@@ -24,10 +24,10 @@ void check(const Scene& scene);
 /// Deterministic: the same scene gives the same bytes. Transforms are composed in double, moved to the origin of render
 /// space in double, and rounded once.
 /// Spheres under rotation and uniform scale stay spheres, boxes under diagonal transforms stay boxes; the others
-/// become ellipsoids and parallelepipeds. So do those with a texture that are turned or mirrored, since a sphere and a
-/// box do not know of it; prepare_textures() says what is a texture. Meshes become triangles and quads (place_mesh.h).
-/// What moves is still: a frame with motion blur is made of several moments (render/motion_blur.h). Their times are not
-/// rounded, as that of a frame is.
+/// become ellipsoids and parallelepipeds. So do those with a texture that are rotated or mirrored, since a sphere and a
+/// box have no orientation; prepare_textures() decides what is a texture. Meshes become triangles and quads
+/// (place_mesh.h). The result is one instant: a frame with motion blur combines several (render/motion_blur.h). Their
+/// times are not rounded, unlike that of a frame.
 /// Throws InputError as check() does, and if the camera is missing.
 [[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
 

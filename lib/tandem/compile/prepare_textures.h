@@ -1,4 +1,4 @@
-/// From the author's textures to flat arrays.
+/// From authored textures to flat arrays.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-/// The scene at one moment, as the kernels read it: flat arrays of plain structs and indices, no pointers.
+/// The scene at one instant, as the kernels read it: flat arrays of plain structs and indices, no pointers.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct PreparedScene {
 #include "tandem/kernel/view/scene_arrays.def"
     PreparedTextures textures;
     std::vector<std::uint32_t> node_of;  ///< by primitive id: index into Scene::nodes, for messages
-    std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they are in another's place
+    std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they equal another one
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
     bool area_light_shadows = true;
     std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds of those that are cut out by their alpha, or culled

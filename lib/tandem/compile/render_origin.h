@@ -13,7 +13,7 @@ namespace tandem {
 /// scene. So every point of a surface has coordinates of at most 16 times its distance from the camera, and rounding
 /// them to float moves it by an angle of at most 16 u = 9.6e-7, wherever in the world the scene is. A scene that lies
 /// around the world's origin as seen from its camera stays where it is. Scaling a scene by a power of two scales the
-/// origin. Held by tests/compile/render_origin_test.cpp.
+/// origin. Tested by tests/compile/render_origin_test.cpp.
 class RenderOrigin {
   public:
     explicit RenderOrigin(const Vec3d& camera) : camera_(camera) {}

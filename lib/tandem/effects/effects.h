@@ -53,14 +53,14 @@ TANDEM_HD constexpr EffectMask operator|(Effect a, Effect b) { return EffectMask
 
 inline constexpr EffectMask all_effects = EffectMask::from_bits((1U << effect_count) - 1);
 
-/// A set that is known when a kernel is compiled: what it does not have leaves no code. Kernels ask has() of the type.
+/// A set that is known when a kernel is compiled: effects outside it leave no code. Kernels ask has() of the type.
 /// Another type may know its set only when it is linked (cuda/linked_facts.h): `most` is what it can have.
 template <std::uint32_t bits>
 struct EffectSet {
     static constexpr EffectMask most = EffectMask::from_bits(bits);
     [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return most.has(effect); }
     [[nodiscard]] TANDEM_HD static constexpr bool has_any(EffectMask of) { return most.has_any(of); }
-    /// What a scene or a job says: a kernel that is linked for it has it as a constant.
+    /// A fact of a scene or a job: a kernel that is linked for it has it as a constant.
     [[nodiscard]] TANDEM_HD static constexpr std::uint32_t light_count(std::uint32_t count) { return count; }
     template <class T>
     [[nodiscard]] TANDEM_HD static constexpr const T& limits(const T& limits) {
@@ -68,14 +68,14 @@ struct EffectSet {
     }
 };
 
-/// What makes a path go on behind its first vertex.
+/// The effects that continue a path beyond its first vertex.
 inline constexpr EffectMask bouncing_effects =
     Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect;
 
-/// What sends rays from surfaces: with none of them there is one ray for each sample.
+/// The effects that send rays from surfaces: without them there is one ray per sample.
 inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;
 
-/// Can a path go on behind its first vertex? For types.
+/// Can a path continue beyond its first vertex? For types.
 template <class Effects>
 TANDEM_HD constexpr bool can_bounce() {
     return Effects::most.has_any(bouncing_effects);

@@ -25,7 +25,7 @@ class GeometryReader {
     GeometryReader(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws)
         : source_(source), scene_(scene), report_(report), flaws_(flaws), budget_(source) {}
 
-    /// What hangs on node `index` of the file, less the primitives that have a flaw.
+    /// What is attached to node `index` of the file, less the primitives that have a flaw.
     [[nodiscard]] std::vector<Geometry> read(std::size_t index);
 
     /// A primitive of the file: of a mesh, by its number there.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* unlit_name = "KHR_materials_unlit";
 
-/// A matt surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on.
+/// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on.
 PhongMaterial phong_from_base_colour(const Vec3f& base_colour) {
     return {base_colour * 0.1F, base_colour, {0.04F, 0.04F, 0.04F}, 32};
 }

@@ -1,5 +1,5 @@
-/// Mirrors, glass and surfaces that glow: TANDEM_materials_phong.mirror, KHR_materials_transmission, _ior, _volume,
-/// TANDEM_materials_dielectric, emissiveFactor and KHR_materials_emissive_strength.
+/// Mirrors, dielectrics and emissive surfaces: TANDEM_materials_phong.mirror, KHR_materials_transmission, _ior,
+/// _volume, TANDEM_materials_dielectric, emissiveFactor and KHR_materials_emissive_strength.
 #pragma once
 
 #include "tandem/gltf/document.h"

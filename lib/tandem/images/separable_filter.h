@@ -22,7 +22,7 @@ using AxisWeights = std::vector<double>;
 /// Scaled so that the positive weights sum to 1 and the negative ones, if there are any, to -1.
 [[nodiscard]] AxisWeights normalised(AxisWeights weights);
 
-/// The sum over the window of weight times value; beyond a border the pixel at the border stands.
+/// The sum over the window of weight times value; beyond a border the pixel at the border is repeated.
 [[nodiscard]] Plane filtered(const Plane& plane, const AxisWeights& along_x, const AxisWeights& along_y);
 
 }  // namespace tandem

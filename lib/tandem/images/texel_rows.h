@@ -1,4 +1,4 @@
-/// Rows of a picture on their way into texels, at its own size or smaller.
+/// Converts rows of an image to texels, at its own size or smaller.
 #pragma once
 
 #include <algorithm>

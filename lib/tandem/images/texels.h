@@ -1,4 +1,4 @@
-/// Pictures for textures, out of PNG and JPEG files.
+/// Texture images from PNG and JPEG files.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Texels {
 /// Edges of textures that are decoded.
 inline constexpr std::uint32_t most_texture_edge = 16384;
 
-/// The size that a picture says it has.
+/// The size in the header of an image.
 struct TexelSize {
     std::uint32_t width = 0, height = 0;
     std::size_t work = 0;  ///< of decoding it, in pixels of a grey picture in one pass

@@ -1,4 +1,4 @@
-/// What a surface shows where a ray meets it: texture coordinates and colours between the corners of faces.
+/// Texture coordinates and colours at a hit, interpolated between the corners of faces.
 #pragma once
 
 #include "tandem/kernel/shapes/parametrisation.h"
@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// Where the picture of primitive `id` is seen, as parametrisation(). Of a face: at its corners' values in `slot`.
+/// The texture coordinates of primitive `id` at a hit, as parametrisation(). Of a face: from its values in `slot`.
 template <std::uint32_t kinds, class Real>
 TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, std::uint32_t slot,
                                                         Ray<Real> ray, Double<Real> t, Mask<Real> here,
@@ -20,8 +20,8 @@ TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, 
     return at;
 }
 
-/// The values of one primitive's slots where a ray meets it at `t`, in the lanes of `here`. Keeps the last: most
-/// materials ask for one slot several times.
+/// The values of one primitive's slots at a ray's hit at `t`, in the lanes of `here`. Keeps the last: most materials
+/// ask for one slot several times.
 template <std::uint32_t kinds, class Real>
 class CornerValues {
   public:
@@ -43,9 +43,9 @@ class CornerValues {
         return sample<Real>(scene_.textures, use, at.u, at.v);
     }
 
-    /// Red, green, blue and alpha between the colours of a face's corners (MaterialTextures::colour_slot).
+    /// Interpolated red, green, blue and alpha of a face's corners (MaterialTextures::colour_slot).
     [[nodiscard]] TANDEM_HD Rgba<Real> colour(std::uint32_t slot) {
-        // the weights of the corners may miss their sum, 1, by rounding
+        // the sum of the corners' weights may differ from 1 by rounding
         const auto share = [](const Double<Real>& a) TANDEM_INLINE_LAMBDA {
             return to_real<Real>(parametrisation_detail::clamp_to_one<Real>(a));
         };
@@ -65,8 +65,8 @@ class CornerValues {
     Parametrisation<Real> at_{};
 };
 
-/// The base colour and alpha that a material's pictures say: its texture times the colours of a face's corners. White
-/// without any. glTF 2.0, 3.9.2.
+/// The base colour and alpha of a material: its texture times the colours of a face's corners. White without any. glTF
+/// 2.0, 3.9.2.
 template <std::uint32_t kinds, class Real>
 TANDEM_HD Rgba<Real> base_colour(const MaterialTextures& textures, bool on_face, CornerValues<kinds, Real>& values) {
     const Real one(1.0F);

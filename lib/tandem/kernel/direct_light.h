@@ -1,4 +1,4 @@
-/// The light that a vertex of a path receives from the lights, and what Phong's model makes of it.
+/// Direct light at a vertex of a path, reflected by Phong's model.
 #pragma once
 
 #include "tandem/kernel/block.h"
@@ -28,11 +28,11 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
     return result;
 }
 
-/// Phong's sum over all that gives light, with the ambient term, at `position` in the lanes of `found`. `point`: the
-/// same on the surface, for shadow rays. `goes_on`: the lanes whose path may be scattered here, and so meet lights by
-/// itself. Where light is followed by chance, with indirect light, one of the lights stands for all (LightChoice). One
-/// loop over lights of every kind, so that a kernel has one place from which shadow rays start. `rays`: they are
-/// counted there.
+/// Phong's sum over all lights, with the ambient term, at `position` in the lanes of `found`. `point`: the same on the
+/// surface, for shadow rays. `goes_on`: the lanes whose path may be scattered here and then hit
+/// lights by itself. With indirect light, each vertex samples one light (LightChoice). One loop
+/// covers all kinds of lights, so that a kernel starts shadow rays in one place. `rays` counts
+/// them.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const Surface<Real>& surface,
                                      const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer,
@@ -51,10 +51,10 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     const std::uint32_t count = punctual + (area ? 1U : 0U) + (sky ? 1U : 0U);
     const bool by_chance = indirect && count > 1;
     LightChoice<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : PhiloxBlock<UInt<Real>>{});
-    // one more round, for the chosen one: so shadow rays start from one place
+    // one more iteration, for the chosen light: so shadow rays start in one place
     for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
         IncidentLight<Real> light = {black, black};
-        if (any_reflects) {  // a thread without makes the rounds as well: those of a block keep together
+        if (any_reflects) {  // threads without any iterate as well: those of a block synchronise
             if (i < punctual) {
                 light = punctual_light<Effects, Real>(scene.lights[i], surface, point, position, to_viewer);
             } else if (i == count) {

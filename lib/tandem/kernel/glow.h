@@ -1,4 +1,4 @@
-/// Light from surfaces that glow, and from the background, to matt surfaces.
+/// Sampling of area lights, and of the background, for diffuse surfaces.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -13,7 +13,7 @@ namespace tandem {
 
 namespace glow_detail {
 
-/// Can light be drawn from such a body, or is it found by paths alone?
+/// Can points of such a primitive be sampled as a light, or do only paths find it?
 template <class Body>
 inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
@@ -27,8 +27,8 @@ TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Do
     using D = Double<Real>;
     return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
 }
-/// Can the halves of a quad be seen before each other? Not those of one that is flat, but for the rounding of its
-/// corners, and whose diagonal lies within it.
+/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
+/// diagonal lies within it.
 template <class Real>
 TANDEM_HD bool overlaps(const Quad& quad) {
     using S = Scalar<Double<Real>>;
@@ -46,8 +46,8 @@ TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Rea
                                  broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
 }
 
-/// Where light leaves in `direction`, unit, towards what it lights: a sphere shines from its outside, a face from its
-/// front, or from both sides if it is double-sided. The halves of a quad know it themselves.
+/// Whether light leaves in `direction`, unit, towards the lit point: a sphere emits from its outside, a face from its
+/// front, or from both sides if it is double-sided. The halves of a quad decide this themselves.
 template <class Real>
 TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
     using D = Double<Real>;
@@ -66,8 +66,8 @@ TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<D
 
 }  // namespace glow_detail
 
-/// The density, per solid angle, with which area_light() would have chosen `direction` from `point` for the light
-/// `primitive` that is met there: 0 for what is no light.
+/// The density, per solid angle, with which area_light() would have sampled `direction` from `point` for the light
+/// `primitive` that is hit there: 0 if it is no light.
 template <class Real>
 TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
                                            const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
@@ -89,9 +89,9 @@ TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Re
     return result;
 }
 
-/// What a surface reflects of one of the lights with an area, chosen by chance, in the lanes of `found`: unbiased
-/// together with what a path finds by itself, in the lanes of `goes_on`, in a scene with indirect light. Source: E.
-/// Veach, L. Guibas, 1995 (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
+/// What a surface reflects of one area light, sampled at random, in the lanes of `found`: unbiased together with what a
+/// path hits by itself, in the lanes of `goes_on`, in a scene with indirect light. Source: E. Veach, L. Guibas, 1995
+/// (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
 TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
                                               const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
@@ -143,7 +143,7 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     const Mask<Real> seen = found && drawn.pdf > zero;
     if (!any(seen)) return result;
     const D pdf = select(seen, drawn.pdf, D(1.0));
-    Real share(1.0F);  // of the matt part: the rest is what paths find that go on
+    Real share(1.0F);  // of the diffuse part: paths that continue find the rest
     if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
         const D other = cosine_hemisphere_pdf(dot(drawn.direction, surface.normal));
         share = select(goes_on, to_real<Real>(power_heuristic(pdf, other)), share);
@@ -156,9 +156,9 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     return result;
 }
 
-/// What a matt surface reflects of the background, by one direction about its normal, whichever side is seen: so the
-/// walls of a closed body are not black from inside. For scenes without indirect light; with it, the path that goes on
-/// brings it.
+/// What a diffuse surface reflects of the background, by one direction around its normal, whichever side is visible: so
+/// the walls of a closed solid are not black from inside. For scenes without indirect light; with it, the continued
+/// path adds the background.
 template <class Real>
 TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
                                                      const SampleId<Real>& sample, const UInt<Real>& vertex) {

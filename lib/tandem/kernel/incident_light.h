@@ -7,8 +7,8 @@ namespace tandem {
 
 template <class Real>
 struct IncidentLight {
-    Vec3<Real> reflected;  ///< radiance that the surface makes of it, if nothing stops it; 0 where it brings none
-    Vec3<Real> to;         ///< where it comes from: a point or, if it is far, a direction
+    Vec3<Real> reflected;  ///< radiance reflected of it if nothing blocks it; 0 where it contributes none
+    Vec3<Real> to;         ///< its position or, if it is far, its direction
     UInt<Real> primitive = UInt<Real>(no_primitive);  ///< the light's own
     Mask<Real> is_far = Mask<Real>(false);            ///< infinitely
     Mask<Real> casts_shadows = Mask<Real>(true);
@@ -21,10 +21,10 @@ struct IncidentLight {
     }
 };
 
-/// Removes the light where it is behind the surface: behind the normal for shading, or on the other side of the surface
-/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not ask for
-/// L . N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it.
-/// For lights that cast shadows. `to_light`: the direction that the light was shaded with.
+/// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface
+/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
+/// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For
+/// lights that cast shadows. `to_light`: the direction that the light was shaded with.
 template <class Real>
 TANDEM_HD void keep_in_front(const Surface<Real>& surface, const SurfacePoint<Real>& point,
                              const Vec3<Double<Real>>& to_light, IncidentLight<Real>& light) {

@@ -1,4 +1,4 @@
-/// Which of several lights has a shadow ray.
+/// Samples one of several lights for a shadow ray.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -7,17 +7,17 @@
 
 namespace tandem {
 
-/// One of several lights, chosen with a chance in proportion to what each would bring if nothing stood in its way: so a
-/// vertex of a path that is followed by chance anyway needs one shadow ray, and its noise is that of the shadows alone.
+/// One of several lights, chosen with a probability in proportion to what each would contribute if nothing blocked it.
+/// So a vertex needs one shadow ray, and the choice adds no noise but that of the shadows.
 ///
 /// Gives: every light its share on average, within 2^-52 of the share and 2^-72 of the total, however many lights there
-///        are and however weak one is beside the others. Lights that bring nothing change no bit.
-/// Method: a light replaces the chosen one with the chance weight / (sum of the weights so far). Each light draws a
-///         number of its own, because a single number that is used again for each light runs out of bits. It draws 24
+///        are and however weak one is beside the others. Lights that contribute nothing change no bit.
+/// Method: a light replaces the chosen one with the probability weight / (sum of the weights so far). Each light draws
+///         a number of its own, because a single number that is reused for each light runs out of bits. It draws 24
 ///         bits, and 48 more where these do not decide.
 /// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
 ///         1996; for weights that come one after the other, M. T. Chao, "A general purpose unequal probability sampling
-///         plan", Biometrika 69(3), 1982. Held by tests/kernel/light_choice_test.cpp.
+///         plan", Biometrika 69(3), 1982. Tested by tests/kernel/light_choice_test.cpp.
 template <class Real>
 class LightChoice {
   public:
@@ -40,7 +40,7 @@ class LightChoice {
         weight_ = select(taken, brought, weight_);
     }
 
-    /// The light, brighter by what the chance leaves out: on average it brings what all do.
+    /// The chosen light, divided by its probability: on average it contributes what all lights do.
     [[nodiscard]] TANDEM_HD IncidentLight<Real> chosen() const {
         IncidentLight<Real> light = chosen_;
         light.reflected = chosen_.reflected * to_real<Real>(total_ / widen(weight_));
@@ -48,7 +48,7 @@ class LightChoice {
     }
 
   private:
-    /// Does the last light, of `weight`, replace the chosen one? By chance.
+    /// Does the last light, of `weight`, replace the chosen one? At random.
     TANDEM_HD Mask<Real> is_taken(const D& weight, const Mask<Real>& draws) {
         const auto number = [&](const Mask<Real>& takes)
                                 TANDEM_INLINE_LAMBDA { return widen(to_unit_interval<Real>(numbers_.next(takes))); };

@@ -1,4 +1,4 @@
-/// The texture coordinates of a light's surface at a point that was drawn on it.
+/// The texture coordinates of an area light at a sampled point.
 #pragma once
 
 #include "tandem/kernel/corner_values.h"
@@ -56,7 +56,7 @@ TANDEM_HD TexturePoint<Real> texture_point(const Quad& face, const Vec2f* texcoo
     return {select(drawn.in_second_half, b.u, a.u), select(drawn.in_second_half, b.v, a.v)};
 }
 
-/// What multiplies the emission of `body`, a sphere or a face, at the point that was drawn.
+/// The texture's factor for the emission of `body`, a sphere or a face, at the sampled point.
 template <class Real, class Body>
 TANDEM_HD Vec3<Real> light_picture(const SceneView& scene, const MaterialTextures& textures, const Body& body,
                                    const LightSample<Real>& drawn) {

@@ -1,4 +1,4 @@
-/// The path loop: what comes back along a camera ray. One loop for all effects; those that a kernel leaves out leave
+/// The path loop: the radiance along a camera ray. One loop for all effects; those that a kernel leaves out leave
 /// neither code nor state.
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace tandem {
 
-/// What is counted along paths: of many together.
+/// Counts along paths, of many together.
 template <class Real>
 struct PathTally {
-    UInt<Real> lost_media = UInt<Real>(0U);  ///< borders at which the stack of media was at a loss
+    UInt<Real> lost_media = UInt<Real>(0U);  ///< interfaces where the stack of media was inconsistent
     UInt<Real> rays = UInt<Real>(0U);        ///< that were traced, with shadow rays; if counts_rays()
 };
 
-/// What a path meets.
+/// What a path hits.
 template <class Real>
 struct Vertex {
     SurfacePoint<Real> point;
@@ -36,11 +36,11 @@ TANDEM_HD_STEP void step_to_vertex(const SceneView& scene, const Ray<Real>& ray,
     find_vertex<Effects, kinds>(scene, ray, source, hit, found, vertex);
 }
 
-/// The share of its own light that a surface gives to a path which has found it, in the lanes of `glows`: the rest was
-/// drawn from the lights at the vertex before. `point`: where the path has met the surface.
+/// The weight of the emission that a path finds on a surface, in the lanes of `glows`: the rest was sampled from the
+/// lights at the vertex before. `point`: where the path has hit the surface.
 ///
-/// Method: both densities of the power heuristic belong to the point that the direction was drawn for, `drawn_at`. The
-/// ray starts a little above a face, and from there a near light is larger. So the light is scaled by the quotient of
+/// Method: both densities of the power heuristic belong to the point that the direction was sampled from, `drawn_at`.
+/// The ray starts a little above a face, and from there a near light is larger. So the light is scaled by the ratio of
 /// its projected solid angles, as seen from `drawn_at` and from the ray's origin.
 template <class Effects, class Real>
 TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real, true>& path, const Closest<Real>& hit,
@@ -65,7 +65,7 @@ TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real,
     const D facing = dot(along, point.normal) * inverse_square_root(length2);
     const Mask<Real> faces = facing != zero;
     const D turned = select(faces, dot(direction, point.normal) / select(faces, facing, one), one);
-    // where the light is seen edge on the quotient has no bound
+    // where the light is seen edge-on, the ratio has no bound
     const D growth = ((seen_cosine / cosine) * turned) * (shorter * shorter);
     const D bounded = select(growth < D(2.0), greater(growth, zero), D(2.0));
     const D other = area_light_pdf<Real>(scene, hit.primitive, drawn_at, direction, shared);
@@ -75,7 +75,7 @@ TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real,
 
 namespace path_detail {
 
-/// Adds the background that paths see which meet nothing, in the lanes of `missed`.
+/// Adds the background to paths that hit nothing, in the lanes of `missed`.
 template <class Effects, class Real, bool bounces>
 TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, PathState<Effects, Real, bounces>& path,
                               Vec3<Real>& radiance) {
@@ -99,7 +99,7 @@ TANDEM_HD Vec3<Double<Real>> point_of(const Ray<Real>& ray, const Double<Real>& 
 
 }  // namespace path_detail
 
-/// What paths meet next: those that cannot go on, from the camera.
+/// The next hit of paths: for those that cannot continue, that of the camera ray.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Closest<Real> next_hit(const Tracer& tracer, const PathState<Effects, Real>& path, PathTally<Real>& tally) {
     count_rays<Effects, Real>(path.alive, tally.rays);
@@ -135,11 +135,11 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     radiance = select(found, reflected, radiance);
 }
 
-/// Follows paths on from their vertex at `hit`, which next_hit() found, number `number` of theirs, to where they leave
-/// it; what they bring is added to `radiance`. Paths that end are no longer alive. `Effects`: what is simulated
-/// (effects/effects.h); what the scene calls for beyond it is left out, and what it does not call for changes no bit in
-/// strict and precise. `Tracer` is a LoopTracer (kernel/traversal/intersect.h) or has its functions, and `kinds`, the
-/// PrimitiveKinds that it finds. On a GPU all threads of a block come here together (kernel/block.h).
+/// Follows paths from their vertex at `hit`, which next_hit() found, number `number` of theirs, to where they leave it;
+/// what they contribute is added to `radiance`. Paths that end are no longer alive. `Effects`: what is simulated
+/// (effects/effects.h); what the scene needs beyond it is left out, and what it does not need changes no bit in strict
+/// and precise. `Tracer` is a LoopTracer (kernel/traversal/intersect.h) or has its functions, and `kinds`, the
+/// PrimitiveKinds that it finds. On a GPU all threads of a block call this together (kernel/block.h).
 template <class Effects, class Real, class Tracer>
 requires(can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
@@ -170,7 +170,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
         if (Effects::has(Effect::emission)) {
             const Mask<Real> glows = found && norm1(vertex.surface.emission) > Real(0.0F);
             const Real share = seen_share<Effects>(scene, path, hit, vertex.point, glows);
-            // what is unlit lights nothing: paths that a surface has scattered do not see it
+            // unlit surfaces light nothing: paths that a surface has scattered do not see their emission
             const Mask<Real> dark =
                 Mask<Real>(Effects::has(Effect::indirect)) && vertex.surface.unlit && path.pdf > D(0.0);
             radiance = select(found && !dark, radiance + path.throughput * (vertex.surface.emission * share), radiance);

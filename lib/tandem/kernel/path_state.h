@@ -22,7 +22,7 @@ struct PathState {
     }
 };
 
-/// Of a path that goes on.
+/// Of a path that continues.
 template <class Effects, class Real>
 struct PathState<Effects, Real, true> {
     using Media = std::conditional_t<Effects::most.has(Effect::nested_media), MediumStack<Real>, NoMediumStack<Real>>;
@@ -33,9 +33,9 @@ struct PathState<Effects, Real, true> {
     Vec3<Real> throughput = {Real(1.0F), Real(1.0F), Real(1.0F)};
     UInt<Real> reflections = UInt<Real>(0U);
     UInt<Real> refractions = UInt<Real>(0U);
-    UInt<Real> scatterings = UInt<Real>(0U);  ///< by matt surfaces
+    UInt<Real> scatterings = UInt<Real>(0U);  ///< by diffuse surfaces
     UInt<Real> holes = UInt<Real>(0U);
-    Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a matt surface chose it; else 0
+    Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a diffuse surface sampled it; else 0
     Vec3<Real> drawn_at{};                 ///< the point for which it did; `ray` may start a little above it
     Media media;
 
@@ -69,7 +69,7 @@ struct PathState<Effects, Real, true> {
         source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
     }
 
-    /// References to all that has a value per lane, but for what only some scenes need.
+    /// References to everything that has a value per lane, except what only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [origin, direction] = ray;
         return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
@@ -77,12 +77,12 @@ struct PathState<Effects, Real, true> {
                                        reflections, refractions, scatterings, holes, pdf),
                               media.per_lane());
     }
-    /// Those of scenes with cutouts, and of scenes whose paths and lights with an area share light.
+    /// Those of scenes with cutouts, and of scenes that combine paths and area lights.
     TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
     TANDEM_HD auto per_lane_of_lights() { return std::tie(drawn_at.x, drawn_at.y, drawn_at.z); }
 
-    /// Over the segment of `ray` from the last hole to t, in the lanes of `active`. `own`: the medium that the path is
-    /// in if bodies lie apart.
+    /// Over the segment of `ray` from the last masked hit to t, in the lanes of `active`. `own`: the medium that the
+    /// path is in if solids are disjoint.
     TANDEM_HD void absorb(const SceneView& scene, const Double<Real>& t, const UInt<Real>& own,
                           const Mask<Real>& active) {
         using D = Double<Real>;

@@ -1,4 +1,4 @@
-/// Paths that go on from vertex to vertex, and the samples of pixels one after the other.
+/// Follows paths from vertex to vertex, and the samples of pixels one after the other.
 #pragma once
 
 #include <tuple>
@@ -8,8 +8,8 @@
 namespace tandem {
 
 /// A path in each lane, one vertex at a time. Has no pixel at first; when the last sample of its pixel has ended it has
-/// none again. A lane, or a thread, goes on with its next sample as soon as a path ends, and waits for the others at
-/// each vertex, not at each sample (docs/performance.md). Its owner adds up what the paths bring.
+/// none again. A lane, or a thread, starts its next sample as soon as a path ends, and waits for the others at each
+/// vertex, not at each sample (docs/performance.md). Its owner adds up what the paths contribute.
 template <class Effects, class Real>
 class PathWalk {
   public:
@@ -26,10 +26,10 @@ class PathWalk {
     [[nodiscard]] TANDEM_HD UInt<Real> pixel(const PixelJob& job) const { return y_ * UInt<Real>(job.width) + x_; }
     /// Which have left a surface, so that their rays do not come from the camera?
     [[nodiscard]] TANDEM_HD Mask<Real> gone_on() const { return path_.alive && vertex_ > UInt<Real>(0U); }
-    /// What the path has brought, RGB, linear: all there is when leave() says that it has ended.
+    /// What the path has contributed, RGB, linear: complete when leave() says that it has ended.
     [[nodiscard]] TANDEM_HD const Vec3<Real>& radiance() const { return radiance_; }
 
-    /// The first half of a step: what each path meets next. Where one has ended the next sample's begins.
+    /// The first half of a step: the next hit of each path. Where one has ended, the next sample's begins.
     template <class Tracer>
     TANDEM_HD Closest<Real> find(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                  PathTally<Real>& tally) {
@@ -51,7 +51,7 @@ class PathWalk {
         return ended;
     }
 
-    /// References to all that has a value per lane, but for what only some scenes need.
+    /// References to everything that has a value per lane, except what only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [r, g, b] = radiance_;
         return std::tuple_cat(std::tie(x_, y_, sample_, vertex_, working_, r, g, b), path_.per_lane());

@@ -42,7 +42,7 @@ TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, co
     return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));
 }
 
-/// Adds what a sample has brought.
+/// Adds the radiance of a sample.
 template <class Real>
 TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
     using W = Wide<Real>;

@@ -1,11 +1,11 @@
-/// Russian roulette: paths that carry little end early, and those that go on carry more.
+/// Russian roulette: paths with a low throughput end early, and the survivors carry more.
 #pragma once
 
 #include "tandem/math/vec.h"
 
 namespace tandem {
 
-/// Probability with which a path goes on: the largest component of what it carries, within [minimum, 1].
+/// Probability with which a path continues: the largest component of its throughput, within [minimum, 1].
 ///
 /// `throughput`: RGB, linear, what a unit of light at the path's end adds to the sample. `minimum` in (0, 1] bounds how
 /// much a survivor can gain. A NaN counts as 0. What survives is to be divided by the probability.

@@ -1,4 +1,4 @@
-/// How a path goes on behind a vertex.
+/// How a path continues from a vertex.
 #pragma once
 
 #include "tandem/kernel/bsdf/fresnel.h"
@@ -11,17 +11,17 @@
 
 namespace tandem {
 
-/// How a ray meets a surface.
+/// The shading frame at a hit.
 template <class Real>
 struct Meeting {
     Vec3<Double<Real>> direction;  ///< of the ray, unit
-    Vec3<Double<Real>> normal;     ///< for shading, on the ray's side
+    Vec3<Double<Real>> normal;     ///< shading normal, on the ray's side
     Vec3<Double<Real>> facing;     ///< geometric normal, on the ray's side
     Mask<Real> from_inside;        ///< against the outward normal
-    Mask<Real> is_front;           ///< the normal for shading is on the ray's side as it is: there light is scattered
+    Mask<Real> is_front;           ///< the unturned shading normal is on the ray's side: there light is scattered
 };
 
-/// Is there more than one way on?
+/// Can a path continue in more than one way?
 template <class Effects>
 TANDEM_HD constexpr bool has_choice() {
     return Effects::has(Effect::reflection) + Effects::has(Effect::refraction) + Effects::has(Effect::indirect) > 1;
@@ -41,8 +41,8 @@ TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Re
     return meeting;
 }
 
-/// Leaves of Phong's terms what a dielectric, which takes its share of the light, leaves: of the light that goes in,
-/// and of highlights, which are on the outside of bodies.
+/// Reduces Phong's terms by the fraction that the dielectric takes of the light, and removes highlights on the inside
+/// of solids.
 template <class Effects, class Real>
 TANDEM_HD void take_transmitted(Surface<Real>& surface, const Meeting<Real>& meeting) {
     if (!Effects::has(Effect::refraction)) return;
@@ -62,7 +62,7 @@ TANDEM_HD Real largest(const Vec3<Real>& a) {
     return greater(greater(a.x, a.y), a.z);
 }
 
-/// Mirrored by the normal for shading; by the geometric one where that would lead through the surface.
+/// Mirrored at the shading normal; at the geometric one where that would lead through the surface.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> mirrored(const Meeting<Real>& meeting) {
     const Vec3<Double<Real>> direction = reflect(meeting.direction, meeting.normal);
@@ -71,7 +71,7 @@ TANDEM_HD Vec3<Double<Real>> mirrored(const Meeting<Real>& meeting) {
     return select(through, reflect(meeting.direction, meeting.facing), direction);
 }
 
-/// As refract(), by the normal for shading; by the geometric one where that would not lead through the surface.
+/// As refract(), at the shading normal; at the geometric one where that would not lead through the surface.
 template <class Real>
 TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<Real>& eta) {
     Refraction<Real> result = refract<Real>(meeting.direction, meeting.normal, eta);
@@ -87,7 +87,7 @@ TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<
 
 }  // namespace scatter_detail
 
-/// Sends the path on along its ray, through the hole that it has met, in the lanes of `holes`.
+/// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `holes`.
 template <class Effects, class Real>
 TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, PathState<Effects, Real, true>& path) {
     using Word = UInt<Real>;
@@ -97,12 +97,12 @@ TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, 
     path.alive = path.alive || (holes && path.holes <= Word(most_holes));
 }
 
-/// Chooses how a path goes on, by reflection in a mirror, by what a dielectric does or, with indirect light, by
-/// scattering from a matt surface: each with a chance in proportion to its share of the light, so that a surface of one
-/// kind leaves nothing to chance but Fresnel's reflectance. Lanes that do not go on leave path.alive; those that are
-/// not there stay as they are. Returns the lanes whose media are lost (Border).
+/// Chooses how a path continues: by mirror reflection, by a dielectric or, with indirect light, by diffuse scattering.
+/// The probability of each is proportional to its share of the light, so for a surface of one kind only the Fresnel
+/// reflectance is random. Lanes that do not continue leave path.alive; lanes not in it stay as they are. Returns the
+/// lanes whose media are lost (Border).
 ///
-/// Radiance is followed as L / n^2, which borders leave as it is; a camera in air sees L.
+/// Paths carry L / n^2, which interfaces leave unchanged; a camera in air sees L.
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
 template <class Effects, class Real>
 TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
@@ -129,7 +129,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     if (Effects::has(Effect::refraction) || Effects::has(Effect::indirect)) {
         random = sample.block_at_vertex(Dimension::scatter, vertex);
     }
-    // a surface of one kind takes it with the chance 1, to the bit
+    // a surface of one kind is chosen with the probability 1, exactly
     const Real total = (mirror + glass) + matt;
     const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
     const Mask<Real> takes_mirror = path.alive && mirror > zero && (place < mirror || (glass == zero && matt == zero));
@@ -176,7 +176,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
                                        surface.diffuse.z / chance};
             path.throughput = select(takes_matt, path.throughput * weight, path.throughput);
             path.scatterings = path.scatterings + select(takes_matt, one, Word(0U));
-            // where the normal for shading leads through the surface there is no light
+            // where the shading normal leads through the surface there is no light
             const Mask<Real> below = takes_matt && !(dot(direction, meeting.facing) > D(0.0));
             path.alive = path.alive && !below && path.scatterings <= Word(limits.diffuse);
         }
@@ -192,7 +192,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
         path.throughput = {path.throughput.x / chance_to_live, path.throughput.y / chance_to_live,
                            path.throughput.z / chance_to_live};
     }
-    // The side follows from the choice: that of a direction next to the surface could be rounding's.
+    // The side follows from the choice: rounding could decide that of a direction close to the surface.
     const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
     path.ray.origin = select(active, departure(point, inside), path.ray.origin);
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);

@@ -1,4 +1,4 @@
-/// Shadow rays: is light stopped on its way to a point?
+/// Shadow rays: is the light at a point blocked?
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// Are rays counted one by one? Where no surface sends any there are as many as samples.
+/// Are rays counted one by one? Where surfaces send no rays, there are as many as samples.
 template <class Effects>
 TANDEM_HD constexpr bool counts_rays() {
     return Effects::has_any(counted_ray_effects);
@@ -27,9 +27,9 @@ TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> r
 
 /// Tracer::closest(), for paths and for their shadow rays.
 ///
-/// Paths that only pass through holes share one copy with their shadow rays, if the tracer tries all primitives. For
-/// other effects two copies are faster. A tracer with a hierarchy is never called: behind such a call the barrier of
-/// the block ended in "illegal instruction" on an H200 (docs/performance.md, "Barriers").
+/// Paths that only pass through alpha masks share one copy with their shadow rays, if the tracer tests all primitives.
+/// For other effects two copies are faster. A tracer with a hierarchy is never called: after such a call the barrier of
+/// the block stopped with "illegal instruction" on an H200 (docs/performance.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active) {
@@ -42,7 +42,7 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
     return tracer.closest(ray, source, active);
 }
 
-/// Tracer::occluded(), with holes where materials are cut out. `rays`: one is added for each part of the way.
+/// Tracer::occluded(), through alpha masks. `rays`: one is added for each segment of the ray.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView& scene,
                                           const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
@@ -70,7 +70,7 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
     return stopped || open;
 }
 
-/// Is `light` stopped on its way to `point`, in the lanes of `active`? One at the very point brings nothing.
+/// Is `light` blocked at `point`, in the lanes of `active`? A light exactly at the point contributes nothing.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD_STEP Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
                                      const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {

@@ -1,11 +1,11 @@
-/// Points of surfaces, and the rays that leave from them.
+/// Points on surfaces, and the rays that leave from them.
 ///
 /// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's
 /// along the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding
-/// still leaves it beside the surface, by up to half the distance of numbers there; that is harmless, because the ray
-/// carries what it leaves (ray_source.h). Only the neighbours of a face in a mesh are primitives of their own: a ray
-/// that leaves a face starts so far from its plane, on the ray's side, that rounding cannot put it behind. All that
-/// lies behind the plane, and so the rest of a flat or convex mesh, is then out of its way.
+/// still leaves it off the surface, by up to half an ulp; that is harmless, because the ray carries its source
+/// (ray_source.h). But the neighbours of a face in a mesh are separate primitives: so a ray that leaves a face starts
+/// so far off its plane, on the ray's side, that rounding cannot put it behind. Everything behind the plane, and so the
+/// rest of a flat or convex mesh, is then out of its way.
 #pragma once
 
 #include <type_traits>
@@ -35,7 +35,7 @@ TANDEM_HD Vec3<Double<Real>> along(const Vec3<Double<Real>>& origin, const Vec3<
     return {origin.x + t * direction.x, origin.y + t * direction.y, origin.z + t * direction.z};
 }
 
-/// A point that is given as an offset from the centre of a placed body.
+/// A point given as an offset from the centre of a transformed solid.
 template <class Real>
 TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray, const Double<Real>& t,
                                const Double<Real>& scale) {
@@ -52,7 +52,7 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
 // that the ray left inward, so the ray comes from within, whatever rounding has done to its origin. The last one: the
 // lanes that matter.
 
-// For closed bodies `from_inside` follows from where the ray starts, so that a ray that grazes a body enters it before
+// For closed solids `from_inside` follows from where the ray starts, so that a ray that grazes a solid enters it before
 // it leaves it.
 
 template <class Real>
@@ -216,7 +216,7 @@ TANDEM_HD_STEP SurfacePoint<Real> surface_point(const SceneView& scene, const Ra
     return result;
 }
 
-/// A ray and what it leaves.
+/// A ray and its source.
 template <class Real>
 struct SpawnedRay {
     Ray<Real> ray;
@@ -241,8 +241,8 @@ TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<
 }
 
 /// The part at its end that a shadow ray leaves out, relative to its length. The ray's direction is rounded, so
-/// rounding would decide whether it meets a surface that the light lies on. With the gap it does not meet such a
-/// surface, if the cosine to its normal is above 1 / 16.
+/// rounding would decide whether it hits a surface that the light lies on. With the gap it does not hit such a surface,
+/// if the cosine to its normal is above 1 / 16.
 template <class Real>
 inline constexpr double shadow_gap = std::is_same_v<Scalar<Real>, double> ? 0x1p-49
                                      : is_fast<Real>                      ? 0x1p-18
@@ -255,7 +255,7 @@ struct ShadowRay {
     ShadowSource<Real> source;
     Double<Real> t_max = constant<Double<Real>>(1.0 - shadow_gap<Real>);
     /// False where the light is at the point itself, so that the ray has no direction, and where the ray cannot be
-    /// traced because it left the range of the tier fast. Both bring no light.
+    /// traced because it left the range of the tier fast. Both contribute no light.
     Mask<Real> active;
 };
 

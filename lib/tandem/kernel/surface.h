@@ -1,4 +1,4 @@
-/// What a hit says of the surface: normal and material, by kind of primitive.
+/// The surface at a hit: normal and material, by kind of primitive.
 #pragma once
 
 #include "tandem/effects/effects.h"
@@ -15,10 +15,10 @@ namespace tandem {
 
 template <class Real>
 struct Surface {
-    Vec3<Double<Real>> normal;  ///< for shading: unit, outward, world space
+    Vec3<Double<Real>> normal;  ///< shading normal: unit, outward, world space
     Vec3<Real> ambient, diffuse, specular;
     Real shininess;
-    // only where the effects call for them
+    // only where the effects need them
     UInt<Real> material;
     Vec3<Real> mirror;
     Real transmission;
@@ -27,11 +27,11 @@ struct Surface {
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
 };
 
-/// How many holes a ray passes before it counts as stopped.
+/// How many alpha-masked hits a ray passes before it counts as blocked.
 inline constexpr std::uint32_t most_holes = 255;
 
 // The normal of each kind at parameter t of a ray that hits the primitive there, in the lanes of `here`: of a sphere of
-// any length, else unit. `exits`: where the ray leaves the very body that it left inward.
+// any length, else unit. `exits`: where the ray leaves the same solid that it left inward.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Sphere& sphere, const Ray<Real>& ray,
                                        const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
@@ -65,14 +65,14 @@ TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad,
     return shading_normal<Real>(quad, normals, ray, t, here);
 }
 
-/// Do materials hang on where a point lies on its surface?
+/// Do materials depend on the position on the surface?
 template <class Effects>
 TANDEM_HD constexpr bool has_pictures() {
     return Effects::has(Effect::textures) || Effects::has(Effect::normal_maps) || Effects::has(Effect::cutouts);
 }
 
-/// The normal that a normal map makes of `normal`, unit. Where `turned`, on the back of a double-sided face, `normal`
-/// is turned round, and so is what the map says of the front.
+/// `normal` perturbed by a normal map, unit. Where `turned`, on the back of a double-sided face, `normal` is reversed,
+/// and so is the map's normal of the front.
 template <class Real>
 TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const MaterialTextures& textures,
                                               const Parametrisation<Real>& at, const Vec3<Double<Real>>& normal,
@@ -83,8 +83,8 @@ TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const Mate
     return select(turned, -bent, bent);
 }
 
-/// Is primitive `id` a face that is not there from behind, and does the ray come from there? `on_face`: whether it is a
-/// face at all.
+/// Is primitive `id` a face whose back is culled, and does the ray come from behind? `on_face`: whether it is a face at
+/// all.
 template <std::uint32_t kinds, class Real>
 TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
                                const Mask<Real>& here, bool& on_face) {
@@ -100,7 +100,7 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const R
     return culled;
 }
 
-/// Is the surface there at `hit`, or a hole, in the lanes of `found`?
+/// Is the surface opaque at `hit`, or masked out, in the lanes of `found`?
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                        const Closest<Real>& hit, const Mask<Real>& found) {
@@ -120,7 +120,7 @@ TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& 
     return opaque;
 }
 
-/// Where a vertex has to be known better than as a point of its ray.
+/// Where a vertex must be known more accurately than as a point of its ray.
 inline constexpr EffectMask effects_on_surfaces = bouncing_effects | Effect::shadows | Effect::area_lights |
                                                   Effect::emission | Effect::environment_light | Effect::normal_maps;
 template <class Effects>
@@ -130,7 +130,7 @@ TANDEM_HD constexpr bool can_leave_surfaces() {
 
 /// The surface at `hit`, which `ray` from `source` found, in the lanes of `found`. The rays of a packet hit few
 /// different primitives, so each of these is looked up and its normal formed once, for all its rays. `kinds`: the ones
-/// that may have been hit; `Effects`: what their materials may call for. `point` becomes the hit, if these have
+/// that may have been hit; `Effects`: what their materials may need. `point` becomes the hit, if these have
 /// effects_on_surfaces.
 template <class Effects, std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray, const From& source,

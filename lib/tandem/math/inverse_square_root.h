@@ -9,7 +9,7 @@ namespace tandem {
 /// vector normalises to zero. Half the instructions of a correctly rounded square root and division on a GPU, and
 /// the same bits everywhere.
 /// Method: a first guess from the exponent (error 3.5 %), then Newton's step y + y (1/2 - (x/2 y) y), which squares the
-/// relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Held by tests/math/inverse_square_root_test.cpp.
+/// relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Tested by tests/math/inverse_square_root_test.cpp.
 template <class D>
 TANDEM_HD D inverse_square_root(const D& x) {
     using I = UInt64<D>;

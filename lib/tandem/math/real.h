@@ -119,7 +119,7 @@ TANDEM_HD double round_to_int(double a) { return ::rint(a); }
 TANDEM_HD float absolute(float a) { return fabsf(a); }
 TANDEM_HD double absolute(double a) { return ::fabs(a); }
 
-/// A product and a sum for decisions that need not be equal everywhere, because only the speed hangs on them (reject
+/// A product and a sum for decisions that need not be equal everywhere, because only speed depends on them (reject
 /// filters, boxes of a hierarchy): one rounding where the processor fuses them, else two. With TANDEM_NO_LOOSE_FMA
 /// always two: tests/lint compiles so, to see that the compiler fuses nothing by itself.
 TANDEM_HD float loose_multiply_add(float a, float b, float c) {

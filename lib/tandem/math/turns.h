@@ -54,7 +54,7 @@ TANDEM_HD D arctangent(const D& t) {
 /// sin(2 pi u) and cos(2 pi u) for |u| < 2^48; meant for u in [0, 1). Relative error below 2^-52; in the tier fast
 /// absolute error below 2^-22, and |u| < 2^19.
 /// Method: 4u is exact, and so is its distance from the nearest integer, which leaves at most an eighth of a turn.
-/// Held by tests/math/turns_test.cpp.
+/// Tested by tests/math/turns_test.cpp.
 template <class Real>
 TANDEM_HD SineCosine<Real> sin_cos_turns(const Double<Real>& u) {
     using D = Double<Real>;
@@ -75,7 +75,7 @@ TANDEM_HD SineCosine<Real> sin_cos_turns(const Double<Real>& u) {
 /// The angle from +x to the point (x, y), in turns, in [-1/2, 1/2]: atan2(y, x) / (2 pi). 0 at the origin. Needs
 /// magnitudes whose sum is finite and which are not subnormal. Relative error below 2^-50; in the tier fast 2^-21.
 /// Method: reflections into the first octant, then a rotation by an eighth of a turn if the tangent is above tan(pi/8).
-/// Held by tests/math/turns_test.cpp.
+/// Tested by tests/math/turns_test.cpp.
 template <class Real>
 TANDEM_HD Double<Real> atan2_turns(const Double<Real>& y, const Double<Real>& x) {
     using D = Double<Real>;

@@ -29,7 +29,7 @@ struct Vertex {
     std::uint32_t primitive = no_primitive;
     std::uint32_t material = 0;
     bool from_inside = false;
-    bool shines = false;  ///< this side is one that light leaves from, if the surface glows
+    bool shines = false;  ///< this side emits, if the surface is emissive
     bool is_hole = false;
     Vector emission{0, 0, 0};
 };
@@ -177,7 +177,7 @@ Vector phong(const Reflectances& material, const Vertex& vertex, const Vector& l
     return material.diffuse * std::max<Real>(0, inner(l, n)) + material.specular * specular;
 }
 
-/// A point of a surface that glows.
+/// A point of an emissive surface.
 struct LightPoint {
     Vector point;
     SurfaceHit hit;  ///< normal, corners and weights there
@@ -254,7 +254,7 @@ bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex
     return behind;
 }
 
-/// From all surfaces that glow: a point of each, by area.
+/// From all emissive surfaces: a point of each, by area.
 Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
     Vector sum{0, 0, 0};
     for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
@@ -390,7 +390,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
     Vector radiance{0, 0, 0}, throughput{1, 1, 1};
     Media media(scene);
     std::uint32_t reflections = 0, refractions = 0, scatterings = 0;
-    bool was_scattered = false;  // by a matt surface, at the vertex before
+    bool was_scattered = false;  // by a diffuse surface, at the vertex before
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
         const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, passed);
         if (nearest.primitive == no_primitive) {

@@ -1,5 +1,5 @@
 /// The oracle's own paths, in extended precision. What it shares with lib/tandem/kernel is the random numbers, and
-/// so the choices that hang on them.
+/// so the choices that depend on them.
 #pragma once
 
 #include "tandem/kernel/path_limits.h"

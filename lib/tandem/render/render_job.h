@@ -20,7 +20,7 @@ struct RenderJob {
     int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples but for rounding
 };
 
-/// "8,16,4": reflections, refractions, scatterings by matt surfaces.
+/// "8,16,4": reflections, refractions, diffuse bounces.
 [[nodiscard]] std::string to_string(const PathLimits& limits);
 
 /// The inverse. Throws InputError.

@@ -1,4 +1,4 @@
-/// Animation: where the nodes are at a time.
+/// Animation: the transforms of the nodes at a time.
 #pragma once
 
 #include <vector>

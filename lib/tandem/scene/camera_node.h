@@ -1,4 +1,4 @@
-/// The cameras of a scene: which one is meant, and how it stands.
+/// The cameras of a scene: selection by name, and orientation.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ namespace tandem {
 /// The names of all cameras, "'eye', 'other'"; "none" if there are none.
 [[nodiscard]] std::string camera_names(const Scene& scene);
 
-/// Where right, up and backward are for a camera under that transform: unit vectors at right angles, in the rows. It
-/// looks along its node; scale does not change what it sees (glTF 2.0, 3.10). Nothing if the transform is not
+/// Right, up and backward of a camera under that transform: orthogonal unit vectors, in the rows. It looks
+/// along its node; scale does not change what it sees (glTF 2.0, 3.10). Nothing if the transform is not
 /// invertible.
 [[nodiscard]] std::optional<Matrix3> camera_axes(const Transform& world_from_node);
 

@@ -1,4 +1,4 @@
-/// The scene as its author says it: a tree of named nodes with transforms relative to their parents, what hangs on
+/// The authored scene: a tree of named nodes with transforms relative to their parents, the things attached to
 /// them, and animation. Metres, seconds, radians; right-handed, y up, cameras look along -z, as in glTF 2.0.
 /// Build one in code (docs/scene-format.md has an example), by name (named_scenes.h) or from a file (gltf/import.h).
 #pragma once
@@ -172,7 +172,7 @@ struct Scene {
     Environment environment;
     Display display{};  ///< of 8-bit pictures; no part of what is rendered
     double frames_per_second = 24;
-    bool area_lights = true;         ///< draw points of surfaces that glow; without it only paths find them
+    bool area_lights = true;         ///< sample points of emissive surfaces; without it only paths find them
     bool area_light_shadows = true;  ///< also of the background
     bool roulette = true;            ///< play Russian roulette with long paths, where there is indirect light
     bool bodies_lie_apart = false;   ///< take bodies of glass for apart, even if they touch or hold one another
@@ -181,7 +181,7 @@ struct Scene {
 /// For all cameras of the scene: at how many instants of its interval a shutter sees, at most.
 void set_shutter_instants(Scene& scene, int instants);
 
-/// Does the light bring any?
+/// True if the light emits anything.
 [[nodiscard]] inline bool is_lit(const LightSource& light) {
     return light.intensity > 0 && (light.colour.x > 0 || light.colour.y > 0 || light.colour.z > 0);
 }

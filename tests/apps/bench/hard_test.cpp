@@ -34,7 +34,7 @@ TEST(Hard, AWrongHitMissesTheMarkAndIsReproduced) {
     Report report;
     EXPECT_FALSE(run_hard(small(), loop_source(gpu_spoils), report));
     const std::string prose = prose_of(report);
-    EXPECT_TRUE(test::contains(prose, "A2 cuda strict misses its mark"));
+    EXPECT_TRUE(test::contains(prose, "A2 cuda strict exceeds its error bound"));
     EXPECT_TRUE(test::contains(prose, "Ray<float>{{"));
     EXPECT_EQ(prose.find("A2 cpu"), std::string::npos) << prose;
 }

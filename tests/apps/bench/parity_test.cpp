@@ -65,7 +65,7 @@ TEST(Parity, OneBitOfOneVariantBreaksIt) {
     };
     Report report;
     EXPECT_FALSE(run_parity(small_options(), loop_source(spoils), report));
-    EXPECT_NE(prose_of(report).find("not the same picture: cpu, tiles of 13."), std::string::npos) << prose_of(report);
+    EXPECT_NE(prose_of(report).find("the films differ: cpu, tiles of 13."), std::string::npos) << prose_of(report);
     EXPECT_EQ(property_of(report, "equal"), "false");
 }
 

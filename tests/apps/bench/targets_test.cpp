@@ -73,7 +73,7 @@ TEST(Targets, TheAnimationIsMeasuredAndExplained) {
     EXPECT_GT(share, 0);
     EXPECT_LE(share, 1);
     EXPECT_EQ(satisfied, share >= 0.8);
-    EXPECT_NE(prose_of(report).find("What holds it back most"), std::string::npos);
+    EXPECT_NE(prose_of(report).find("The bottleneck is"), std::string::npos);
     EXPECT_TRUE(std::filesystem::exists(options.folder + "/frame-0003.png"));
     EXPECT_FALSE(std::filesystem::exists(options.folder + "/frame-0003.ppm"));
     std::filesystem::remove_all(options.folder);

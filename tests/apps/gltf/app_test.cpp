@@ -39,8 +39,8 @@ TEST_F(App, InfoSaysWhatAFileHolds) {
           "primitives: 4 (1 spheres, 3 boxes, 0 ellipsoids, 0 parallelepipeds, 0 triangles, 0 quads)",
           "\"crowd\", 3 boxes, animated", "\"eye\", perspective, 45.84 degrees high",
           "\"lamp\", point, colour (1, 1, 1), intensity 0.63662, falls off with distance, casts shadows",
-          "shadows: light 'lamp' casts shadows", "\"clay\", ambient (0.08, 0.08, 0.08)", "8-bit pictures: sRGB\n",
-          "animation: 2 channels, 6 keys, 48 frames at 24 a second",
+          "shadows: light 'lamp' casts shadows", "\"clay\", ambient (0.08, 0.08, 0.08)", "8-bit images: sRGB\n",
+          "animation: 2 channels, 6 keys, 48 frames at 24 per second",
           "  rendered: EXT_mesh_gpu_instancing at nodes[2]"}) {
         EXPECT_TRUE(contains(info.out, line));
     }

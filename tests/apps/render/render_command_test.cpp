@@ -76,12 +76,12 @@ TEST_F(RenderCommandTest, SaysOnceWhichExposureItFound) {
     std::ostringstream number;  // a tenth of a stop is short enough for it
     number << read_metadata(folder.file("f0.ppm"))->exposure_stops;
     const std::string stops = number.str();
-    EXPECT_EQ(first.err, "tandem-render: the exposure is " + stops + " stops, found from frame 0; --exposure " + stops +
-                             " gives the same\n");
+    EXPECT_EQ(first.err, "tandem-render: the exposure is " + stops + " stops, derived from frame 0; --exposure " +
+                             stops + " gives the same result\n");
     EXPECT_EQ(first.out, line(0, "") + line(1, "  1 samples were NaN or infinite and left out") +
                              line(2, "  2 samples were NaN or infinite and left out"));
-    EXPECT_EQ(run().err, "tandem-render: the exposure is " + stops + " stops, that of '" + folder.file("f0.ppm") +
-                             "'; --exposure " + stops + " gives the same\n");
+    EXPECT_EQ(run().err, "tandem-render: the exposure is " + stops + " stops, taken from '" + folder.file("f0.ppm") +
+                             "'; --exposure " + stops + " gives the same result\n");
     command.quiet = true;
     EXPECT_EQ(run().err, "");
 }

@@ -389,7 +389,7 @@ TEST_F(RenderSequence, WhatCannotBeIsSaidBeforeRendering) {
         const auto message = thrown_message<InputError>([this] { render(); });
         EXPECT_NE(message.find(reason), std::string::npos) << output << " gives: " << message;
     };
-    refused(folder.file("still.png"), "no place for the frame number");
+    refused(folder.file("still.png"), "no placeholder for the frame number");
     refused(folder.file("#-#.png"), "more than one place");
     refused(folder.file("f#.jpg"), ".exr");
     refused(folder.file("none/f#.png"), "no folder");

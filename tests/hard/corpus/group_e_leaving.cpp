@@ -502,37 +502,36 @@ Score crossings(const Subject& subject, Random& random, std::size_t rays) {
 }
 
 constexpr const char* by_angle = "closed form: the sign of the cosine";
-constexpr const char* both_rules = "closed form: the sign of the cosine; what touches, hides";
+constexpr const char* both_rules = "closed form: the sign of the cosine; a sphere in contact blocks";
 
 }  // namespace
 
 std::vector<HardCase> leaving_cases() {
     return {
         {"E1", "From a sphere to lights at its horizon",
-         "without an offset 39 % of the lights are hidden by the point's "
-         "own sphere, with one of 1e-4 8.5 %",
+         "without an offset, 39 % of the lights are blocked by the sphere itself; with an offset of 1e-4, 8.5 %",
          by_angle, RenderCase{horizon}},
-        {"E2", "Under balls that touch but for 1e-5",
-         "every usual offset starts the ray behind the ball: all light leaks", "closed form: what touches, hides",
-         RenderCase{contact}},
-        {"E3", "Both, radius 10^-3", "an offset that suits a radius of 1 is of the size of the ball", both_rules,
+        {"E2", "Under spheres with a gap of 1e-5",
+         "every usual offset starts the ray behind the other sphere: all light leaks",
+         "closed form: a sphere in contact blocks", RenderCase{contact}},
+        {"E3", "E1 and E2 with radius 10^-3", "an offset that suits radius 1 is as large as the sphere", both_rules,
          RenderCase{tiny}},
-        {"E4", "Both, seen from 1000 radii", "the hit point itself is 1.7e-4 off the surface", both_rules,
+        {"E4", "E1 and E2 seen from 1000 radii", "the hit point itself is 1.7e-4 off the surface", both_rules,
          RenderCase{seen_from_far}},
-        {"E5", "Both, a planet", "an offset that suits a radius of 1 rounds away", both_rules, RenderCase{planet}},
-        {"E6", "Both, 10^3 and 10^5 radii from the origin", "floats are 6e-5 and 8e-3 apart: no offset suits both",
+        {"E5", "E1 and E2 on a planet", "an offset that suits radius 1 rounds away", both_rules, RenderCase{planet}},
+        {"E6", "E1 and E2, 10^3 and 10^5 radii from the origin", "floats are 6e-5 and 8e-3 apart: no offset suits both",
          both_rules, RenderCase{far_from_origin}},
-        {"E7", "From faces of meshes, with neighbours in their plane",
-         "the neighbour is another primitive, and is hit at t near 0", "topology: flat, convex, closed",
+        {"E7", "From faces of meshes, with coplanar neighbours",
+         "the neighbour is another primitive, and is hit near t = 0", "topology: flat, convex, closed",
          RenderCase{meshes}},
-        {"E8", "To points of a ball that is a light",
-         "the light hides itself; an end 10^-4 short of it misses what touches it", "closed form",
+        {"E8", "To points on a spherical light",
+         "the light blocks itself; a shadow ray that ends 10^-4 short misses what touches the light", "closed form",
          RenderCase{to_surfaces}},
-        {"E9", "To a light at the very point, and inside the sphere", "normalising a vector of length 0 gives NaN",
+        {"E9", "To a light exactly at the point, and inside the sphere", "normalising a vector of length 0 gives NaN",
          "rule: no light, no NaN", RenderCase{light_at_the_point}},
-        {"E10", "Shadow rays from 10^-8 to 10^8 long", "a least t of 1e-4 is beyond the light",
+        {"E10", "Shadow rays with lengths from 10^-8 to 10^8", "a minimum t of 1e-4 is beyond the light",
          "closed form: between, behind, exactly there", RenderCase{long_and_short}},
-        {"E11", "Crossings of shells and of bodies of glass",
+        {"E11", "Interface crossings of shells and dielectrics",
          "the origin is put on the wrong side, and the side is lost", "counting", RenderCase{crossings}},
     };
 }

@@ -169,17 +169,18 @@ Score light_on_surface(const Subject& subject, Random&, std::size_t) {
 
 std::vector<HardCase> shading_cases() {
     return {
-        {"G1", "cos^n for n from 10^2 to 10^8", "the rounding of the cosine counts n times: 45 % at 10^6",
+        {"G1", "cos^n for n from 10^2 to 10^8", "the rounding error of the cosine counts n times: 45 % at 10^6",
          "MPFR, on the same vectors", FunctionCase{lobe}},
-        {"G2", "cos of 0, below 0 and above 1", "pow of a negative is NaN; 1.0000002 to the 10^8 is 5 10^8",
-         "rule: 0 below, 1 above", FunctionCase{clamped}},
+        {"G2", "cos of 0, below 0 and above 1",
+         "pow of a negative number is NaN; 1.0000002 to the power 10^8 is 5 10^8", "rule: 0 below, 1 above",
+         FunctionCase{clamped}},
         {"G3", "n of 0 and 10^-3", "0^0, and logarithms of subnormals", "closed form; MPFR",
          FunctionCase{smallest_exponents}},
-        {"G4", "Vectors from 10^-45 to 10^38", "the square of the length under- or overflows", "MPFR",
+        {"G4", "Vectors with lengths from 10^-45 to 10^38", "the square of the length underflows or overflows", "MPFR",
          FunctionCase{normalised}},
-        {"G5", "Normals that rounding made longer than 1", "acos and sqrt(1 - n.n) of them are NaN",
+        {"G5", "Normals that rounding makes longer than 1", "their acos and sqrt(1 - n.n) are NaN",
          "rule: between 0 and 1", FunctionCase{too_long}},
-        {"G6", "A light on the surface, and at the camera", "normalising the zero vector gives NaN, which stays",
+        {"G6", "A light on the surface, and at the camera", "normalising the zero vector gives NaN, which persists",
          "rule: finite", RenderCase{light_on_surface}},
     };
 }

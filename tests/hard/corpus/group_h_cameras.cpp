@@ -170,16 +170,16 @@ std::vector<HardCase> camera_cases() {
     return {
         {"H1", "4096 pixels over 10^-3 and 10^-4 degrees", "a normalised direction in float has 66 values across them",
          "closed form in double", FunctionCase{narrow_views}},
-        {"H2", "Cameras whose axes fall together", "the basis is 0/0", "rule: refused, or a right-angled basis",
+        {"H2", "Cameras with parallel axes", "the basis is 0/0", "rule: refused, or an orthogonal basis",
          FunctionCase{degenerate_cameras}},
         {"H5", "Random bits to [0, 1)", "x 2^-32 rounds to 1 for 128 words", "exhaustive over 2^24",
          FunctionCase{unit_interval}},
-        {"H9", "Jitter in a film of 65,536 pixels", "pixel + jitter has 256 positions left within a pixel",
+        {"H9", "Jitter in a film 65,536 pixels wide", "pixel + jitter has only 256 positions within a pixel",
          "closed form in double", FunctionCase{large_film}},
-        {"H10", "Counters at the ends of 32 bits", "a counter that wraps repeats its numbers", "no two blocks alike",
-         FunctionCase{counters}},
-        {"H12", "Jitter at the border of a pixel", "rounding carries a sample into the next pixel", "rule: half-open",
-         FunctionCase{pixel_borders}},
+        {"H10", "Counters at the ends of 32 bits", "a counter that wraps repeats its numbers",
+         "no two blocks are equal", FunctionCase{counters}},
+        {"H12", "Jitter at the edge of a pixel", "rounding carries a sample into the next pixel",
+         "rule: half-open interval", FunctionCase{pixel_borders}},
     };
 }
 

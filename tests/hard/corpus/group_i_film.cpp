@@ -127,13 +127,12 @@ Score not_finite(const Subject& subject, Random&, std::size_t) {
 
 std::vector<HardCase> film_cases() {
     return {
-        {"I1", "A million samples of 0.1", "a float sum is off by 1 %, at 10^8 by 79 %", "closed form",
+        {"I1", "A million samples of 0.1", "a float sum is off by 1 %, at 10^8 samples by 79 %", "closed form",
          RenderCase{tenths}},
-        {"I2", "A million samples between 0 and 1", "a float sum stays at 2^24",
+        {"I2", "A million samples between 0 and 1", "a float sum stops at 2^24",
          "the same samples in extended precision", RenderCase{uniform}},
-        {"I3", "Samples of 10^4, one in 10^4", "a running mean is off by 128 %", "whole numbers",
-         RenderCase{fireflies}},
-        {"I7", "Infinite and NaN samples", "one of them is the pixel's value for ever", "rule: dropped and counted",
+        {"I3", "Samples of 10^4, one among 10^4", "a running mean is off by 128 %", "integers", RenderCase{fireflies}},
+        {"I7", "Infinite and NaN samples", "one of them fixes the pixel's value for ever", "rule: dropped and counted",
          RenderCase{not_finite}},
         {"I9", "Samples of 10^30", "they overflow, or are dropped", "rule: finite, kept",
          RenderCase{enormous_fireflies}},

@@ -279,20 +279,21 @@ std::vector<Lot> crowd(Random& random, std::size_t rays) {
 std::vector<HardCase> input_cases() {
     return {
         {"K1", "NaN and infinity in every field of a scene", "they reach a ray, and Embree aborts the process",
-         "rule: refused by name", FunctionCase{not_numbers}},
+         "rule: refused with a reason", FunctionCase{not_numbers}},
         {"K2", "Rays that are not finite, too long, or zero", "Embree aborts; on a GPU they hit anything",
          "rule: a miss", RenderCase{not_rays}},
-        {"K3", "Two equal lights, three equal spheres", "one of them is lost, or counted twice",
+        {"K3", "Two identical lights, three identical spheres", "one of them is lost, or counted twice",
          "metamorphosis: equal bits", RenderCase{equal_lights}},
-        {"K4", "Radius 0, places beyond 10^18, materials that give energy", "they vanish in silence",
-         "rule: refused by name", FunctionCase{beyond_limits}},
+        {"K4", "Radius 0, positions beyond 10^18, materials that create energy", "they vanish silently",
+         "rule: refused with a reason", FunctionCase{beyond_limits}},
         {"K5", "No primitive, one pixel, no sample", "an empty structure; a division by 0", "rule",
          RenderCase{nothing_there}},
-        {"K6", "Sizes that are subnormal", "flush-to-zero makes them nothing", exact, RayCase{subnormal}},
-        {"K8", "Centres in a plane, on a line, in a point", "bounds without extent", exact, RayCase{no_extent}},
-        {"K10", "Numbers in files, where the decimal point is a comma", "they are read as others, or to the comma",
-         "MPFR: the nearest double", FunctionCase{written_numbers}},
-        {"K11", "Ten spheres for every ray", "32-bit offsets; a stack that is too short", exact, RayCase{crowd}},
+        {"K6", "Subnormal sizes", "flush-to-zero makes them zero", exact, RayCase{subnormal}},
+        {"K8", "Centres in a plane, on a line, at a point", "bounds without extent", exact, RayCase{no_extent}},
+        {"K10", "Numbers in files, in a locale with a decimal comma",
+         "they are read as other numbers, or only up to the comma", "MPFR: the nearest double",
+         FunctionCase{written_numbers}},
+        {"K11", "Ten spheres per ray", "32-bit offsets; a stack that is too short", exact, RayCase{crowd}},
     };
 }
 

@@ -146,16 +146,16 @@ Score own_functions(Random& random, std::size_t calls) {
 
 std::vector<HardCase> parity_cases() {
     return {
-        {"L1", "Against the least x86-64 processor, one thread",
+        {"L1", "Against the baseline x86-64 instruction set, one thread",
          "contraction, other functions, ties: 1 to 48 % of pixels", "metamorphosis: equal bits",
          RenderCase{least_processor_alike}},
-        {"L2", "Threads and tiles", "sums and ties in the order of arrival", "metamorphosis: equal bits",
+        {"L2", "Threads and tiles", "sums and ties depend on the order of arrival", "metamorphosis: equal bits",
          RenderCase{threads_and_tiles}},
-        {"L4", "Flush-to-zero armed by others", "subnormals vanish on some threads", "metamorphosis: equal bits",
+        {"L4", "Flush-to-zero set by other code", "subnormals vanish on some threads", "metamorphosis: equal bits",
          RenderCase{flush_to_zero}},
-        {"L5", "The lesser and the greater of NaN and zeros", "fmin and fmax differ between processors",
+        {"L5", "Minimum and maximum with NaN and signed zeros", "fmin and fmax differ between processors",
          "rule: a < b ? a : b", FunctionCase{least_and_greatest}},
-        {"L6", "Kinds of NaN, and integers to float", "x86 and GPUs make different NaN", "rule: one NaN",
+        {"L6", "Kinds of NaN, and integers to float", "x86 and GPUs produce different NaN", "rule: one NaN",
          FunctionCase{one_nan}},
         {"L8", "sin, cos, exp, log and pow of any float", "libraries differ in the last bit", "MPFR: correctly rounded",
          FunctionCase{own_functions}},

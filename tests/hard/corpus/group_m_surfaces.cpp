@@ -221,16 +221,15 @@ Score at_surfaces(const Subject& subject, Random& random, std::size_t) {
 std::vector<HardCase> light_surface_cases() {
     return {
         {"M10", "A lamp under a roof, and a light 10^15 times as strong above it",
-         "the strong light is drawn every time, and it is black under the roof", "closed form",
-         RenderCase{under_a_roof}},
-        {"M15", "Sheets that glow and are folded",
-         "the normal of the first half decides for both, and the light of the other is lost",
-         "closed form, Lambert's of each half", RenderCase{folded_lights}},
-        {"M17", "A ball or a square that glows, half a radius above a face, far from the origin",
+         "the strong light is sampled every time, and the roof blocks it", "closed form", RenderCase{under_a_roof}},
+        {"M15", "Folded emissive quads",
+         "the normal of the first half is used for both, and the light of the other half is lost",
+         "closed form, Lambertian, for each half", RenderCase{folded_lights}},
+        {"M17", "An emissive sphere or square half a radius above a face, far from the origin",
          "rays start above the face, so the weights of the light that they find belong to another point", "closed form",
          RenderCase{above_a_face}},
-        {"M19", "Lights in a plane, upon a surface, at a vertex", "rounding decides, pixel by pixel",
-         "rule: no light in the plane; not hidden by what they lie on", RenderCase{at_surfaces}},
+        {"M19", "Lights in a plane, on a surface, at a vertex", "rounding decides, pixel by pixel",
+         "rule: no light in the plane; not blocked by the surface that it lies on", RenderCase{at_surfaces}},
     };
 }
 

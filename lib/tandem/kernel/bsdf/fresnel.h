@@ -5,12 +5,12 @@
 
 namespace tandem {
 
-/// Reflectance R of unpolarised light; the transmittance is 1 - R, so that no energy is lost or won.
+/// Reflectance R of unpolarised light; the transmittance is 1 - R, so that energy is conserved.
 ///
 /// Gives: R in [0, 1]; 1 for total internal reflection and for grazing incidence, 0 for equal indices at every angle.
 ///        Within 1e-12 of Fresnel's formulas for the cosines given.
 /// Source: A. Fresnel, 1823, as in M. Born, E. Wolf, "Principles of Optics", 1.5.2.
-/// Held by tests/kernel/bsdf/fresnel_test.cpp and group F of the corpus (tests/hard).
+/// Tested by tests/kernel/bsdf/fresnel_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
 TANDEM_HD Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, const Double<Real>& eta) {
     using D = Double<Real>;
@@ -21,7 +21,7 @@ TANDEM_HD Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, co
     const D perpendicular = (eta * in - out) / (eta * in + out);
     const D parallel = (in - eta * out) / (in + eta * out);
     const D reflectance = D(0.5) * (perpendicular * perpendicular + parallel * parallel);
-    // both cosines vanish only for equal indices, where the quotients are not looked at
+    // both cosines vanish only for equal indices, where the quotients are not used
     return select(eta == one, zero, select(refraction.transmits, lesser(reflectance, one), one));
 }
 

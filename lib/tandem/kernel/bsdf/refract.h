@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// How a ray goes on behind an interface. Meaningful where `transmits`; elsewhere all light is reflected.
+/// How a ray continues behind an interface. Meaningful where `transmits`; elsewhere all light is reflected.
 template <class Real>
 struct Refraction {
     Mask<Real> transmits;
@@ -18,13 +18,13 @@ struct Refraction {
 ///
 /// Needs: `direction` and `normal` unit vectors in double, the normal on the side that the ray comes from (their dot
 ///        product is not positive); `eta`, the refractive index of that side over that of the other, > 0.
-/// Gives: total internal reflection where eta sin > 1, decided right unless eta sin is within 2^-40 of 1; exactly at 1
-///        the ray leaves along the interface. cosine_out within 1e-7 next to that border. Equal indices, eta = 1, leave
-///        the direction as it is, to the bit. A NaN does not transmit.
+/// Gives: total internal reflection where eta sin > 1, decided correctly unless eta sin is within 2^-40 of 1; exactly
+///        at 1 the ray leaves along the interface. cosine_out within 1e-7 next to that border. Equal indices, eta = 1,
+///        leave the direction as it is, to the bit. A NaN does not transmit.
 /// Method: the sine is the length of direction x normal, formed without cancellation. 1 - eta^2 (1 - cos^2) loses it
 /// next
 ///         to the border, and near the normal, where the cosine hardly tells the angle.
-/// Held by tests/kernel/bsdf/refract_test.cpp and group F of the corpus (tests/hard).
+/// Tested by tests/kernel/bsdf/refract_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
 TANDEM_HD Refraction<Real> refract(const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& normal,
                                    const Double<Real>& eta) {

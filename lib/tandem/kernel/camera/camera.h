@@ -22,14 +22,14 @@ struct CameraView {
     // of a thin lens; not for orthographic cameras
     bool has_lens = false;
     Vec3d lens_x{0, 0, 0}, lens_y{0, 0, 0};  ///< its radius, to the right and upwards
-    double inverse_focus = 0;                ///< 1 / depth of the plane that is sharp, 1/metres
+    double inverse_focus = 0;                ///< 1 / depth of the plane in focus, 1/metres
     double rotation = 0;                     ///< of the aperture's first corner, in turns
     std::int32_t blades = 0;                 ///< of the aperture; 0: round
 };
 
 /// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
 /// normalised. The corner of the pixel comes from double, once per pixel; the offset is added in float, apart from
-/// the pixel's number, so that a large film does not eat its digits. Within 2 ulp of the largest component. (In the
+/// the pixel's number, so that a large film does not cost it digits. Within 2 ulp of the largest component. (In the
 /// tier precise the offset is added in double, in fast the corner comes from float.)
 template <class Real>
 TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x, const Double<Real>& pixel_y,
@@ -50,8 +50,8 @@ TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pix
     return ray;
 }
 
-/// The camera ray through the point of the lens that u and v of [0, 1) choose: it meets the other at the plane that is
-/// sharp, since the directions of camera rays are as long as that plane at distance 1 is away.
+/// The camera ray through the point of the lens that u and v of [0, 1) choose: it converges with the others at the
+/// plane in focus, since the directions of camera rays have a depth of 1.
 /// Source: R. Cook, T. Porter, L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, sec. 3.2: the thin lens.
 template <class Real>
 TANDEM_HD Ray<Real> through_lens(const CameraView& camera, const Ray<Real>& ray, const Real& u, const Real& v) {

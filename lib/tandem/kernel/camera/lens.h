@@ -1,9 +1,9 @@
-/// The lens of a camera, as its author says it.
+/// The lens of an authored camera.
 #pragma once
 
 namespace tandem {
 
-/// A thin lens: what lies at `focus_distance`, metres along the axis, is sharp. Radius 0 is a pinhole.
+/// A thin lens, in focus at `focus_distance` metres along the axis. Radius 0 is a pinhole.
 struct Lens {
     double aperture_radius = 0;  ///< metres
     double focus_distance = 1;   ///< metres

@@ -1,4 +1,4 @@
-/// The shutter of a camera, as its author says it.
+/// The shutter of an authored camera.
 #pragma once
 
 namespace tandem {
@@ -8,7 +8,7 @@ namespace tandem {
 struct Shutter {
     double open = 0;
     double close = 0;   ///< `open` or later
-    int instants = 16;  ///< of the interval, that make up a frame at most, 1 to 1024 (render/motion_blur.h)
+    int instants = 16;  ///< the most instants of the interval that make up a frame, 1 to 1024 (render/motion_blur.h)
 };
 
 [[nodiscard]] inline bool is_open(const Shutter& shutter) { return shutter.close > shutter.open; }

@@ -1,4 +1,4 @@
-/// Surfaces that glow, as lights to be sampled.
+/// Emissive surfaces as area lights.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace tandem {
 
-/// A sphere, triangle or quad that glows. A number of 64 bits chooses one of them: each light has a range of its
-/// values, in the order of the lights, and the light's chance is exactly the length of its range over 2^64, however
+/// An emissive sphere, triangle or quad. A 64-bit number chooses one of them: each light has a range of its values,
+/// in the order of the lights, and the light's probability is exactly the length of its range over 2^64, however
 /// small.
 struct AreaLight {
-    std::uint64_t last;  ///< of its range, which starts behind that of the light before it
+    std::uint64_t last;  ///< of its range, which starts after that of the light before it
     double chance;       ///< with which it is chosen
     std::uint32_t primitive;
     std::uint32_t unused = 0;  ///< what alignment would leave undefined
 };
 static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
-/// The light that a uniform number chooses: its place in `lights`, which are not none.
+/// The light that a uniform number chooses: its index in `lights`, which must not be empty.
 TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
@@ -32,7 +32,7 @@ TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t
     return first;
 }
 
-/// The chance of a primitive, 0 for one that is no light. `lights` are in the order of their primitives.
+/// The probability of a primitive, 0 for one that is no light. `lights` are in the order of their primitives.
 TANDEM_HD double chance_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
     std::uint32_t first = 0, end = count;
     while (first < end) {

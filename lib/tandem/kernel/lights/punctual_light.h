@@ -1,4 +1,4 @@
-/// Lights without extent: points, spots and directions.
+/// Lights without extent: point, spot and directional lights.
 #pragma once
 
 #include "tandem/effects/effects.h"
@@ -15,14 +15,14 @@ enum class PunctualKind : std::uint32_t { point, spot, directional };
 /// Directions and cones are double: a highlight of shininess n multiplies the error of a direction's length by n, and
 /// the cosine of a narrow cone's angle is 1 in float.
 struct PunctualLight {
-    Vec3d direction;     ///< unit, the way that the light goes; of a spot light the axis of its cone
+    Vec3d direction;     ///< unit, the direction in which light travels; of a spot light the axis of its cone
     double cone_height;  ///< 1 - cosine of the outer angle, at which a spot light ends (scene/light_cone.h)
-    double cone_scale;   ///< 1 / (cosine of the inner angle - that of the outer): inside of the inner one all its light
-    Vec3f position;      ///< of a directional light nothing
+    double cone_scale;   ///< 1 / (cosine of the inner angle - that of the outer): full intensity inside the inner one
+    Vec3f position;      ///< unused for a directional light
     Vec3f intensity;
     PunctualKind kind;
     std::uint32_t inverse_square;  ///< 1: falls off with distance
-    std::uint32_t casts_shadows;   ///< 1: stopped by what stands in its way
+    std::uint32_t casts_shadows;   ///< 1: occluders block it
     std::uint32_t unused = 0;      ///< what alignment would leave undefined
 };
 static_assert(sizeof(PunctualLight) == 80, "no byte of a light is undefined; scene_hash() reads all");
@@ -34,12 +34,12 @@ struct LightRay {
     Vec3<Real> intensity;         ///< RGB
 };
 
-/// The light at `position`. `Effects`: what the scene may call for (effects/effects.h).
+/// The light at `position`. `Effects`: what the scene may need (effects/effects.h).
 ///
 /// Gives: 0 outside of a spot light's cone; the fall-off between its angles is the square of the cosine's share, as in
 ///        KHR_lights_punctual, "inner and outer cone angles". At the light's own position there is no direction, and
-///        no light if it falls off. Held by tests/agree/closed_forms_test.cpp (1e-6 of the law of the
-///        distance), tests/agree/effects_test.cpp (the oracle) and the cases M1, M6 and M7 of the hard corpus.
+///        no light if it falls off. Tested by tests/agree/closed_forms_test.cpp (1e-6 of the law of the distance),
+///        tests/agree/effects_test.cpp (the oracle) and the cases M1, M6 and M7 of the hard corpus.
 /// Method: 1 - cosine of the angle from a spot's axis is formed as sine^2 / (1 + cosine), which does not cancel in
 ///         narrow cones.
 template <class Effects, class Real>

@@ -6,25 +6,25 @@
 
 namespace tandem {
 
-/// How a quad that glows is made.
+/// The properties of an emissive quad.
 struct QuadLightShape {
     FaceSides sides = FaceSides::double_sided;
-    bool overlaps = true;  ///< one half may hide the other from some points
+    bool overlaps = true;  ///< one half may occlude the other from some points
 };
 
 template <class Real>
 struct QuadLightView {
     TriangleLightView<Real> first;
     TriangleLightView<Real> second;
-    Double<Real> solid_angle;      ///< sr: of the halves that shine towards the point
+    Double<Real> solid_angle;      ///< sr: of the halves that emit towards the point
     Vec3<Double<Real>> corner[4];  ///< metres
     QuadLightShape shape;
 };
 
-/// Needs and gives: as view_triangle_light() of the halves. Each half shines from its own front, or from both sides.
-/// A rectangle has a map of its own (C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical
+/// Needs and gives: as view_triangle_light() of the halves. Each half emits from its own front, or from both sides. A
+/// rectangle has a map of its own (C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical
 /// Rectangles", EGSR 2013); two spherical triangles do for every quad, and for one that is folded too.
-/// Held by tests/kernel/lights/quad_light_test.cpp, also of all below, and by the case M15 of the hard corpus.
+/// Tested by tests/kernel/lights/quad_light_test.cpp, also of all below, and by the case M15 of the hard corpus.
 template <class Real>
 TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
                                               const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
@@ -74,19 +74,19 @@ TANDEM_HD Double<Real> share(const QuadLightView<Real>& view, const TriangleLigh
 }
 
 /// Two distances that differ by less than this, relative, belong to one point: on the diagonal, or where the halves
-/// coincide. Rays meet the first half there.
+/// coincide. Rays hit the first half there.
 template <class Real>
 inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 
-/// Does a half stop rays from the point? A back that is culled does not.
+/// Does a half block rays from the point? A culled back does not.
 template <class Real>
 TANDEM_HD Mask<Real> stops_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
 }
 
-/// Where the other half hides a point of one half at `distance`, metres. On the diagonal neither half hides the other.
-/// The other half is viewed a second time here, so that a sample holds one view at a time. To keep both takes as long
-/// (`whitted.gltf` on an H200, variants in turns).
+/// Where the other half occludes a point of one half at `distance`, metres. On the diagonal neither half occludes the
+/// other. The other half is viewed a second time here, so that a sample holds one view at a time. To keep both takes as
+/// long (`whitted.gltf` on an H200, variants in turns).
 template <class Real>
 TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction,
                                const Double<Real>& distance, const Mask<Real>& other_is_first) {
@@ -102,8 +102,8 @@ TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Doubl
 
 }  // namespace quad_light_detail
 
-/// Uniform among the directions of both halves that shine towards the point: u chooses a half in proportion to its
-/// solid angle and is stretched again to [0, 1]. The density is 0 where the other half hides the point that was drawn.
+/// Uniform among the directions of both halves that emit towards the point: u chooses a half in proportion to its solid
+/// angle and is rescaled to [0, 1]. The density is 0 where the other half occludes the sampled point.
 template <class Real>
 TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const Double<Real>& u,
                                          const Double<Real>& v) {
@@ -124,8 +124,8 @@ TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const 
     return sample;
 }
 
-/// Density of sample_light() for a unit direction: that of the half that is seen there, on the diagonal the first one;
-/// 0 beside the quad.
+/// Density of sample_light() for a unit direction: that of the half that is visible there, on the diagonal the first
+/// one; 0 beside the quad.
 template <class Real>
 TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;

@@ -25,7 +25,7 @@ struct SphereLightView {
 /// Gives: the solid angle with a relative error of 2^-46 / (1 - radius / distance), however small the light; 0 for
 ///        radius 0, and hence no samples.
 /// Method: 1 - cos = sin^2 / (1 + cos), since the difference is lost for lights that are small or far.
-/// Held by tests/kernel/lights/sphere_light_test.cpp, also of all below.
+/// Tested by tests/kernel/lights/sphere_light_test.cpp, also of all below.
 template <class Real>
 TANDEM_HD SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& centre,
                                                   const Double<Real>& radius) {
@@ -65,7 +65,7 @@ TANDEM_HD Double<Real> density(const SphereLightView<Real>& view) {
 
 }  // namespace sphere_light_detail
 
-/// Uniform among the directions that meet the sphere. The point is where they first meet it, within a few units of the
+/// Uniform among the directions that hit the sphere. The point is where they first hit it, within a few units of the
 /// last place of centre and radius; from inside it is the exit. From a point on the surface half of the directions
 /// leave at once: distance 0.
 /// Method: with theta at the point and beta at the surface, both angles between the line and a radius, the law of sines

@@ -65,7 +65,7 @@ inline constexpr double smallest_height = is_fast<Real> ? 0x1p-14 : 0x1p-40;
 /// Method: tan(E/2) from two sides and the angle between them, which for small triangles does not cancel as Girard's
 ///         sum of angles does; it is the formula of A. van Oosterom, J. Strackee, "The Solid Angle of a Plane
 ///         Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983, times |a|.
-/// Held by tests/kernel/lights/triangle_light_test.cpp, also of all below.
+/// Tested by tests/kernel/lights/triangle_light_test.cpp, also of all below.
 template <class Real>
 TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> point, Vec3<Double<Real>> v0,
                                                              Vec3<Double<Real>> v1, Vec3<Double<Real>> v2) {
@@ -135,8 +135,8 @@ TANDEM_HD D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
 
 }  // namespace triangle_light_detail
 
-/// Uniform among the directions that meet the triangle. The point is a mean of the corners with weights in [0, 1], so
-/// it is on the triangle however the light is seen.
+/// Uniform among the directions that hit the triangle. The point is a mean of the corners with weights in [0, 1], so it
+/// is on the triangle however the light is seen.
 ///
 /// Method: u cuts off the spherical triangle (a, b, p) with the fraction u of the area, p being on the side ac; then v
 ///         chooses a point between b and p, uniform in the cosine of its distance from b.

@@ -1,5 +1,5 @@
-/// The media that a path goes through: which, and what happens to light there and at their borders. A medium goes by
-/// the number of the material whose body it fills; no_medium is what lies outside of all bodies.
+/// The media that a path goes through, their absorption, and their interfaces. A medium is identified by the number of
+/// the material of the solid that it fills; no_medium is outside of all solids.
 #pragma once
 
 #include "tandem/effects/effects.h"
@@ -26,7 +26,7 @@ TANDEM_HD_CALL Real attenuation(Double<Real> depth) {
     return to_real<Real>(exponential<Real>(-depth));
 }
 
-/// What is left of light over `distance` metres in a medium: exp(-absorption distance). Source: A. Beer, 1852. Held by
+/// The transmittance of `distance` metres of a medium: exp(-absorption distance). Source: A. Beer, 1852. Tested by
 /// tests/agree/closed_forms_test.cpp, within 1e-7.
 template <class Real>
 TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& medium, const Double<Real>& distance,
@@ -47,14 +47,14 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
     return result;
 }
 
-/// In the place of a stack where bodies of glass lie apart: a ray within one meets nothing but that body's own surface.
+/// Replaces the stack where dielectric solids are disjoint: a ray within one can hit only that solid's own surface.
 template <class Real>
 struct NoMediumStack {
     TANDEM_HD std::tuple<> per_lane() { return {}; }
     TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
 };
 
-/// May media lie within each other? Then a path follows them by its stack.
+/// May media be nested? Then a path tracks them with its stack.
 template <class Effects>
 TANDEM_HD bool has_stack(const SceneView& scene) {
     return Effects::has(Effect::nested_media) && scene.media_overlap != 0;
@@ -76,7 +76,7 @@ TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const Medium
     return stack;
 }
 
-/// The medium that a path is in. `own`: the one if bodies lie apart.
+/// The medium that a path is in. `own`: the one if solids are disjoint.
 template <class Effects, class Real>
 TANDEM_HD UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
     return own;
@@ -86,15 +86,15 @@ TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Re
     return has_stack<Effects>(scene) ? stack.current() : own;
 }
 
-/// The media on both sides of a border.
+/// The media on both sides of an interface.
 template <class Real>
 struct Border {
     UInt<Real> before, behind;
     Mask<Real> lost = Mask<Real>(false);  ///< no room in the stack, or a medium was left that was not entered
 };
 
-// The border of the body of `material`, met from inside or from outside in the lanes of `active`. `stack` becomes what
-// it is behind the border.
+// The interface of the solid of `material`, hit from inside or from outside in the lanes of `active`. `stack` becomes
+// what it is behind the interface.
 template <class Effects, class Real>
 TANDEM_HD Border<Real> cross_border(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
                                     const Mask<Real>& from_inside, const Mask<Real>&) {

@@ -1,4 +1,4 @@
-/// Which medium fills a place where bodies of glass, water and air lie within each other or overlap.
+/// Which medium fills a point where dielectric solids are nested or overlap.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +8,20 @@
 
 namespace tandem {
 
-/// Not inside any body.
+/// Outside of all solids.
 inline constexpr std::uint32_t no_medium = 0xFFFFFFFFU;
 
 /// The media that a path has entered and not left.
 ///
-/// Every medium has a priority. Where bodies overlap, the one of the highest priority fills the place; among equals the
-/// one that was entered last. So a body within another needs no priorities, and water that reaches into the glass
-/// around it, so that no gap is left, needs the lower one. Borders at the same t are crossed in the order of their
-/// primitives' ids, as hits are ordered.
+/// Every medium has a priority. Where solids overlap, the one of the highest priority fills the space; among equals the
+/// one that was entered last. So a solid within another needs no priorities. Water that overlaps the glass around it,
+/// so that no gap is left, needs the lower one. Interfaces at the same t are crossed in the order of their primitives'
+/// ids, as hits are ordered.
 ///
 /// Needs: media below 2^24, priorities below 2^7. A medium is entered as often as it is left, whatever lies between;
-///        bodies of one medium may overlap.
+///        solids of one medium may overlap.
 /// Source: C. Schmidt, B. Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools 7(2),
-/// 2002. Held by tests/kernel/media/medium_stack_test.cpp and F8 of the corpus (tests/hard).
+/// 2002. Tested by tests/kernel/media/medium_stack_test.cpp and F8 of the corpus (tests/hard).
 template <class Real>
 class MediumStack {
   public:
@@ -44,8 +44,8 @@ class MediumStack {
         return waiting;
     }
 
-    /// Takes away the one that was entered last. Returns the lanes of `active` that were not in this medium; they stay
-    /// as they were.
+    /// Removes the last entry of the medium. Returns the lanes of `active` that were not in this medium; they stay as
+    /// they were.
     TANDEM_HD Mask<Real> leave(const Word& medium, const Mask<Real>& active) {
         const Word nowhere(static_cast<std::uint32_t>(capacity));
         Word last = nowhere;
@@ -60,7 +60,7 @@ class MediumStack {
         return active && last == nowhere;
     }
 
-    /// The medium that fills the place, or no_medium.
+    /// The medium that fills the current point, or no_medium.
     [[nodiscard]] TANDEM_HD Word current() const {
         Word best(empty);
         for (const Word& entry : entries_) {
@@ -71,7 +71,7 @@ class MediumStack {
         return select(best == Word(empty), Word(no_medium), best & Word(medium_mask));
     }
 
-    /// References to all that has a value per lane.
+    /// References to everything that has a value per lane.
     TANDEM_HD auto per_lane() {
         auto& [a, b, c, d, e, f, g, h] = entries_;
         return std::tie(a, b, c, d, e, f, g, h);

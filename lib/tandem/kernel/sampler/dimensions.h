@@ -1,5 +1,5 @@
-/// Random numbers by name: every use of one has a dimension of its own, so that an effect that is off does not
-/// shift the numbers of the others.
+/// Random numbers are keyed by dimension name and vertex: every use has its own dimension, so that an effect that is
+/// off does not shift the numbers of the others.
 #pragma once
 
 #include "tandem/kernel/sampler/philox.h"
@@ -9,10 +9,10 @@ namespace tandem {
 /// One block of four numbers each, for every vertex of a path.
 enum class Dimension : std::uint32_t {
     film = 0,         ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
-    scatter = 1,      ///< number 0: how a path goes on; 1: reflected or refracted; 2: Russian roulette
+    scatter = 1,      ///< number 0: how a path continues; 1: reflected or refracted; 2: Russian roulette
     lens = 2,         ///< numbers 0 and 1: point of the lens. Of the path, at vertex 0.
-    area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: where on it
-    hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a matt surface
+    area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: the point on it
+    hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a diffuse surface
     environment = 5,  ///< numbers 0 and 1: direction to the background
     light = 6,        ///< all four: which of the lights has a shadow ray (light_choice.h)
 };
@@ -26,7 +26,7 @@ TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std
 
 }  // namespace sampler_detail
 
-/// One sample of one pixel, of `Real`'s lanes. Its random numbers hang on nothing else.
+/// One sample of one pixel, of `Real`'s lanes. Its random numbers depend on nothing else.
 template <class Real>
 struct SampleId {
     std::uint64_t seed;
@@ -40,7 +40,7 @@ struct SampleId {
         return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                       static_cast<std::uint32_t>(seed >> 32));
     }
-    /// The same by a call, on the device: for what a path asks for at every vertex.
+    /// The same as a call, on the device: for numbers that a path needs at every vertex.
     TANDEM_HD PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
         return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                                           static_cast<std::uint32_t>(seed >> 32));

@@ -1,5 +1,5 @@
-/// A sequence of random numbers that starts from a block of the counter-based generator: where a scene decides how many
-/// numbers are needed.
+/// A sequence of random numbers that starts from a block of the counter-based generator: for uses where the scene
+/// decides how many numbers are needed.
 #pragma once
 
 #include "tandem/kernel/sampler/philox.h"
@@ -8,7 +8,7 @@ namespace tandem {
 
 /// Its state is 128 bits, at first four independent words, so its first three numbers are independent too. Lanes
 /// advance one by one, so that a packet's numbers are those of its rays. Source: C. Doty-Humphrey's sfc32 ("small fast
-/// chaotic"), of PractRand, 2010. Held by tests/kernel/sampler/short_sequence_test.cpp.
+/// chaotic"), of PractRand, 2010. Tested by tests/kernel/sampler/short_sequence_test.cpp.
 template <class Real>
 class ShortSequence {
   public:

@@ -1,7 +1,7 @@
 /// From two uniform numbers in [0, 1) to points of a disk or polygon and to directions. Each map keeps the strata of
 /// its square: neighbours stay neighbours.
 ///
-/// Held by tests/kernel/sampler/warp_test.cpp.
+/// Tested by tests/kernel/sampler/warp_test.cpp.
 #pragma once
 
 #include "tandem/math/frame.h"
@@ -89,7 +89,7 @@ TANDEM_HD DirectionSample<Real> sample_cosine_hemisphere(const Vec3<Double<Real>
 /// Density of sample_sphere(), 1/sr.
 inline constexpr double uniform_sphere_pdf = inverse_pi / 4;
 
-/// All directions alike.
+/// Uniform over all directions.
 template <class Real>
 TANDEM_HD DirectionSample<Real> sample_sphere(const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;

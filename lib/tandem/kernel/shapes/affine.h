@@ -8,12 +8,12 @@
 
 namespace tandem {
 
-/// Placement of a unit body. World points map by object_from_world * (p - centre): subtracting first keeps the
-/// digits of a small body far from the origin. The inverse is formed on the host in double.
+/// Placement of a unit solid. World points map by object_from_world * (p - centre): subtracting first keeps the digits
+/// of a small solid far from the origin. The host computes the inverse in double.
 struct Placement {
     Matrix3 object_from_world;  ///< linear part
     Vec3d centre;               ///< world space, metres
-    Sphere bounding_sphere;     ///< encloses the body; for the reject filter
+    Sphere bounding_sphere;     ///< encloses the solid; for the reject filter
     Vec3d half_extent;          ///< of its world-space bounding box, from the centre
     double unused = 0;          ///< what alignment would leave undefined
 };
@@ -26,7 +26,7 @@ struct Parallelepiped : Placement {};
 
 TANDEM_HD Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
 
-/// A ray in the space of a body, double, not normalised.
+/// A ray in object space, double, not normalised.
 template <class Real>
 struct ObjectRay {
     Vec3<Double<Real>> origin;
@@ -60,7 +60,7 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     return cross_box<Real>(-one, one, local.origin, local.direction);
 }
 
-/// The nearest point of the body in front of the origin, in the lanes of `active`.
+/// The nearest point of the solid in front of the origin, in the lanes of `active`.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
                                     const Mask<Real>& active = Mask<Real>(true)) {

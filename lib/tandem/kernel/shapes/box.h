@@ -28,7 +28,7 @@ struct BoxCrossing : Crossing<Real> {
 namespace box_detail {
 
 /// Whether the line enters every slab before it leaves any, by exact comparison of the quotients: (face - origin) as
-/// a pair of doubles, quotients multiplied out. Axes along which the line does not move say nothing.
+/// a pair of doubles, quotients multiplied out. Axes along which the line does not move do not matter.
 template <class Real>
 TANDEM_HD_RARE Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
                                             Vec3<Double<Real>> origin, Vec3<Double<Real>> direction) {
@@ -58,14 +58,14 @@ TANDEM_HD_RARE Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Doubl
 /// Crossings of a line with the closed box [lower, upper].
 ///
 /// Needs: finite origin and direction, the direction not zero; magnitudes within coordinate_limit.
-/// Gives: the right decision between hit and miss for float values, widened; t within 1 ulp of float after rounding.
+/// Gives: the correct decision between hit and miss for float values, widened; t within 1 ulp of float after rounding.
 ///        A line in the plane of a face touches it (closed). A tie between axes, after rounding to double, goes to the
 ///        lowest axis. NaN in any input: no crossing.
 /// Method: slabs with IEEE division; an axis along which the line does not move is a test of the origin. A
 ///         reciprocal, or b * inv - o * inv, loses rays at edges and gives NaN on faces. Rounding keeps the order of
 ///         quotients but can make two of them equal, so where entry and exit nearly agree the products decide.
 /// Source: T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986; A. Williams et al., "An Efficient and Robust
-///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Bound held by tests/kernel/shapes/box_test.cpp.
+///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Tested by tests/kernel/shapes/box_test.cpp.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Double<Real>> lower,
                                                                       Vec3<Double<Real>> upper,
@@ -110,7 +110,7 @@ requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Doubl
     return result;
 }
 
-/// The same in the tier fast: in float, with reciprocals, and no second look. A ray in the plane of a face may miss.
+/// The same in the tier fast: in float, with reciprocals, and inexact. A ray in the plane of a face may miss.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
                                                               const Vec3<Double<Real>>& upper,

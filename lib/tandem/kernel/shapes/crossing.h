@@ -1,4 +1,4 @@
-/// Where a line crosses a convex body.
+/// Where a line crosses a convex solid.
 #pragma once
 
 #include "tandem/math/real.h"

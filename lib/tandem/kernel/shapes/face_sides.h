@@ -1,4 +1,4 @@
-/// What the back of a face is.
+/// How the back of a face is treated.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 namespace tandem {
 
 enum class FaceSides : std::uint32_t {
-    single_sided,  ///< there, but unlit
-    double_sided,  ///< as the front: the normal is turned to the side that a ray comes from
-    culled,        ///< not there: rays go through it (glTF 2.0, 3.9.6)
+    single_sided,  ///< visible, but unlit
+    double_sided,  ///< like the front: the normal is turned to the side that a ray comes from
+    culled,        ///< culled: rays pass through it (glTF 2.0, 3.9.6)
 };
 
 }  // namespace tandem

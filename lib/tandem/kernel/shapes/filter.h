@@ -1,16 +1,16 @@
-/// Conservative rejection in float: cheap tests that may only say "certainly a miss".
+/// Conservative rejection in float: cheap tests whose only definite answer is "certainly a miss".
 ///
-/// All but one look at the line of the ray through `offset x direction`, the Pluecker moment of the line about the
-/// centre of the primitive. Its length over |direction| is the distance of the line from the centre, so that no
-/// division and no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since
-/// only true misses are dropped, it could differ and the picture would not.
+/// All but one test the line of the ray through `offset x direction`, the Pluecker moment of the line about the centre
+/// of the primitive. Its length over |direction| is the distance of the line from the centre, so that no division and
+/// no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since only true misses
+/// are dropped, it could differ without changing the image.
 ///
 /// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of
 /// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
 /// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
 /// decides, and directions shorter than 1e-15 pass the sphere's filter: their square would lose digits. Overflow and
 /// NaN fail the comparison and pass the filter. A ray in double (tier precise) is rounded to float first, which adds
-/// u (|offset|_1 + |origin|_1) |direction| twice over. Held by tests/kernel/shapes/filter_test.cpp.
+/// u (|offset|_1 + |origin|_1) |direction| twice over. Tested by tests/kernel/shapes/filter_test.cpp.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -18,8 +18,8 @@
 
 namespace tandem {
 
-/// Allowed error per length: 4 u by the bound above, 4 u for the roundings of the squares and of the limit, and half
-/// of that again for good measure.
+/// Allowed error per length: 4 u by the bound above, 4 u for the roundings of the squares and of the limit, and half of
+/// that again as a margin.
 inline constexpr float filter_margin = 12.0F * float_roundoff;
 
 template <class Real>

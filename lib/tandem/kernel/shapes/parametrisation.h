@@ -1,5 +1,5 @@
-/// Texture coordinates on the bodies and faces, where a ray meets them. (0, 0) is the upper left of a picture and v
-/// runs down, as in glTF 2.0.
+/// Texture coordinates on solids and faces, at a ray's hit. (0, 0) is the upper left of an image and v runs down, as in
+/// glTF 2.0.
 ///
 ///   sphere, ellipsoid     the globe: u = 1/2 + longitude / 2 pi grows to the east, seen from outside, from +z (1/2)
 ///                         towards +x (3/4); v = 0 at the pole +y, 1 at -y. At the poles u is 1/2
@@ -10,7 +10,7 @@
 ///                         1)
 ///
 /// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their own space, to which the
-/// unit body's transform leads; so prepare() makes these of what is textured and turned or mirrored.
+/// unit body's transform leads; so prepare() converts textured primitives that are rotated or mirrored to these.
 #pragma once
 
 #include <type_traits>
@@ -21,7 +21,7 @@
 
 namespace tandem {
 
-/// Of a face; 0 for what has no corners.
+/// Of a face; 0 for primitives without corners.
 template <class Primitive>
 inline constexpr std::uint32_t corner_count = std::is_same_v<Primitive, Triangle> ? 3
                                               : std::is_same_v<Primitive, Quad>   ? 4
@@ -81,7 +81,7 @@ TANDEM_HD Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<R
     return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
 }
 
-/// From the directions of a body's own space.
+/// From directions in object space.
 template <class Real>
 TANDEM_HD Parametrisation<Real> to_world(const Placement& placement, const Parametrisation<Real>& own) {
     const Matrix3 world_from_object = inverse(placement.object_from_world);
@@ -130,11 +130,11 @@ TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
 
 }  // namespace parametrisation_detail
 
-// The parametrisation of each kind where `ray` meets it at `t`, in the lanes of `here`. `texcoords`: the scene's
+// The parametrisation of each kind where `ray` hits it at `t`, in the lanes of `here`. `texcoords`: the scene's
 // (PreparedScene::texcoords), of one slot. `exits`: the ray comes from within, as in surface_point().
 //
 // Gives: u and v within 2^-21 on faces and 1e-12 on bodies, more where the ray itself moves far along the surface with
-// its last digit. In the tier fast what float gives. Held by tests/kernel/shapes/parametrisation_test.cpp.
+// its last digit. In the tier fast as accurate as float. Tested by tests/kernel/shapes/parametrisation_test.cpp.
 
 template <class Real>
 TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const Vec2f*, const Ray<Real>& ray,
@@ -155,7 +155,7 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const Vec2f*, co
     using D = Double<Real>;
     const Vec3<D> direction = widen(ray.direction);
     const auto along = [&](const D& o, const D& d, float lower, float upper) TANDEM_INLINE_LAMBDA {
-        // a flat box has no extent across, where nothing hangs on it
+        // a flat box has no extent across, where the value does not matter
         const D size = D(upper) - D(lower);
         const D from_lower = (o - D(lower)) + t * d;
         return parametrisation_detail::clamp_to_one<Real>(from_lower / select(size > D(0.0), size, D(1.0)));

@@ -21,8 +21,8 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
     return may_touch_triangle(f, quad.v0, quad.v1, quad.v2) || may_touch_triangle(f, quad.v0, quad.v2, quad.v3);
 }
 
-/// The nearer of where a line meets the two triangles, which share the diagonal, of the points whose t `counts`: as
-/// watertight there as two triangles of a mesh. Everything else as first_in_front() of a triangle. Held by
+/// The nearer of a line's hits on the two triangles, which share the diagonal, of those whose t `counts`: as watertight
+/// there as two triangles of a mesh. Everything else as first_in_front() of a triangle. Tested by
 /// tests/kernel/shapes/quad_test.cpp.
 template <class Real, class Counts>
 TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
@@ -42,7 +42,7 @@ TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Doub
     return first_that_counts(quad, ray, t, active, farthest, all);
 }
 
-/// Which of the two triangles a ray meets at t, in the lanes of `here`, where first_in_front() gave t: the first one on
+/// Which of the two triangles a ray hits at t, in the lanes of `here`, where first_in_front() gave t: the first one on
 /// the diagonal.
 template <class Real>
 TANDEM_HD Mask<Real> is_in_first_half(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,

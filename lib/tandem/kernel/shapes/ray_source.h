@@ -1,10 +1,10 @@
-/// Rays that leave surfaces. No offset and no least t keeps such a ray from the surface that it starts on: it says
-/// which primitive that is and on which side it leaves, and each kind of primitive knows what follows. Right at every
-/// scale, however near the next surface is (docs/numerics.md).
+/// Rays that leave surfaces. No offset and no minimum t keeps such a ray off the surface that it starts on. Instead it
+/// carries its source: the primitive and the side. Each kind of primitive handles it. Correct at every scale, however
+/// near the next surface is (docs/numerics.md).
 ///
-/// Closed convex bodies (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot meet its body again;
-/// one that leaves inward meets the far side, and always does, so that it never gets lost inside. Faces cannot be met
-/// again by a ray that leaves them. A new kind of body adds one overload of first_or_far().
+/// Closed convex solids (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot hit its solid again;
+/// one that leaves inward always hits the far side, so that it is never lost inside. A ray that leaves a face cannot
+/// hit it again. A new kind of solid adds one overload of first_or_far().
 #pragma once
 
 #include "tandem/kernel/shapes/affine.h"
@@ -13,7 +13,7 @@
 
 namespace tandem {
 
-/// What a ray leaves. A ray in space leaves no_primitive.
+/// The source of a ray. A ray that starts in space has no_primitive.
 template <class Real>
 struct Source {
     UInt<Real> primitive = UInt<Real>(no_primitive);
@@ -30,21 +30,21 @@ TANDEM_HD Source<Real> to_real(const RaySource& source) {
 /// A source for rays that leave no surface, such as camera rays: the code for sources is then not even compiled.
 struct NoSource {};
 
-/// For rays that go on through holes: what the ray leaves, and the last hole that it has passed. The ray keeps its
-/// origin, and hits count only if they come after that hole in the order of hits, by t and then by id. So what lies in
-/// the plane of a hole, at the same t, is still met.
+/// For rays that continue through alpha masks: the source, and the last masked hit that the ray has passed. The ray
+/// keeps its origin, and hits count only if they come after that one in the order of hits, by t and then by id. So a
+/// surface in the plane of a masked one, at the same t, is still hit.
 template <class Real>
 struct PathSource : Source<Real> {
     Closest<Real> passed = {Double<Real>(0.0), UInt<Real>(no_primitive)};
 };
 
-/// Does a hit count for a ray that has passed holes?
+/// Does a hit count for a ray that has passed masked hits?
 template <class Real>
 TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& passed, const Double<Real>& t, const UInt<Real>& primitive) {
     return t > passed.t || (t == passed.t && primitive > passed.primitive);
 }
 
-/// What a shadow ray leaves, and what it runs to: hits on the light's own primitive do not count.
+/// The source and the target of a shadow ray: hits on the light's own primitive do not count.
 template <class Real>
 struct ShadowSource : Source<Real> {
     UInt<Real> light = UInt<Real>(no_primitive);
@@ -62,7 +62,7 @@ TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
 template <class Real>
 TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
-    // A line that passes the ball by, because rounding has put the origin outside: where it comes nearest.
+    // A line that misses the sphere because rounding has put the origin outside: the point nearest to it.
     const Mask<Real> by_product = roots.crosses && roots.b < D(0.0);
     const D numerator = select(by_product, roots.c, select(roots.crosses, roots.q, roots.b));
     const D denominator = select(by_product, roots.q, roots.a);
@@ -71,9 +71,9 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 
 }  // namespace source_detail
 
-// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the very body inward meets it
+// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the same solid inward hits it
 // again; in the lanes of `active`. t is within 1 ulp of float of where the line through the ray enters or leaves the
-// body. The root at the origin is not formed, so that nothing has to tell the two apart.
+// solid. The root at the origin is not computed, so that the two need not be told apart.
 
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
@@ -112,8 +112,8 @@ TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& r
 template <class Primitive>
 inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_same_v<Primitive, Quad>;
 
-/// Which rays can meet primitive `id`, that is not certainly `behind` them? Not those that have left it outward, or a
-/// face at all.
+/// Which rays can hit primitive `id`, unless it is certainly `behind` them? Not those that have left it outward, or
+/// left a face.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
@@ -133,7 +133,7 @@ TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind)
     return !behind;
 }
 
-/// Where is a hit on primitive `id` the far side of what the ray left inward?
+/// Where is a hit on primitive `id` the far side of the solid that the ray left inward?
 template <class Real>
 TANDEM_HD Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
     return source.inside && source.primitive == UInt<Real>(id);
@@ -144,7 +144,7 @@ TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
 }
 
 /// Is a hit at `t` on primitive `id` on its far side? It is where the ray left the primitive inward, and where the ray
-/// has passed a hole of the body on its near side.
+/// has passed a masked hit of the solid on its near side.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
                                  const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
@@ -171,8 +171,8 @@ TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint3
     }
 }
 
-// What a ray leaves outward it does not meet again; nor does it a face, to either side, or a quad, even if it is
-// folded. That comes first: at its origin a ray is where only exact arithmetic can decide.
+// A ray does not hit again what it leaves outward, nor a face on either side, nor a quad, even a folded one. This comes
+// first: at the origin of the ray only exact arithmetic could decide.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
@@ -190,7 +190,7 @@ TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& pri
 namespace source_detail {
 
 // Where a ray crosses a body that it does not start on for the second time; 0 if it does not. A call, since this is
-// rare: a ray has to pass a hole of a body and meet the same body again.
+// rare: a ray must pass a masked hit on a body and hit the same body again.
 template <class Real, class Body>
 TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
     Double<Real> t(0.0);
@@ -200,8 +200,8 @@ TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real>
 
 }  // namespace source_detail
 
-// A ray may meet a primitive again that it met before the last hole: a body where it leaves it, a folded quad at its
-// other half.
+// A ray may hit a primitive again that it hit before the last masked hit: a solid where it leaves it, a folded quad at
+// its other half.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,

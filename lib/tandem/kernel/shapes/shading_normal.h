@@ -1,4 +1,4 @@
-/// Normals for shading a face: interpolated between its corners, or its own.
+/// Shading normals of a face: interpolated between its corners, or the geometric one.
 #pragma once
 
 #include "tandem/kernel/shapes/quad.h"
@@ -46,7 +46,7 @@ TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3
                                 ray, here);
 }
 
-/// The same for the triangle of the quad that the ray meets at t.
+/// The same for the triangle of the quad that the ray hits at t.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const Vec3f* normals, const Ray<Real>& ray,
                                             const Double<Real>& t, const Mask<Real>& here) {

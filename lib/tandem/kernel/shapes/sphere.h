@@ -29,8 +29,8 @@ struct Quadratic {
     D c;
 };
 
-/// In pairs of doubles, to 2^-100: for a line that nearly touches the sphere and an origin that nearly lies on it.
-/// The discriminant is a r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
+/// In pairs of doubles, to 2^-100: for a nearly tangent line and an origin nearly on the sphere. The discriminant is a
+/// r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
 template <class Real>
 TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
                                                           Vec3<Double<Real>> direction, Double<Real> radius) {
@@ -56,8 +56,8 @@ TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> ori
 
 }  // namespace sphere_detail
 
-/// What decides about a line and a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are q / a and
-/// c / q, where q = b +- sqrt(b^2 - a c) takes the sign that does not cancel.
+/// The terms that decide whether a line hits a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are
+/// q / a and c / q, where q = b +- sqrt(b^2 - a c) takes the sign that does not cancel.
 template <class Real>
 struct SphereRoots {
     Mask<Real> crosses;
@@ -65,7 +65,7 @@ struct SphereRoots {
     Double<Real> a, b, c, q;
 };
 
-/// The lines that count when many are crossed with a sphere at once; no other is looked at twice.
+/// The active lines when many are tested at once; only these are evaluated a second time.
 template <class Real>
 struct SphereLines {
     Mask<Real> active = Mask<Real>(true);
@@ -73,7 +73,7 @@ struct SphereLines {
     Mask<Real> inward = Mask<Real>(false);
 };
 
-/// The roots in double alone, from offset = origin - centre, and where that may not do.
+/// The roots in double alone, from offset = origin - centre, and where these may not suffice.
 template <class Real>
 TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
                                                    const Vec3<Double<Real>>& direction, const Double<Real>& radius,
@@ -106,16 +106,16 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
 }
 
 /// Needs: direction of any length but zero, radius > 0; magnitudes within coordinate_limit.
-/// Gives: the right decision between hit and miss for float values, widened, unless the sphere is smaller than 2^-90
+/// Gives: the correct decision between hit and miss for float values, widened, unless the sphere is smaller than 2^-90
 ///        of its distance; t within 1 ulp of float after rounding. A tangent line crosses (closed ball). NaN in any
 ///        input: no crossing.
 /// Method: by Lagrange's identity b^2 - a c = a r^2 - |offset x direction|^2. The moment offset x direction comes from
 ///        Kahan's differences of products, so no term cancels before the end, and no division is needed to decide;
 ///        the textbook b^2 - a c loses everything when the sphere is small and far. Where double may not suffice the
-///        terms are formed again in pairs of doubles: few lines come so near to touching, and few origins so near to
-///        the surface.
+///        terms are formed again in pairs of doubles: few lines are so nearly tangent, and few origins so near to the
+///        surface.
 /// Source: the form with the perpendicular is E. Haines, J. Guenther, T. Akenine-Moeller, "Precision Improvements for
-///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound held
+///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound tested
 ///        by tests/kernel/shapes/sphere_test.cpp.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
@@ -137,7 +137,7 @@ requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Dou
     return roots;
 }
 
-/// The same in the tier fast: in float, without a second look.
+/// The same in the tier fast: in float, without a second evaluation.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
                                                                  const Vec3<Double<Real>>& centre,
@@ -210,7 +210,7 @@ TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
 }  // namespace sphere_detail
 
 /// The nearest point of the sphere in front of the origin, in the lanes of `active`:
-/// first_in_front(sphere_roots(sphere, ray), t), with what is rare out of the way.
+/// first_in_front(sphere_roots(sphere, ray), t), with the rare cases out of line.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
                                                              Double<Real>& t,

@@ -1,17 +1,17 @@
-/// The frame of a surface that normal maps are written in.
+/// The tangent frame that normal maps are relative to.
 #pragma once
 
 #include "tandem/math/frame.h"
 
 namespace tandem {
 
-/// Unit vectors at right angles around the unit `normal`: the tangent where u grows, the bitangent where v falls, which
-/// is up in the picture. Left-handed where the picture is mirrored.
+/// Orthogonal unit vectors around the unit `normal`: the tangent where u grows, the bitangent where v falls, which is
+/// up in the image. Left-handed where the image is mirrored.
 ///
-/// `dp_du`, `dp_dv`: where the coordinates grow on the surface, of any length; they need not be at right angles to the
-/// normal, nor to each other. Where dp_du says nothing, being zero or along the normal, the frame is frame_around().
-/// The tangent is dp_du without its part along the normal, as E. Lengyel does it, "Mathematics for 3D Game Programming
-/// and Computer Graphics", 7.8. Held by tests/kernel/shapes/parametrisation_test.cpp.
+/// `dp_du`, `dp_dv`: where the coordinates grow on the surface, of any length; they need not be orthogonal to the
+/// normal or to each other. Where dp_du is zero or along the normal, the frame is frame_around(). The tangent is dp_du
+/// without its part along the normal, as E. Lengyel does it, "Mathematics for 3D Game Programming and Computer
+/// Graphics", 7.8. Tested by tests/kernel/shapes/parametrisation_test.cpp.
 template <class D>
 TANDEM_HD Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, const Vec3<D>& dp_dv) {
     const Vec3<D> flat = dp_du - normal * dot(normal, dp_du);

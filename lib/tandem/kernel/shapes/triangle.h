@@ -224,8 +224,8 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
 
-/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not looked at twice. What is
-/// beyond `farthest` may count as a miss.
+/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not evaluated a second time.
+/// A hit beyond `farthest` may count as a miss.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray,
                                                                Mask<Real> active, Double<Real> farthest) {
@@ -251,7 +251,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
     return t;
 }
 
-/// The same in the tier fast: in float, and no second look. A line through an edge may miss both of its triangles.
+/// The same in the tier fast: in float, evaluated once. A line through an edge may miss both of its triangles.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD Real
     parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&, const Real&) {
@@ -284,16 +284,16 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 
 }  // namespace triangle_detail
 
-/// Where a line, in the lanes of `active`, meets the closed triangle (v0, v1, v2) in front of its origin; `t` is valid
+/// Where a line, in the lanes of `active`, hits the closed triangle (v0, v1, v2) in front of its origin; `t` is valid
 /// where the result is true. A hit beyond `farthest` may be left out, and costs less if it is.
 ///
 /// Needs: finite vertices, a traceable ray (is_traceable()).
-/// Gives: the right decision between hit and miss, always, in the tiers strict and precise: triangles that share an
-/// edge or a vertex
-///        let no line through. A line through an edge or a vertex hits, whatever the winding; a line in the plane
-///        misses, and so does every line where the area is zero. t is the double nearest to the exact quotient, save
-///        within 2^-16 of a unit of its last place of a middle between two, so that triangles that one line meets in
-///        one point agree on it and the lower id gets the hit. NaN in any input: no hit.
+/// Gives: the correct decision between hit and miss, always, in the tiers strict and precise: triangles that
+/// share an edge or a vertex let no line through. A line through an edge or a vertex hits, whatever the
+/// winding; a line in the plane misses, and so does every line where the area is zero. t is the double nearest
+/// to the exact quotient, save within 2^-16 of a unit of its last place of a middle between two, so that
+/// triangles that one line meets in one point agree on it and the lower id gets the hit. NaN in any input: no
+/// hit.
 /// Method: the signs of the three volumes between the line and the edges, which are equal and opposite for the two
 ///        triangles at an edge. They are formed in double, with differences of products that do not cancel, and where
 ///        a sign is within its error of zero, without rounding; so is t > 0. No shear and no reciprocal is needed for
@@ -301,7 +301,7 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 ///        above a large triangle, and the last bit, which would give shared edges now to one id, now to the other.
 /// Source: the volumes are those of S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
 ///        2013, before their shear; W. Kahan for the differences of products; J. R. Shewchuk, "Adaptive Precision
-///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Held by
+///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by
 ///        tests/kernel/shapes/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
@@ -319,7 +319,7 @@ TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& r
     return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
 }
 
-/// Where the line of a ray, in the lanes of `active` that hit the triangle, meets it. Within 2^-22 of the exact
+/// Where the line of a ray, in the lanes of `active` that hit the triangle, crosses it. Within 2^-22 of the exact
 /// coordinates, but in the tier fast.
 template <class Real>
 TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,

@@ -88,7 +88,7 @@ struct Cell {
 /// distance. Texels become linear
 ///        before the mean, which is formed in double and rounded once; it lies between the least and the greatest of
 ///        them but for the rounding of a Real that is a double.
-/// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Held by
+/// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Tested by
 ///        tests/kernel/texture/texture_test.cpp.
 template <class Real>
 TANDEM_HD Rgba<Real> sample(const TextureView& texture, const Double<Real>& u, const Double<Real>& v) {

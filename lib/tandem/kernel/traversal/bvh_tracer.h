@@ -45,10 +45,10 @@ TANDEM_HD void count(unsigned long long* counter) {
 #endif
 }
 
-/// A hierarchy from build_bvh() is never too deep for the stack. With one from elsewhere, a ray that found the stack
-/// full tries every primitive, which is slow and right. A function of its own, so that it costs other rays no
-/// registers. Kernels that are linked for a scene are without it: their hierarchies are from build_bvh() alone, and a
-/// ray that finds the stack full all the same is counted.
+/// A hierarchy from build_bvh() is never too deep for the stack. With one from elsewhere, a ray that finds the stack
+/// full tests every primitive, which is slow but correct. A function of its own, so that it costs other rays no
+/// registers. Kernels that are linked for a scene do not contain it: their hierarchies are from build_bvh() alone, and
+/// a ray that finds the stack full all the same is counted.
 template <std::uint32_t kinds, class Real, class From>
 TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source, Closest<Real> best) {
     const FilterRay<Real> filter = make_filter_ray(ray);
@@ -100,7 +100,7 @@ struct BvhTracerFor {
         float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
-        bool overflow = false;  // looked at behind the loop: a branch more in it, and the rays of a warp drift apart
+        bool overflow = false;  // checked after the loop: one more branch in it makes the rays of a warp diverge
         std::int32_t at = 0;
         while (true) {
             if (at >= 0) {
@@ -150,7 +150,7 @@ struct BvhTracerFor {
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Float4 q = bvh_detail::load_float4(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
-            if constexpr (!is_fast<Real>) {  // there the test costs hardly more than its filter
+            if constexpr (!is_fast<Real>) {  // for fast, the test costs hardly more than its filter
                 if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
             }
             const std::uint32_t id = bvh.entry_ids[i];

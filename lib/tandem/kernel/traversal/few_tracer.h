@@ -1,5 +1,5 @@
-/// Tracing among a handful of spheres and boxes, for a GPU: what the filters read lies in the kernel's parameters, at
-/// addresses known to the compiler, so that no filter loads anything.
+/// Traces a handful of spheres and boxes on a GPU: the data of the filters is in the kernel's parameters, at addresses
+/// known to the compiler, so that no filter loads anything.
 #pragma once
 
 #include "tandem/kernel/traversal/intersect.h"

@@ -17,7 +17,7 @@ TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Re
 }
 
 /// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
-/// `candidate`, which the filter let through. `From` is NoSource, Source<Real> or ShadowSource<Real>.
+/// `candidate`, which passed the filter. `From` is NoSource, Source<Real> or ShadowSource<Real>.
 template <class Real, class From, class Primitive>
 TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
                       const Mask<Real>& candidate, Closest<Real>& best) {
@@ -26,8 +26,8 @@ TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Re
     offer<Real>(hit, t, UInt<Real>(id), best);
 }
 
-// The filter of each kind. A ray that leaves a surface passes that of its own primitive: its origin is off by less than
-// the filter allows.
+// The filter of each kind. A ray that leaves a surface passes that of its own primitive: the error of its origin is
+// less than the filter allows.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
     return may_touch_sphere(f, sphere.centre, sphere.radius);
@@ -63,7 +63,7 @@ TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
     return Mask<Real>(false);
 }
 
-/// In the tier fast the decision costs hardly more than the filter, but for bodies with a transform.
+/// In the tier fast the decision costs hardly more than the filter, except for solids with a transform.
 template <class Real, class Primitive>
 inline constexpr bool has_filter = !is_fast<Real> || std::is_base_of_v<Placement, Primitive>;
 
@@ -79,7 +79,7 @@ TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const Fil
     }
 }
 
-/// Any primitive by its id; `kinds`: the ones that the scene may have.
+/// A primitive of any kind, by its id; `kinds`: the ones that the scene may have.
 template <class Real, std::uint32_t kinds = PrimitiveKinds::all, class From>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const From& source, const Mask<Real>& active, Closest<Real>& best) {
@@ -97,9 +97,9 @@ TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
     return {t_max, UInt<Real>(0U)};
 }
 
-/// Traces by asking every primitive: no structure, best for a few. Rays must be traceable (math/ray.h) in the lanes of
-/// `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a kernel for few
-/// of them needs fewer registers.
+/// Traces by testing every primitive: no acceleration structure, best for a few. Rays must be traceable (math/ray.h) in
+/// the lanes of `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a
+/// kernel for few of them needs fewer registers.
 template <std::uint32_t kind_set>
 struct LoopTracerFor {
     static constexpr std::uint32_t kinds = kind_set;

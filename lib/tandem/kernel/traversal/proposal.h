@@ -1,18 +1,18 @@
-/// How an acceleration structure is asked. A structure only proposes candidates; the primitive tests decide, on the
-/// true ray. So that it never loses one, its boxes are padded, and the ray that it is given is brought to where float
-/// arithmetic serves it: near the scene, with a unit direction.
+/// How rays query an acceleration structure. It only proposes candidates; the primitive tests decide, on the true ray.
+/// So that no candidate is lost, the boxes are padded, and the ray of the query is moved to where float arithmetic is
+/// accurate: near the scene, with a unit direction.
 ///
 /// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
 /// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
 /// origin adds 2 u S (it may come to lie up to 2^-6 S beyond S), rounding it 1 u S and rounding the direction 3 u S
-/// along a path of length 2 S. Boxes are padded by 32 u S. Held by tests/agree/structure_test.cpp.
+/// along a path of length 2 S. Boxes are padded by 32 u S. Tested by tests/agree/structure_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
 
 namespace tandem {
 
-/// Where a structure over a scene is valid: its bounds, and by how much boxes in it are padded.
+/// The domain of an acceleration structure: its bounds, and the padding of its boxes.
 struct StructureFrame {
     Aabb bounds;   ///< of all primitives, padded
     float margin;  ///< padding of each box, metres
@@ -20,7 +20,7 @@ struct StructureFrame {
 
 /// `scene_bounds`: merged bounds of all primitives, not padded.
 TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
-    // the floor keeps the margin a normal number, which flush-to-zero inside Embree does not eat
+    // the floor keeps the margin a normal number, so that flush-to-zero inside Embree does not remove it
     const float margin = 32.0F * float_roundoff * reach(scene_bounds) + 1e-30F;
     return {pad(scene_bounds, 2.0F * margin), margin};
 }
@@ -33,15 +33,15 @@ struct Proposal {
     Double<Real> t_offset;
     Mask<Real> active;  ///< lanes whose ray can touch the bounds at all
 
-    /// A float not below the parameter of true parameter t: where the structure may stop.
+    /// A float not below the parameter of true parameter t: where traversal may stop.
     TANDEM_HD Float<Real> limit(const Double<Real>& t) const {
         const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
         const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
 
-    /// A float in [0, parameter of true parameter t]: where the structure may start for a ray that has passed a hole at
-    /// t.
+    /// A float in [0, parameter of true parameter t]: where traversal may start for a ray that has passed a masked hit
+    /// at t.
     TANDEM_HD Float<Real> start(const Double<Real>& t) const {
         using D = Double<Real>;
         const D zero(0.0);
@@ -82,7 +82,7 @@ TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, 
     const Real infinity(__builtin_huge_valf());
     Real t_near = -infinity, t_far = infinity;
     const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
-        // d = 0 gives infinities of the right signs, or NaN on the very border, where nothing is
+        // d = 0 gives infinities of the right signs, or NaN exactly on the border, where nothing is
         const Real a = (Real(lower) - o) / d;
         const Real b = (Real(upper) - o) / d;
         t_near = greater(lesser(a, b), t_near);

@@ -1,6 +1,6 @@
 /// Ray against the boxes of a node, for proposals only: the boxes are padded for these roundings
-/// (kernel/traversal/proposal.h), so that speed decides here and not the last bit. The only place of the kernel side
-/// where fminf and fmaxf may stand.
+/// (kernel/traversal/proposal.h), so speed matters here and not the last bit. The only place in kernel code where fminf
+/// and fmaxf are allowed.
 #pragma once
 
 #include "tandem/math/vec.h"
