@@ -12,12 +12,16 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <vector>
 
 #include "cpu/instruction_sets.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/derive.h"
+#include "tandem/kernel/first_hit.h"
+#include "tandem/kernel/moments.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/traced_job.h"
@@ -227,8 +231,13 @@ class CpuBackend final : public Backend {
         const TierKernels& kernels = set_.kernels(job.tier);
         const PixelJob pixel_job = make_pixel_job(resident.prepared().camera, job);
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples);
+        result.film = Film(job.width, job.height, job.samples, job.planes);
         Vec3d* sums = result.film.sums().data();
+        const FilmPlanes planes = result.film.planes();
+        const bool one_by_one = planes.variance != nullptr;
+        std::vector<Vec3d> one_sample(one_by_one ? result.film.pixel_count() : 0);
+        const bool finds_hits = job.planes.has_any(first_hit_planes);
+        const PixelJob hit_job = first_hit_job(pixel_job, job.planes);
         const auto tiles = [this](int size) { return (size + tile_size_ - 1) / tile_size_; };
         const int columns = tiles(job.width);
         const EffectMask effects = resident.prepared().effects;
@@ -239,12 +248,21 @@ class CpuBackend final : public Backend {
             tbb::parallel_for(0, columns * tiles(job.height), [&](int index) {
                 const DefaultFpEnvironment guard;
                 const Tile tile = tile_at(index % columns, index / columns, job);
-                const TileStats stats = kernels.render_tile[variant](resident.view(), pixel_job, tile, sums);
-                invalid += stats.counters.invalid_samples;
-                lost_media += stats.counters.lost_media;
-                rays += stats.rays;
+                const auto draw = [&](const PixelJob& samples, Vec3d* to) {
+                    const TileStats stats = kernels.render_tile[variant](resident.view(), samples, tile, to);
+                    invalid += stats.counters.invalid_samples;
+                    lost_media += stats.counters.lost_media;
+                    rays += stats.rays;
+                };
+                if (one_by_one) {
+                    draw_one_by_one(pixel_job, tile, draw, one_sample.data(), sums, planes.variance);
+                } else {
+                    draw(pixel_job, sums);
+                }
+                if (finds_hits) set_.first_hits(job.tier)(resident.view(), hit_job, tile, planes);
             });
         });
+        complete_planes(result.film, resident.copies());
         result.stats.seconds.render = watch.seconds();
         result.stats.counters.invalid_samples = invalid;
         result.stats.counters.lost_media = lost_media;
@@ -261,6 +279,24 @@ class CpuBackend final : public Backend {
     }
 
   private:
+    /// The samples of a tile, each by a call of its own, so that their squares can be added. `one_sample`: a film of
+    /// work for the call, draw(job, film). The sums get the same bits as by one call for all.
+    template <class Draw>
+    static void draw_one_by_one(const PixelJob& job, const Tile& tile, Draw draw, Vec3d* one_sample, Vec3d* sums,
+                                Vec3d* squares) {
+        PixelJob one = job;
+        one.samples = 1;
+        for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+            one.first_sample = job.first_sample + sample;
+            draw(one, one_sample);
+            for (std::size_t y = tile.y0; y < tile.y1; ++y) {
+                for (std::size_t i = y * job.width + tile.x0; i < y * job.width + tile.x1; ++i) {
+                    add_sample(one_sample[i], sums[i], squares[i]);
+                }
+            }
+        }
+    }
+
     Tile tile_at(int column, int row, const RenderJob& job) const {
         const auto first = [this](int index) { return static_cast<std::uint32_t>(index * tile_size_); };
         const auto end = [this](int index, int limit) {

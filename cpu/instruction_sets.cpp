@@ -35,6 +35,13 @@ constexpr std::array all_tiers = {
 #undef TANDEM_TIER
 };
 
+template <class Isa>
+constexpr std::array<FirstHitKernel*, all_tiers<Isa>.size()> all_first_hits = {
+#define TANDEM_TIER(name, promise) write_first_hits<Isa, Tier::name>,
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+};
+
 bool has_v2() { return x86_64_level() >= 2; }
 bool has_v3() { return x86_64_level() >= 3; }
 #if defined(TANDEM_ONE_INSTRUCTION_SET)
@@ -46,9 +53,9 @@ using SetV4 = Avx512;
 #endif
 
 constexpr std::array sets = {
-    InstructionSet{"x86-64-v2", has_v2, all_tiers<Sse4>.data()},
-    InstructionSet{"x86-64-v3", has_v3, all_tiers<Avx2>.data()},
-    InstructionSet{"x86-64-v4", has_v4, all_tiers<SetV4>.data()},
+    InstructionSet{"x86-64-v2", has_v2, all_tiers<Sse4>.data(), all_first_hits<Sse4>.data()},
+    InstructionSet{"x86-64-v3", has_v3, all_tiers<Avx2>.data(), all_first_hits<Avx2>.data()},
+    InstructionSet{"x86-64-v4", has_v4, all_tiers<SetV4>.data(), all_first_hits<SetV4>.data()},
 };
 
 }  // namespace

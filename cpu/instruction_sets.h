@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "cpu/first_hits.h"
 #include "cpu/kernels.h"
 
 namespace tandem {
@@ -12,8 +13,12 @@ struct InstructionSet {
     const char* name;
     bool (*is_supported)();
     const TierKernels* by_tier;
+    FirstHitKernel* const* first_hits_by_tier;
 
     [[nodiscard]] const TierKernels& kernels(Tier tier) const { return by_tier[static_cast<std::size_t>(tier)]; }
+    [[nodiscard]] FirstHitKernel& first_hits(Tier tier) const {
+        return *first_hits_by_tier[static_cast<std::size_t>(tier)];
+    }
 };
 
 /// From the least to the most capable.

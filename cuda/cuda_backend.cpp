@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <optional>
 
 #include "cuda/device_scene.h"
+#include "cuda/plane_kernels.h"
 #include "cuda/scene_kernels.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
+#include "tandem/kernel/first_hit.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/traced_job.h"
 
@@ -21,6 +25,7 @@ using namespace cuda;
 /// Memory and events of one frame in flight.
 struct FrameMemory {
     Buffer<DeviceMemory> film;
+    Buffer<DeviceMemory> one_sample;  ///< of each pixel, where squares of samples are added
     Buffer<DeviceMemory> counters;
     Buffer<PinnedMemory> counters_on_host;
     Event render_start, render_end, download_start, download_end;
@@ -63,6 +68,7 @@ class CudaFrame final : public PendingFrame {
         memory_->download_end.wait();
         result_.stats.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
         result_.stats.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
+        complete_planes(result_.film, dynamic_cast<const DeviceScene&>(*scene_).copies());
         const DeviceCounters counters = read(memory_->counters_on_host);
         result_.stats.counters += to_render_counters(counters);
         if (result_.stats.effects.has_any(counted_ray_effects)) {
@@ -125,11 +131,13 @@ class CudaBackend final : public Backend {
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
-        const std::size_t bytes = pixels * sizeof(Vec3d);
+        const std::size_t bytes = film_bytes(pixels, job.planes);
+        const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? pixels * sizeof(Vec3d) : 0;
         constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
 
         auto memory = frames_->lease();
         memory->film.reserve(bytes);
+        memory->one_sample.reserve(sample_bytes);
         memory->counters.reserve(counter_bytes);
         memory->counters_on_host.reserve(counter_bytes);
         std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
@@ -147,11 +155,23 @@ class CudaBackend final : public Backend {
         auto* device_sums = reinterpret_cast<Vec3d*>(memory->film.data());
         auto* counters = reinterpret_cast<DeviceCounters*>(memory->counters.data());
         const auto height = static_cast<std::uint32_t>(job.height);
-        if (linked.kernel != nullptr) {
-            launch_linked(*linked.kernel, resident.view(), pixel_job, height, device_sums, counters, compute_.get());
+        const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
+        const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
+            if (linked.kernel != nullptr) {
+                launch_linked(*linked.kernel, resident.view(), samples, height, sums, counters, compute_.get());
+            } else {
+                kernels(job.tier).render[variant].start(resident.view(), samples, height, sums, counters,
+                                                        compute_.get());
+            }
+        };
+        if (planes.variance != nullptr) {
+            draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance);
         } else {
-            kernels(job.tier).render[variant].start(resident.view(), pixel_job, height, device_sums, counters,
-                                                    compute_.get());
+            draw(pixel_job, device_sums);
+        }
+        if (job.planes.has_any(first_hit_planes)) {
+            first_hits(job.tier)(resident.view(), first_hit_job(pixel_job, job.planes), height, planes, counters,
+                                 compute_.get());
         }
         memory->render_end.record(compute_.get());
 
@@ -167,11 +187,11 @@ class CudaBackend final : public Backend {
         const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->code.function())
                                                            : kernels(job.tier).render[variant].facts(resident.view());
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples, std::move(sums));
+        result.film = Film(job.width, job.height, job.samples, std::move(sums), job.planes);
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
         result.stats.counters.dropped_primitives = resident.dropped_primitives();
         result.stats.counters.dropped_lights = resident.dropped_lights();
-        result.stats.device_bytes = resident.bytes() + bytes;
+        result.stats.device_bytes = resident.bytes() + bytes + sample_bytes;
         result.stats.registers = facts.registers;
         result.stats.occupancy = facts.occupancy;
         static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
@@ -186,6 +206,28 @@ class CudaBackend final : public Backend {
     }
 
   private:
+    /// Starts the samples one by one, so that their squares can be added; draw(job, film) starts those of a job. The
+    /// sums get the same bits as by one kernel for all.
+    template <class Draw>
+    void draw_one_by_one(const PixelJob& job, Draw draw, const FrameMemory& memory, std::size_t pixels,
+                         Vec3d* squares) {
+        auto* sums = reinterpret_cast<Vec3d*>(memory.film.data());
+        auto* sample = reinterpret_cast<Vec3d*>(memory.one_sample.data());
+        for (Vec3d* zeros : {sums, squares}) {
+            check(cudaMemsetAsync(zeros, 0, pixels * sizeof(Vec3d), compute_.get()), "clearing sums");
+        }
+        PixelJob one = job;
+        one.samples = 1;
+        for (std::uint32_t i = 0; i < job.samples; ++i) {
+            one.first_sample = job.first_sample + i;
+            check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_pixel), 0,
+                                  sizeof(DeviceCounters::next_pixel), compute_.get()),
+                  "opening the queue of pixels");
+            draw(one, sample);
+            add_samples(sample, sums, squares, pixels, compute_.get());
+        }
+    }
+
     double trace(const DeviceScene& resident, const TraceJob& job) {
         hits_.reserve(job.hits.size_bytes());
         wide_t_.reserve(job.wide_t.size_bytes());

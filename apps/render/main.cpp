@@ -13,6 +13,7 @@
 #include "tandem/base/error.h"
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"
+#include "tandem/film/plane_names.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/scene/framing.h"
 #include "tandem/scene/named_scenes.h"
@@ -29,6 +30,7 @@ struct Words {
     std::string tier = "strict";
     std::string effects;
     std::string limits = to_string(PathLimits{});
+    std::string planes;  // empty: the colour alone
     std::string light = "default";
     std::string backend = "cpu";
     std::string specialise = "always";
@@ -82,6 +84,13 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_option("--limits", words.limits, "most reflections, refractions and diffuse bounces of a path")
         ->type_name("R,T,D")
         ->capture_default_str();
+    std::string planes;
+    for (const PlaneInfo& info : plane_infos()) planes += std::string("; ") + info.name + ": " + info.help;
+    app.add_option("--aov", words.planes,
+                   "planes to write beside the colour, with commas between, or all: layers of a .exr, or a file each "
+                   "beside a .pfm" +
+                       planes)
+        ->type_name("LIST");
     app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
     app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
@@ -149,6 +158,7 @@ int render(int argc, char** argv) {
     sequence.job.tier = parse_tier(words.tier);
     sequence.job.limits = parse_limits(words.limits);
     sequence.effects = parse_effects(words.effects);
+    if (!words.planes.empty()) sequence.job.planes = parse_planes(words.planes);
     if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);
     if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
     check(sequence.job);

@@ -14,6 +14,7 @@
 #include "render/frame_pattern.h"
 #include "tandem/base/error.h"
 #include "tandem/base/version.h"
+#include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
 #include "tandem/render/foreground.h"
 #include "tandem/render/motion_blur.h"
@@ -45,15 +46,15 @@ class Stopwatch {
 std::size_t writer_count(const SequenceOptions& options) {
     const std::size_t wanted = options.writers > 0 ? static_cast<std::size_t>(options.writers)
                                                    : std::max<std::size_t>(2, std::thread::hardware_concurrency());
-    const std::size_t film_bytes =
-        sizeof(Vec3d) * static_cast<std::size_t>(options.job.width) * static_cast<std::size_t>(options.job.height);
-    return std::clamp<std::size_t>((std::size_t{1} << 32) / film_bytes, 1, wanted);
+    const std::size_t pixels =
+        static_cast<std::size_t>(options.job.width) * static_cast<std::size_t>(options.job.height);
+    return std::clamp<std::size_t>((std::size_t{1} << 32) / film_bytes(pixels, options.job.planes), 1, wanted);
 }
 
 /// What the file at `path` says about itself, if it is what rendering `wanted` would give. `any_exposure`: with
 /// whatever exposure, as long as it was found automatically.
 std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat format, ImageMetadata wanted,
-                                            bool any_exposure) {
+                                            PlaneMask planes, bool any_exposure) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return std::nullopt;
     try {
@@ -67,7 +68,12 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
             wanted.exposure_stops = file.metadata->exposure_stops;
         }
         wanted.exposure_rule = file.metadata->exposure_rule;
-        return wanted == *file.metadata ? file.metadata : std::nullopt;
+        if (wanted != *file.metadata) return std::nullopt;
+        for (const PlaneInfo& info : plane_infos()) {
+            if (format != ImageFormat::pfm || !planes.has(info.plane)) continue;
+            if (read_metadata(plane_path(path, info.plane)) != wanted) return std::nullopt;
+        }
+        return file.metadata;
     } catch (const InputError&) {
         return std::nullopt;  // damaged, or of another program
     }
@@ -205,7 +211,7 @@ class Sequence {
     /// Is the file there already? Then nothing is to be done for it.
     bool is_finished(FrameRecord& record) {
         if (options_.force) return false;
-        auto finished = finished_frame(record.file, format_, record.metadata, exposure_is_open_);
+        auto finished = finished_frame(record.file, format_, record.metadata, options_.job.planes, exposure_is_open_);
         if (!finished) return false;
         record.metadata = std::move(*finished);
         if (exposure_is_open_) close_exposure(record.metadata.exposure_stops);
@@ -226,6 +232,7 @@ class Sequence {
                                .tier = to_string(job.tier),
                                .backend = backend_.name(),
                                .version = version(),
+                               .planes = to_string(job.planes),
                                .exposure_rule = exposure_rule_};
         return as_written(std::move(metadata), job.width, job.height, format_, write_);
     }
@@ -325,7 +332,15 @@ class Sequence {
 
 void check_output(const SequenceOptions& options) {
     const FramePattern pattern(options.output);
-    (void)format_of(options.output, options.write);
+    const ImageFormat format = format_of(options.output, options.write);
+    try {
+        check_holds(format, options.job.planes);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--aov with '{}': {}", options.output, error.what()));
+    }
+    if (options.job.planes.has(FilmPlane::variance) && options.job.samples < 2) {
+        throw InputError("--aov variance needs 2 samples per pixel or more: one does not vary; raise --spp");
+    }
     if (options.frames.count() > 1 && !pattern.has_frame()) {
         throw InputError(fmt::format("'{}' has no placeholder for the frame number; use a name such as frame-####.png",
                                      options.output));

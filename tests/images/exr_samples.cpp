@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfDeepScanLineOutputPart.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
@@ -142,6 +143,29 @@ Bytes write_deep_exr(bool multipart) {
         part.writePixels(2);
         if (multipart) write_part<half>(file, 1, image, {});
     });
+}
+
+ExrChannels read_exr_channels(const std::string& path) {
+    Imf::InputFile file(path.c_str(), 0);
+    const Imath::Box2i& window = file.header().dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+    const auto height = static_cast<std::size_t>(window.max.y - window.min.y) + 1;
+    ExrChannels channels;
+    Imf::FrameBuffer frame;
+    const Imf::ChannelList& list = file.header().channels();
+    for (auto channel = list.begin(); channel != list.end(); ++channel) {
+        const auto add = [&](auto& values) {
+            values.resize(width * height);
+            const std::size_t step = sizeof(values[0]);
+            const Imf::PixelType type = channel.channel().type;
+            frame.insert(channel.name(), Imf::Slice::Make(type, values.data(), window, step, width * step));
+        };
+        channel.channel().type == Imf::UINT ? add(channels.numbers[channel.name()])
+                                            : add(channels.floats[channel.name()]);
+    }
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return channels;
 }
 
 FloatImage exr_ramp(int width, int height) {

@@ -1,6 +1,7 @@
 /// EXR files as other programs write them, in memory.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct ExrOptions {
 
 /// One sample in every pixel; with `multipart`, as the first of two parts.
 [[nodiscard]] Bytes write_deep_exr(bool multipart);
+
+/// All channels of the only part, by name.
+struct ExrChannels {
+    std::map<std::string, std::vector<float>> floats;           ///< FLOAT
+    std::map<std::string, std::vector<std::uint32_t>> numbers;  ///< UINT
+};
+[[nodiscard]] ExrChannels read_exr_channels(const std::string& path);
 
 /// A ramp of small whole numbers: halves hold them exactly, and lossy compressions nearly.
 [[nodiscard]] FloatImage exr_ramp(int width, int height);

@@ -7,13 +7,15 @@
 #include <memory>
 #include <string>
 
+#include "support/plane_film.h"
 #include "tandem/render/backend.h"
 
 namespace tandem::test {
 
 /// The film that GradientBackend renders.
 inline Film gradient_film(const RenderJob& job) {
-    Film film(job.width, job.height, job.samples);
+    Film film(job.width, job.height, job.samples, job.planes);
+    fill_planes(film, 1 + job.frame);
     const auto share = [](int i, int count) { return (i + 0.5) / count; };
     for (int y = 0; y < job.height; ++y) {
         for (int x = 0; x < job.width; ++x) {

@@ -1,4 +1,4 @@
-/// What a camera saw: the sums of the samples of every pixel.
+/// What a camera saw: the sums of the samples of every pixel, and the planes beside them that were asked for.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "tandem/film/film_planes.h"
 #include "tandem/math/vec.h"
 
 namespace tandem {
@@ -17,9 +18,9 @@ class Film {
   public:
     Film() = default;
     /// Zeroed, in ordinary memory.
-    Film(int width, int height, int samples);
-    /// Over memory of width * height sums that `owner` keeps alive.
-    Film(int width, int height, int samples, std::shared_ptr<Vec3d> owner);
+    Film(int width, int height, int samples, PlaneMask planes = {});
+    /// Over film_bytes() of memory that `owner` keeps alive: the sums, and the planes behind them.
+    Film(int width, int height, int samples, std::shared_ptr<Vec3d> owner, PlaneMask planes = {});
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
@@ -30,18 +31,36 @@ class Film {
     [[nodiscard]] std::span<Vec3d> sums() { return {sums_.get(), pixel_count()}; }
     [[nodiscard]] std::span<const Vec3d> sums() const { return {sums_.get(), pixel_count()}; }
 
+    /// Which planes it has.
+    [[nodiscard]] PlaneMask plane_mask() const { return plane_mask_; }
+    [[nodiscard]] FilmPlanes planes();
+    [[nodiscard]] ConstFilmPlanes planes() const;
+
     /// Mean radiance of a pixel, one rounding to float.
     [[nodiscard]] Vec3f mean(std::size_t pixel) const { return narrow(sums()[pixel] / static_cast<double>(samples_)); }
+
+    /// Adds a film of the samples that follow. Throws InputError if size or planes differ.
+    void add(const Film& later);
 
   private:
     int width_ = 0;
     int height_ = 0;
     int samples_ = 0;
+    PlaneMask plane_mask_;
     std::shared_ptr<Vec3d> sums_;
 };
 
+/// Of the memory of a film.
+[[nodiscard]] std::size_t film_bytes(std::size_t pixels, PlaneMask planes);
+
+/// Where the planes are in the memory of a film; `sums` is its beginning, of this machine or of a GPU.
+[[nodiscard]] FilmPlanes planes_in(Vec3d* sums, std::size_t pixels, PlaneMask planes);
+
 /// SHA-256 of size, samples and the bits of all sums (little endian), in hexadecimal: equal hashes mean equal
-/// films, bit for bit.
+/// films, bit for bit. Planes beside the colour do not count.
 [[nodiscard]] std::string film_hash(const Film& film);
+
+/// SHA-256 of the bits of one plane, in hexadecimal. The film must have it.
+[[nodiscard]] std::string plane_hash(const Film& film, FilmPlane plane);
 
 }  // namespace tandem

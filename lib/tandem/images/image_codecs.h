@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tandem/base/whole_file.h"
+#include "tandem/film/plane_image.h"
 #include "tandem/images/image.h"
 #include "tandem/images/image_metadata.h"
 
@@ -39,6 +40,9 @@ struct DecodedImage {
 /// PFM "PF": float, little endian, rows from the bottom up. The format has no place for metadata (image_io.h keeps them
 /// beside the file).
 [[nodiscard]] Bytes encode_pfm(const FloatImage& image);
+/// The same for a plane: "PF" for three channels, "Pf" for one. Whole numbers become the nearest floats, which are
+/// exact up to 2^24.
+[[nodiscard]] Bytes encode_pfm(const PlaneImage& plane, int width, int height);
 /// PF and Pf (one channel, given to all three), either byte order; the magnitude of the scale is passed over.
 [[nodiscard]] DecodedImage decode_pfm(std::span<const std::byte> bytes, const std::string& name);
 
@@ -62,7 +66,9 @@ struct DecodedImage {
 /// Compressed line by line, at zlib's level 1. CPU time with OpenEXR 3.1.5 on a shared AMD EPYC, the paper's scene at
 /// 20 samples, 1000 x 900; best of 9: 127 ms and 5.7 MB; in blocks of 16 lines at level 4 (ZIP) 165 ms and 4.6 MB;
 /// uncompressed 20 ms and 10.8 MB.
-[[nodiscard]] Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata);
+/// `planes` become more channels, named as in planes.def; whole numbers keep all their digits (UINT).
+[[nodiscard]] Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata,
+                               std::span<const PlaneImage> planes = {});
 /// R, G, B of an EXR, or its only channel for all three, in the data window of the first part; throws as encode_exr()
 /// does.
 [[nodiscard]] DecodedImage decode_exr(std::span<const std::byte> bytes, const std::string& name);

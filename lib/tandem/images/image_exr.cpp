@@ -15,6 +15,7 @@
 #include <string>
 
 #include "tandem/base/error.h"
+#include "tandem/film/plane_names.h"
 #include "tandem/images/decode_checks.h"
 #include "tandem/images/exr_header.h"
 #include "tandem/images/image_codecs.h"
@@ -75,6 +76,21 @@ void add_rgb(Imf::FrameBuffer& frame, const Vec3f& pixel, const Imath::Box2i& wi
     add_slice(frame, "R", &pixel.x, window);
     add_slice(frame, "G", &pixel.y, window);
     add_slice(frame, "B", &pixel.z, window);
+}
+
+/// A pixel has as many values of 32 bits side by side as there are channels.
+void add_plane(Imf::Header& header, Imf::FrameBuffer& frame, const PlaneImage& plane) {
+    const std::vector<std::string>& channels = info_of(plane.plane).channels;
+    const Imath::Box2i& window = header.dataWindow();
+    const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
+    const auto add = [&](Imf::PixelType type, const auto* values) {
+        const std::size_t step = channels.size() * sizeof(*values);
+        for (std::size_t i = 0; i < channels.size(); ++i) {
+            header.channels().insert(channels[i], Imf::Channel(type));
+            frame.insert(channels[i], Imf::Slice::Make(type, values + i, window, step, width * step));
+        }
+    };
+    plane.numbers.empty() ? add(Imf::FLOAT, plane.values.data()) : add(Imf::UINT, plane.numbers.data());
 }
 
 void check_sampling(const Imf::FrameBuffer& frame, const Imf::ChannelList& channels) {
@@ -138,7 +154,7 @@ MetadataText string_attributes(const Imf::Header& header) {
 
 void check_exr_support() {}
 
-Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata) {
+Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata, std::span<const PlaneImage> planes) {
     Bytes bytes;
     try {
         Imf::Header header(image.width, image.height);
@@ -146,10 +162,11 @@ Bytes encode_exr(const FloatImage& image, const ImageMetadata& metadata) {
         header.zipCompressionLevel() = 1;
         for (const char* channel : {"R", "G", "B"}) header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
         for (const auto& [key, value] : to_text(metadata)) header.insert(key, Imf::StringAttribute(value));
-        MemoryOutput memory(bytes);
-        Imf::OutputFile file(memory, header, no_threads);
         Imf::FrameBuffer frame;
         add_rgb(frame, image.pixels.at(0), header.dataWindow());
+        for (const PlaneImage& plane : planes) add_plane(header, frame, plane);
+        MemoryOutput memory(bytes);
+        Imf::OutputFile file(memory, header, no_threads);
         file.setFrameBuffer(frame);
         file.writePixels(image.height);
     } catch (const InputError&) {

@@ -10,7 +10,7 @@ void check_exr_support() {
         ".pfm, which holds the same floats");
 }
 
-Bytes encode_exr(const FloatImage&, const ImageMetadata&) {
+Bytes encode_exr(const FloatImage&, const ImageMetadata&, std::span<const PlaneImage>) {
     check_exr_support();
     return {};
 }

@@ -9,6 +9,7 @@
 
 #include "tandem/base/error.h"
 #include "tandem/base/sha256.h"
+#include "tandem/film/plane_names.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/math/fp_environment.h"
 
@@ -51,10 +52,16 @@ std::optional<ImageMetadata> read_sidecar(const std::string& path, std::span<con
     return metadata_from_text(text);
 }
 
-EncodedImage encode_floats(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
-                           const WriteOptions& options) {
-    if (format == ImageFormat::pfm) return {encode_pfm(image), 0};
-    return {encode_exr(image, as_written(metadata, image.width, image.height, format, options)), 0};
+EncodedImage encode_floats(const FloatImage& image, std::span<const PlaneImage> planes, ImageFormat format,
+                           const ImageMetadata& metadata, const WriteOptions& options) {
+    if (format == ImageFormat::exr) {
+        return {encode_exr(image, as_written(metadata, image.width, image.height, format, options), planes)};
+    }
+    EncodedImage encoded{encode_pfm(image)};
+    for (const PlaneImage& plane : planes) {
+        encoded.plane_files.emplace_back(plane.plane, encode_pfm(plane, image.width, image.height));
+    }
+    return encoded;
 }
 
 EncodedImage encode_levels(const ToneMapped& mapped, ImageFormat format, const ImageMetadata& metadata,
@@ -108,6 +115,21 @@ ImageFormat format_of(const std::string& path, const WriteOptions& options) {
         fmt::format("cannot tell the image format of '{}': the name must end in .ppm, .pfm, .png or .exr", path));
 }
 
+void check_holds(ImageFormat format, PlaneMask planes) {
+    if (planes.empty() || holds_floats(format)) return;
+    throw InputError(
+        fmt::format("PNG and PPM files hold the colour alone, not the planes {}; write a .exr, with all of them in one "
+                    "file, or a .pfm, with one file for each",
+                    to_string(planes)));
+}
+
+std::string plane_path(const std::string& path, FilmPlane plane) {
+    const std::filesystem::path file(path);
+    std::filesystem::path own = file.stem();
+    own += fmt::format(".{}{}", info_of(plane).name, file.extension().string());
+    return (file.parent_path() / own).string();
+}
+
 ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFormat format,
                          const WriteOptions& options) {
     metadata.width = width;
@@ -120,16 +142,20 @@ ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFor
 EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                           const WriteOptions& options) {
     const DefaultFpEnvironment guard;
-    if (holds_floats(format)) return encode_floats(image, format, metadata, options);
+    if (holds_floats(format)) return encode_floats(image, {}, format, metadata, options);
     return encode_levels(tone_map(image, options.display), format, metadata, options);
 }
 
 EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata, const WriteOptions& options) {
     const DefaultFpEnvironment guard;
+    check_holds(format, film.plane_mask());
     if (holds_floats(format)) {
         const FloatImage image = film_to_image(film);
+        const std::vector<PlaneImage> planes = plane_images(film);
+        ImageMetadata complete = metadata;
+        complete.planes = to_string(film.plane_mask());
         film = {};
-        return encode_floats(image, format, metadata, options);
+        return encode_floats(image, planes, format, complete, options);
     }
     const ToneMapped mapped = tone_map(film, options.display);
     film = {};
@@ -138,10 +164,14 @@ EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& me
 
 void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFormat format,
                    const ImageMetadata& metadata, const WriteOptions& options) {
-    write_file(path, encoded.bytes, options.durability);
-    if (format == ImageFormat::pfm) {
-        write_file(sidecar_path(path), sidecar_text(encoded.bytes, metadata), options.durability);
-    }
+    const auto write = [&](const std::string& to, const Bytes& bytes) {
+        write_file(to, bytes, options.durability);
+        if (format == ImageFormat::pfm) {
+            write_file(sidecar_path(to), sidecar_text(bytes, metadata), options.durability);
+        }
+    };
+    for (const auto& [plane, bytes] : encoded.plane_files) write(plane_path(path, plane), bytes);
+    write(path, encoded.bytes);
 }
 
 void write_image(const std::string& path, const FloatImage& image, const ImageMetadata& metadata,
@@ -151,7 +181,9 @@ void write_image(const std::string& path, const FloatImage& image, const ImageMe
 
 void write_image(const std::string& path, Film film, const ImageMetadata& metadata, const WriteOptions& options) {
     const int width = film.width(), height = film.height();
-    write_picture(path, std::move(film), width, height, metadata, options);
+    ImageMetadata complete = metadata;
+    complete.planes = to_string(film.plane_mask());
+    write_picture(path, std::move(film), width, height, complete, options);
 }
 
 DecodedImage read_image(const std::string& path) {

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tandem/images/image_codecs.h"
 
@@ -22,7 +24,14 @@ struct WriteOptions {
 struct EncodedImage {
     Bytes bytes;
     std::size_t nan_values = 0;  ///< NaN that the tone curve made 0; float formats keep them
+    std::vector<std::pair<FilmPlane, Bytes>> plane_files{};  ///< of a PFM, which holds one plane; an EXR holds all
 };
+
+/// Throws InputError, saying which formats do, if files of that format cannot hold the planes: those of 8 bits cannot.
+void check_holds(ImageFormat format, PlaneMask planes);
+
+/// Of a plane in a file of its own, beside the PFM of the colour: "a.normal.pfm" for "a.pfm".
+[[nodiscard]] std::string plane_path(const std::string& path, FilmPlane plane);
 
 /// What a file of that format says of a picture: with the size, and the display that the format takes part in.
 [[nodiscard]] ImageMetadata as_written(ImageMetadata metadata, int width, int height, ImageFormat format,
@@ -32,13 +41,13 @@ struct EncodedImage {
 /// transfer function of the display; PFM and EXR hold the floats, bit for bit.
 [[nodiscard]] EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                                         const WriteOptions& options = {});
-/// Of the means of the film, whose memory it lets go of before the slow part: a backend that owns the memory can render
-/// the next frame into it meanwhile.
+/// Of the means and the planes of the film, whose memory it lets go of before the slow part: a backend that owns the
+/// memory can render the next frame into it meanwhile.
 [[nodiscard]] EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata,
                                         const WriteOptions& options = {});
-/// Puts encoded bytes at `path`, whole or not at all (write_file()). The metadata of a PFM go to a file of the same
-/// name with ".txt" behind it, which is bound to the image by its hash: it counts only beside the very bytes that it
-/// was written for.
+/// Puts encoded bytes at `path`, whole or not at all (write_file()), and planes in files of their own before that, so
+/// that they are there when the picture is. The metadata of a PFM go to a file of the same name with ".txt" behind it,
+/// which is bound to the image by its hash: it counts only beside the very bytes that it was written for.
 void write_encoded(const std::string& path, const EncodedImage& encoded, ImageFormat format,
                    const ImageMetadata& metadata, const WriteOptions& options = {});
 

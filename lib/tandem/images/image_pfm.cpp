@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "tandem/film/plane_names.h"
 #include "tandem/images/decode_checks.h"
 #include "tandem/images/image_codecs.h"
 #include "tandem/images/portable_map.h"
@@ -12,17 +13,32 @@ namespace tandem {
 
 static_assert(std::endian::native == std::endian::little, "PFM files are written in the byte order of memory");
 
-Bytes encode_pfm(const FloatImage& image) {
-    const std::string head = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
-    const std::size_t row_pixels = static_cast<std::size_t>(image.width);
-    const std::size_t row_bytes = row_pixels * sizeof(Vec3f);
-    Bytes bytes(head.size() + row_bytes * static_cast<std::size_t>(image.height));
+namespace {
+
+/// `pixels`: of `channels` floats each, row by row from the top left.
+Bytes encode_rows(const void* pixels, std::size_t channels, int width, int height) {
+    const std::string head = fmt::format("{}\n{} {}\n-1.0\n", channels == 3 ? "PF" : "Pf", width, height);
+    const std::size_t row_bytes = static_cast<std::size_t>(width) * channels * sizeof(float);
+    Bytes bytes(head.size() + row_bytes * static_cast<std::size_t>(height));
     std::memcpy(bytes.data(), head.data(), head.size());
     std::byte* at = bytes.data() + head.size();
-    for (auto y = static_cast<std::size_t>(image.height); y-- > 0; at += row_bytes) {
-        std::memcpy(at, &image.pixels[y * row_pixels], row_bytes);
+    for (auto y = static_cast<std::size_t>(height); y-- > 0; at += row_bytes) {
+        std::memcpy(at, static_cast<const std::byte*>(pixels) + y * row_bytes, row_bytes);
     }
     return bytes;
+}
+
+}  // namespace
+
+Bytes encode_pfm(const FloatImage& image) { return encode_rows(image.pixels.data(), 3, image.width, image.height); }
+
+Bytes encode_pfm(const PlaneImage& plane, int width, int height) {
+    const std::size_t channels = info_of(plane.plane).channels.size();
+    if (plane.numbers.empty()) return encode_rows(plane.values.data(), channels, width, height);
+    std::vector<float> values;
+    values.reserve(plane.numbers.size());
+    for (const std::uint32_t number : plane.numbers) values.push_back(static_cast<float>(number));
+    return encode_rows(values.data(), channels, width, height);
 }
 
 DecodedImage decode_pfm(std::span<const std::byte> bytes, const std::string& name) {

@@ -9,8 +9,10 @@
 
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
+#include "tandem/kernel/first_hit.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/oracle/oracle_path.h"
+#include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/traced_job.h"
@@ -72,19 +74,23 @@ class OracleBackend final : public Backend {
                                                        const RenderJob& job) override {
         const DefaultFpEnvironment guard;
         check(job, scene->tier());
-        const PreparedScene& prepared = dynamic_cast<const OracleScene&>(*scene).prepared;
+        const auto& resident = dynamic_cast<const OracleScene&>(*scene);
+        const PreparedScene& prepared = resident.prepared;
         const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
         const SceneView scene_view = view(prepared);
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples);
+        result.film = Film(job.width, job.height, job.samples, job.planes);
         std::atomic<std::uint64_t> invalid = 0;
         const Stopwatch watch;
         for_each_block(result.film.pixel_count(), 64, [&](std::size_t pixel) {
             const auto number = static_cast<std::uint32_t>(pixel);
-            result.film.sums()[pixel] = job.tier == Tier::precise
-                                            ? render<double>(scene_view, pixel_job, number, invalid)
-                                            : render<float>(scene_view, pixel_job, number, invalid);
+            if (job.tier == Tier::precise) {
+                render<double>(scene_view, pixel_job, number, result.film, invalid);
+            } else {
+                render<float>(scene_view, pixel_job, number, result.film, invalid);
+            }
         });
+        complete_planes(result.film, resident.copies);
         result.stats.seconds.render = watch.seconds();
         result.stats.rays = result.film.pixel_count() * pixel_job.samples;
         result.stats.effects = prepared.effects;
@@ -123,9 +129,11 @@ class OracleBackend final : public Backend {
 
     /// `T`: what the tier's camera rays are given in.
     template <class T>
-    static Vec3d render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel,
-                        std::atomic<std::uint64_t>& invalid) {
-        Vector sum{0, 0, 0};
+    static void render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel, Film& film,
+                       std::atomic<std::uint64_t>& invalid) {
+        const FilmPlanes planes = film.planes();
+        const bool looks = film.plane_mask().has_any(first_hit_planes);
+        Vector sum{0, 0, 0}, squares{0, 0, 0};
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
             const SampleId<float> id = {job.seed, job.frame, pixel, job.first_sample + sample};
             const auto random = id.block(Dimension::film);
@@ -139,11 +147,18 @@ class OracleBackend final : public Backend {
             const Vector value = oracle::trace_path(scene, job.limits, id, line_of(ray));
             if (is_float(value.x) && is_float(value.y) && is_float(value.z)) {
                 sum = sum + value;
+                squares = squares + oracle::times(value, value);
             } else {
                 ++invalid;
             }
+            if (looks) oracle::add_first_hit(scene, job.camera, line_of(ray), sample == 0, pixel, planes);
         }
-        return {static_cast<double>(sum.x), static_cast<double>(sum.y), static_cast<double>(sum.z)};
+        film.sums()[pixel] = narrowed(sum);
+        if (planes.variance != nullptr) planes.variance[pixel] = narrowed(squares);
+    }
+
+    static Vec3d narrowed(const Vector& a) {
+        return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
     }
 
     /// Calls f(i) for every i below count, in blocks shared among the threads.

@@ -356,6 +356,24 @@ Real refract(const Vector& d, const Vector& n, Real from, Real to, Vector& onwar
     return (s * s + p * p) / 2;
 }
 
+/// How far a point is before the plane through the camera that it looks away from.
+float depth_of(const CameraView& camera, const Vector& point) {
+    const Vector right = to_vector(camera.orthographic ? camera.origin_dx : camera.direction_dx);
+    const Vector down = to_vector(camera.orthographic ? camera.origin_dy : camera.direction_dy);
+    const Vector axis = {down.y * right.z - down.z * right.y, down.z * right.x - down.x * right.z,
+                         down.x * right.y - down.y * right.x};
+    return static_cast<float>(std::abs(inner(point - to_vector(camera.origin), unit(axis))));
+}
+
+/// All that a surface reflects and transmits.
+Vector albedo_of(const SceneView& scene, const Vertex& vertex) {
+    const Optics& optics = scene.optics[vertex.material];
+    const Real t = optics.transmission;
+    const Vector sum = reflectances(scene, vertex).diffuse + to_vector(scene.materials[vertex.material].specular) +
+                       to_vector(optics.mirror) + Vector{t, t, t};
+    return {std::min<Real>(sum.x, 1), std::min<Real>(sum.y, 1), std::min<Real>(sum.z, 1)};
+}
+
 Vector mirrored(const Vector& d, const Vector& n) { return unit(d - n * (2 * inner(d, n))); }
 
 }  // namespace
@@ -380,6 +398,29 @@ NearestSurface nearest_surface(const SceneView& scene, const Line& line, const R
         if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
     }
     return nearest;
+}
+
+void add_first_hit(const SceneView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
+                   std::size_t pixel, const FilmPlanes& planes) {
+    Passed passed;
+    NearestSurface nearest;
+    Vertex vertex{};
+    do {
+        nearest = nearest_surface(scene, camera_ray, {}, no_primitive, passed);
+        if (nearest.primitive != no_primitive) vertex = vertex_at(scene, camera_ray, nearest);
+        passed = {nearest.surface.t, nearest.primitive};
+    } while (nearest.primitive != no_primitive && vertex.is_hole);
+    const bool hits = nearest.primitive != no_primitive;
+    if (is_first && planes.depth != nullptr) planes.depth[pixel] = hits ? depth_of(camera, vertex.point) : HUGE_VALF;
+    if (is_first && planes.primitive != nullptr) planes.primitive[pixel] = nearest.primitive;
+    if (is_first && planes.material != nullptr) planes.material[pixel] = hits ? vertex.material : no_primitive;
+    if (!hits) return;
+    const auto add = [pixel](const Vector& value, Vec3d* plane) {
+        if (plane == nullptr) return;
+        plane[pixel] += Vec3d{static_cast<double>(value.x), static_cast<double>(value.y), static_cast<double>(value.z)};
+    };
+    add(albedo_of(scene, vertex), planes.albedo);
+    add(vertex.normal, planes.normal);
 }
 
 Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,

@@ -2,6 +2,8 @@
 /// so the choices that depend on them.
 #pragma once
 
+#include "tandem/film/film_planes.h"
+#include "tandem/kernel/camera/camera.h"
 #include "tandem/kernel/path_limits.h"
 #include "tandem/kernel/sampler/dimensions.h"
 #include "tandem/kernel/shapes/ray_source.h"
@@ -28,5 +30,10 @@ struct Passed {
 /// Radiance along a camera ray.
 [[nodiscard]] Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,
                                 const Line& camera_ray);
+
+/// Adds to the planes that tell of first hits what a sample of a pixel hits first, behind holes (docs/planes.md).
+/// `is_first`: it is the first sample.
+void add_first_hit(const SceneView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
+                   std::size_t pixel, const FilmPlanes& planes);
 
 }  // namespace tandem::oracle

@@ -91,19 +91,11 @@ class Exposure {
         RenderResult part = pending->get();
         add(frame_.result.stats, part.stats);
         Film& film = frame_.result.film;
-        if (plan_.instants.size() == 1) {
+        if (film.pixel_count() == 0) {
             film = std::move(part.film);
-            return;
+        } else {
+            film.add(part.film);
         }
-        if (film.pixel_count() == 0) film = Film(part.film.width(), part.film.height(), samples());
-        const std::span<const Vec3d> sums = std::as_const(part.film).sums();
-        std::transform(sums.begin(), sums.end(), film.sums().begin(), film.sums().begin(),
-                       [](const Vec3d& of_instant, const Vec3d& before) { return before + of_instant; });
-    }
-
-    [[nodiscard]] int samples() const {
-        const RenderJob &first = plan_.instants.front().job, &last = plan_.instants.back().job;
-        return last.first_sample + last.samples - first.first_sample;
     }
 
     Backend& backend_;

@@ -17,4 +17,10 @@ namespace tandem {
             .limits = job.limits};
 }
 
+/// For the planes of first hits: the first sample alone where no plane is a mean.
+[[nodiscard]] inline PixelJob first_hit_job(PixelJob job, PlaneMask planes) {
+    if (!planes.has_any(planes_by(PlaneRule::mean))) job.samples = 1;
+    return job;
+}
+
 }  // namespace tandem

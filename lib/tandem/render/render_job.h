@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "tandem/film/film_planes.h"
 #include "tandem/kernel/path_limits.h"
 #include "tandem/render/tier.h"
 
@@ -18,6 +19,7 @@ struct RenderJob {
     Tier tier = Tier::strict;  ///< the one that the scene was loaded for
     PathLimits limits{};
     int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples but for rounding
+    PlaneMask planes{};    ///< that the film is to have beside the colour
 };
 
 /// "8,16,4": reflections, refractions, diffuse bounces.

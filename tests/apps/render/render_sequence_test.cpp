@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "support/crowded_scene.h"
 #include "support/gradient_backend.h"
 #include "support/temporary_folder.h"
@@ -125,6 +127,21 @@ TEST_F(RenderSequence, ASecondRunRendersNothing) {
         EXPECT_TRUE(records[i].skipped);
         EXPECT_EQ(records[i].metadata, first[i].metadata);
     }
+}
+
+TEST_F(RenderSequence, FramesWithOtherPlanesAreRenderedAgain) {
+    options.output = folder.file("f##.pfm");
+    EXPECT_EQ(rendered(), 6);
+    options.job.planes = FilmPlane::depth | FilmPlane::normal;
+    EXPECT_EQ(rendered(), 6);
+    EXPECT_EQ(records[0].metadata.planes, "normal,depth");
+    EXPECT_EQ(rendered(), 0);
+    // a plane that is gone, and one of another picture
+    std::filesystem::remove(folder.file("f04.depth.pfm"));
+    std::filesystem::copy_file(folder.file("f05.normal.pfm"), folder.file("f06.normal.pfm"),
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_EQ(rendered(), 2);
+    EXPECT_EQ(rendered(), 0);
 }
 
 TEST_F(RenderSequence, ForceRendersAgain) {

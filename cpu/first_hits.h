@@ -1,0 +1,16 @@
+/// The CPU's kernels of the planes of first hits, compiled once per tier and instruction set.
+#pragma once
+
+#include "cpu/kernels.h"
+#include "tandem/film/film_planes.h"
+
+namespace tandem {
+
+/// Writes those of `planes` that tell of first hits, for the tile's pixels (rows of job.width).
+using FirstHitKernel = void(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, const FilmPlanes& planes);
+
+/// In a file of its own (cpu/kernels/first_hits.cpp).
+template <class Isa, Tier tier>
+void write_first_hits(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, const FilmPlanes& planes);
+
+}  // namespace tandem

@@ -1,0 +1,33 @@
+/// The CUDA kernels that fill the planes of first hits, as templates over the Real of a tier (math/real.h).
+#pragma once
+
+#include "cuda/block_shape.h"
+#include "cuda/launch.h"
+#include "cuda/plane_kernels.h"
+#include "cuda/with_tracer.h"
+#include "tandem/kernel/first_hit.h"
+
+namespace tandem::cuda {
+
+template <class Real, class Tracer>
+__global__ void __launch_bounds__(block_threads)
+    first_hit_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ PixelJob job, std::size_t pixels,
+                     const __grid_constant__ FilmPlanes planes) {
+    const std::size_t pixel = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
+    if (pixel >= pixels) return;
+    const auto number = static_cast<std::uint32_t>(pixel);
+    const auto hits = find_first_hits<Real>(tracer, tracer.scene, job, number % job.width, number / job.width, true);
+    keep(hits, 0, pixel, planes);
+}
+
+template <class Real>
+void launch_first_hits(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                       const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream) {
+    const std::size_t pixels = std::size_t{job.width} * height;
+    with_tracer(scene, counters, [&]<class Tracer>(const Tracer& tracer) {
+        launch("finding first hits", first_hit_kernel<Real, Tracer>, dim3(blocks_for(pixels, block_threads)),
+               block_threads, stream, tracer, job, pixels, planes);
+    });
+}
+
+}  // namespace tandem::cuda

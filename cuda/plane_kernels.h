@@ -1,0 +1,33 @@
+/// The CUDA kernels of the planes beside the colour, seen from the host. The kernels of the colour know nothing of
+/// them.
+#pragma once
+
+#include "cuda/kernels.h"
+#include "tandem/film/film_planes.h"
+
+namespace tandem::cuda {
+
+/// Starts those of `planes` that tell of first hits; they and `counters` are in device memory.
+using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+                            const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream);
+
+// In a file for each tier (first_hits_*.cu).
+#define TANDEM_TIER(name, promise) extern FirstHitLaunch launch_first_hits_##name;
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+
+[[nodiscard]] inline FirstHitLaunch& first_hits(Tier tier) {
+    switch (tier) {
+#define TANDEM_TIER(name, promise) \
+    case Tier::name:               \
+        return launch_first_hits_##name;
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+    }
+    return launch_first_hits_strict;
+}
+
+/// Starts adding a sample of each pixel to the sums and its square to the squares, all in device memory.
+void add_samples(const Vec3d* samples, Vec3d* sums, Vec3d* squares, std::size_t pixels, cudaStream_t stream);
+
+}  // namespace tandem::cuda

@@ -1,0 +1,98 @@
+/// What the samples of a pixel hit first: planes of a film beside its colour. A pass of its own over the camera rays of
+/// the path loop, so that the path loop does not know of it.
+#pragma once
+
+#include "tandem/film/film_planes.h"
+#include "tandem/kernel/pixel.h"
+
+namespace tandem {
+
+/// Those that say where a camera ray goes, what it passes through, and what the surface is that it hits.
+using FirstHitEffects = EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps |
+                                   Effect::reflection | Effect::refraction)
+                                      .bits()>;
+
+/// Of which planes it finds the values.
+inline constexpr PlaneMask first_hit_planes =
+    FilmPlane::albedo | FilmPlane::normal | FilmPlane::depth | FilmPlane::primitive | FilmPlane::material;
+
+/// A pixel's values, as FilmPlanes has them.
+template <class Real>
+struct FirstHits {
+    using Sum = Vec3<Wide<Real>>;
+    Sum albedo = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};
+    Sum normal = albedo;
+    // of the first sample
+    Double<Real> depth = Double<Real>(__builtin_huge_val());
+    UInt<Real> primitive = UInt<Real>(no_primitive);
+    UInt<Real> material = UInt<Real>(no_primitive);
+};
+
+/// What a surface reflects and transmits, at most 1. A share that is transmitted is not scattered.
+template <class Real>
+TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
+    const Real one(1.0F);
+    const Real kept = one - surface.transmission;
+    const auto sum = [&](const Real& diffuse, const Real& specular, const Real& mirror) TANDEM_INLINE_LAMBDA {
+        const Real albedo = ((diffuse * kept + specular) + mirror) + surface.transmission;
+        return select(albedo < one, albedo, one);
+    };
+    return {sum(surface.diffuse.x, surface.specular.x, surface.mirror.x),
+            sum(surface.diffuse.y, surface.specular.y, surface.mirror.y),
+            sum(surface.diffuse.z, surface.specular.z, surface.mirror.z)};
+}
+
+/// Adds a surface that samples have hit first at `hit`, in the lanes of `drawn`. `is_first`: it is the first sample.
+/// The depth is t itself: directions of camera rays are 1 long along the view axis (kernel/camera/camera.h), and lenses
+/// move origins across it.
+template <class Real>
+TANDEM_HD void add(const Surface<Real>& surface, const Closest<Real>& hit, const Mask<Real>& drawn, bool is_first,
+                   FirstHits<Real>& hits) {
+    const typename FirstHits<Real>::Sum none = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};
+    hits.albedo = hits.albedo + select(drawn, to_wide(albedo_of(surface)), none);
+    hits.normal = hits.normal + select(drawn, to_wide(surface.normal), none);
+    if (!is_first) return;
+    hits.depth = select(drawn, hit.t, hits.depth);
+    hits.primitive = select(drawn, hit.primitive, hits.primitive);
+    hits.material = select(drawn, surface.material, hits.material);
+}
+
+/// Of pixel (x, y), over all samples in their order, in the lanes of `active`; render_pixel() has the camera rays.
+template <class Real, class Tracer>
+TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                                          const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
+    SampleId<Real> id = {job.seed, job.frame, y * UInt<Real>(job.width) + x, UInt<Real>(job.first_sample)};
+    FirstHits<Real> hits;
+    PathTally<Real> tally;
+    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+        id.sample = UInt<Real>(job.first_sample + sample);
+        PathState<FirstHitEffects, Real> path;
+        path.begin(scene, sample_ray<FirstHitEffects, Real>(job, id, x, y), active);
+        while (any(path.alive)) {
+            const Closest<Real> hit = next_hit<FirstHitEffects>(tracer, path, tally);
+            const Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
+            path.alive = Mask<Real>(false);
+            if (!any(found)) break;
+            Vertex<Real> vertex;
+            step_to_vertex<FirstHitEffects, Tracer::kinds>(scene, path.ray, path.source, hit, found, vertex);
+            add(vertex.surface, hit, found && vertex.surface.opaque, sample == 0, hits);
+            pass_through(hit, found && !vertex.surface.opaque, path);
+        }
+    }
+    return hits;
+}
+
+/// Writes the values of lane i to the planes that are asked for, at a pixel.
+template <class Real>
+TANDEM_HD void keep(const FirstHits<Real>& hits, int i, std::size_t pixel, const FilmPlanes& planes) {
+    const auto of_lane = [i](const auto& sum) TANDEM_INLINE_LAMBDA {
+        return Vec3d{lane(sum.x, i), lane(sum.y, i), lane(sum.z, i)};
+    };
+    if (planes.albedo != nullptr) planes.albedo[pixel] = of_lane(hits.albedo);
+    if (planes.normal != nullptr) planes.normal[pixel] = of_lane(hits.normal);
+    if (planes.depth != nullptr) planes.depth[pixel] = to_plain(lane(hits.depth, i));
+    if (planes.primitive != nullptr) planes.primitive[pixel] = lane(hits.primitive, i);
+    if (planes.material != nullptr) planes.material[pixel] = lane(hits.material, i);
+}
+
+}  // namespace tandem
