@@ -59,6 +59,9 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 #undef TANDEM_PRIMITIVE
     if (effects.has(Effect::area_lights)) facts.light_kinds = scene.area_light_kinds;
     if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
+    if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts)) {
+        facts.several_slots = scene.several_slots;
+    }
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
     const bool glass = effects.has(Effect::refraction);
     if (glass || effects.has(Effect::reflection)) facts.reflection = limits.reflection;

@@ -107,7 +107,7 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     const PathLimits limits = {5, 6, 7};
     const LinkedFacts plain = linked_facts(scene, Effect::shadows, limits);
     EXPECT_EQ(plain,
-              (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 3, 0, 0, 0}));
+              (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 3, 0, 0, 0}));
     const LinkedFacts mirrors = linked_facts(scene, Effect::reflection, limits);
     EXPECT_EQ(mirrors.reflection, 5U);
     EXPECT_EQ(mirrors.refraction, 0U);
@@ -118,6 +118,9 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.area_light_kinds = PrimitiveKinds::quad;
     EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).light_kinds, PrimitiveKinds::quad);
     EXPECT_EQ(linked_facts(scene, Effect::emission, limits).light_kinds, 0U);
+    scene.several_slots = 1;
+    EXPECT_EQ(linked_facts(scene, Effect::textures, limits).several_slots, 1U);
+    EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).several_slots, 0U);
     scene.cutout_kinds = PrimitiveKinds::triangle;
     EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).cutout_kinds, PrimitiveKinds::triangle);
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).cutout_kinds, 0U);

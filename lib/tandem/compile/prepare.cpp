@@ -148,6 +148,9 @@ class Preparer {
         result_.copies = find_copies(result_);
         find_what_glows_and_refracts();
         result_.area_light_shadows = scene_.area_light_shadows;
+        for (const MaterialTextures& material : result_.textures.materials) {
+            result_.several_slots = result_.several_slots || reads_several_slots(material);
+        }
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
         if (scene_.bodies_lie_apart) result_.media_overlap = false;

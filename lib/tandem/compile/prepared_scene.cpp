@@ -19,6 +19,7 @@ SceneView view(const PreparedScene& scene) {
 #include "tandem/kernel/view/scene_arrays.def"
         .area_light_kinds = scene.area_light_kinds,
         .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
+        .several_slots = scene.several_slots ? 1U : 0U,
         .cutout_kinds = scene.cutout_kinds,
         .roulette_from = scene.roulette_from,
         .media_overlap = scene.media_overlap ? 1U : 0U,

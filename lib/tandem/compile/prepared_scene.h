@@ -41,6 +41,7 @@ struct PreparedScene {
     std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they equal another one
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
     bool area_light_shadows = true;
+    bool several_slots = false;           ///< a material reads colours of corners, or another slot than 0
     std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds of those that are cut out by their alpha, or culled
     std::uint32_t culled_node = never;    ///< the first node whose faces are culled from behind
     std::uint32_t roulette_from = never;  ///< vertex of a path

@@ -30,6 +30,7 @@ class CornerValues {
         : scene_(scene), id_(id), ray_(ray), t_(t), here_(here), exits_(exits) {}
 
     [[nodiscard]] TANDEM_HD const Parametrisation<Real>& in(std::uint32_t slot) {
+        if (!may_have_several_slots()) slot = 0;
         if (slot != slot_) {
             at_ = parametrisation_of<kinds>(scene_, id_, slot, ray_, t_, here_, exits_);
             slot_ = slot;
@@ -72,7 +73,7 @@ TANDEM_HD Rgba<Real> base_colour(const MaterialTextures& textures, bool on_face,
     const Real one(1.0F);
     Rgba<Real> colour = {one, one, one, one};
     if (textures.diffuse.texture != no_texture) colour = values.texture(textures.diffuse);
-    if (on_face && textures.colour_slot != no_slot) {
+    if (may_have_several_slots() && on_face && textures.colour_slot != no_slot) {
         const Rgba<Real> corners = values.colour(textures.colour_slot);
         colour = {colour.r * corners.r, colour.g * corners.g, colour.b * corners.b, times_alpha(colour.a, corners.a)};
     }

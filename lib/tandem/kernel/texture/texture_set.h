@@ -45,6 +45,12 @@ struct MaterialTextures {
 static_assert(sizeof(MaterialTextures) == 112 && sizeof(TextureDescriptor) == 28,
               "no byte is undefined; scene_hash() reads all");
 
+/// Does the material read colours of corners, or texture coordinates of another slot than 0?
+TANDEM_HD bool reads_several_slots(const MaterialTextures& material) {
+    return material.colour_slot != no_slot ||
+           (material.diffuse.slot | material.normal.slot | material.emission.slot) != 0;
+}
+
 /// Pointers are to memory of the side that reads them.
 struct TextureSet {
 #define TANDEM_TEXTURE_ARRAY(Type, names) const Type* names;

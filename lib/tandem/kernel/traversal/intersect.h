@@ -22,7 +22,15 @@ template <class Real, class From, class Primitive>
 TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
                       const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
-    const Mask<Real> hit = first_from(source, primitive, id, ray, candidate, best.t, t);
+    Mask<Real> hit;
+    if constexpr (std::is_same_v<From, PathSource<Real>> && !is_face<Primitive>) {
+        // a body without holes that lies before the last hole would have stopped the ray
+        const Source<Real>& surface = source;
+        hit = may_be_cut_out(kind_of<Primitive>) ? first_from(source, primitive, id, ray, candidate, best.t, t)
+                                                 : first_from(surface, primitive, id, ray, candidate, best.t, t);
+    } else {
+        hit = first_from(source, primitive, id, ray, candidate, best.t, t);
+    }
     offer<Real>(hit, t, UInt<Real>(id), best);
 }
 

@@ -28,6 +28,7 @@ struct SceneView {
 #include "tandem/kernel/view/scene_arrays.def"
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
+    std::uint32_t several_slots;  ///< 0: materials read no colours of corners, and texture coordinates of slot 0 alone
     std::uint32_t cutout_kinds;   ///< PrimitiveKinds of those that are cut out by their alpha, or culled
     std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
@@ -86,6 +87,15 @@ TANDEM_HD bool may_have(std::uint32_t kinds) {
     return (TANDEM_LINKED_KINDS & kinds) != 0;
 #else
     return kinds != 0;
+#endif
+}
+
+/// Can a material read colours of corners, or texture coordinates of another slot than 0?
+TANDEM_HD bool may_have_several_slots() {
+#if defined(TANDEM_LINKED_SEVERAL_SLOTS) && TANDEM_ON_DEVICE
+    return TANDEM_LINKED_SEVERAL_SLOTS != 0;
+#else
+    return true;
 #endif
 }
 
