@@ -70,7 +70,7 @@ struct EffectSet {
 
 /// What makes a path go on behind its first vertex.
 inline constexpr EffectMask bouncing_effects =
-    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect;
+    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect | Effect::microfacets;
 
 /// What sends rays from surfaces: with none of them there is one ray for each sample.
 inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;
