@@ -64,7 +64,8 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
     }
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
     const bool glass = effects.has(Effect::refraction);
-    if (glass || effects.has(Effect::reflection)) facts.reflection = limits.reflection;
+    if (effects.has_any(Effect::reflection | Effect::refraction | Effect::microfacets))
+        facts.reflection = limits.reflection;
     if (glass) facts.refraction = limits.refraction;
     if (effects.has(Effect::indirect)) facts.diffuse = limits.diffuse;
     return facts;

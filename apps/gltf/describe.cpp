@@ -91,6 +91,10 @@ Json describe_lights(const Scene& scene) {
 Json describe_materials(const Scene& scene) {
     Json materials = Json::array();
     for (const Material& material : scene.materials) {
+        Json facets;  // null without microfacets
+        if (material.microfacets) {
+            facets = {{"metallic", material.microfacets->metallic}, {"roughness", material.microfacets->roughness}};
+        }
         materials.push_back({{"name", material.name},
                              {"ambient", colour(material.phong.ambient)},
                              {"diffuse", colour(material.phong.diffuse)},
@@ -102,7 +106,8 @@ Json describe_materials(const Scene& scene) {
                              {"ior", material.optics.ior},
                              {"absorption", colour(material.optics.absorption)},
                              {"emission", colour(material.optics.emission)},
-                             {"priority", material.optics.priority}});
+                             {"priority", material.optics.priority},
+                             {"microfacets", facets}});
     }
     return materials;
 }
@@ -196,6 +201,10 @@ std::string line_of_material(const Json& material) {
                     components(material["ambient"]), components(material["diffuse"]), components(material["specular"]),
                     material["shininess"].get<float>(), material["double_sided"].get<bool>() ? ", double-sided" : "");
     const Json black = colour({0, 0, 0});
+    if (!material["microfacets"].is_null()) {
+        line += fmt::format(", metallic {:g}, roughness {:g}", material["microfacets"]["metallic"].get<float>(),
+                            material["microfacets"]["roughness"].get<float>());
+    }
     if (material["mirror"] != black) line += ", mirror " + components(material["mirror"]);
     if (material["transmission"].get<float>() > 0) {
         line += fmt::format(", transmission {:g}, index {:g}, absorption {} per metre, priority {}",

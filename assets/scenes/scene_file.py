@@ -164,6 +164,16 @@ class SceneFile:
             material["alphaMode"] = "MASK"
         return self._add("materials", material)
 
+    def microfacets(self, name, colour, metallic, roughness, texture=None, ior=None):
+        """glTF's metallic-roughness. `texture`: a PNG file whose green multiplies the roughness, and blue the metal."""
+        factors = {"baseColorFactor": floats(colour) + [1], "metallicFactor": metallic, "roughnessFactor": roughness}
+        material = {"name": name, "pbrMetallicRoughness": factors}
+        if texture is not None:
+            factors["metallicRoughnessTexture"] = self._texture(texture)
+        if ior is not None:
+            self.extend(material, "KHR_materials_ior", {"ior": ior})
+        return self._add("materials", material)
+
     def glass(self, name, ior, colour=None, distance=None, priority=0, specular=(0.6, 0.6, 0.6), shininess=300):
         """A dielectric, of the given colour after `distance` metres; clear without one."""
         index = self.material(name, specular=specular, shininess=shininess)

@@ -288,6 +288,58 @@ TEST_P(ClosedForms, ALensBlursAsItsCircleOfConfusionSays) {
     EXPECT_NEAR(std::sqrt(2 * square / weight) / circle, 1, 0.03);
 }
 
+// The white furnace: a smooth metal that keeps all light cannot be told from an even background; of a rough one, single
+// scattering keeps what the integral of the lobe says (tests/kernel/bsdf/ggx_reflection_test.cpp).
+TEST_P(ClosedForms, AWhiteMetalVanishesInUniformLight) {
+    Scene scene = uniform_light({0.5F, 0.25F, 1});
+    scene.materials = {black("metal")};
+    scene.materials[0].phong.diffuse = {1, 1, 1};
+    scene.nodes = {camera({0, 0, 3}, 0.6), body(SphereShape{0.5}, {0, 0, 0}, 0)};
+    for (const float roughness : {0.0F, 0.02F}) {
+        scene.materials[0].microfacets = Microfacets{1, roughness};
+        const Film film = film_of(scene, 4, {});
+        for (const Vec3d& pixel : film.sums()) {
+            EXPECT_NEAR(pixel.x / 4, 0.5, 1e-2 * 0.5) << roughness;
+            EXPECT_NEAR(pixel.y / 4, 0.25, 1e-2 * 0.25) << roughness;
+            EXPECT_NEAR(pixel.z / 4, 1, 1e-2) << roughness;
+        }
+    }
+    // seen head-on: 1 - ln 2 of it, however the light comes in
+    scene.nodes[0].camera = OrthographicCamera{1e-3};
+    scene.materials[0].microfacets = Microfacets{1, 1};
+    for (const bool by_chance : {false, true}) {
+        scene.environment.illuminates = scene.environment.indirect = by_chance ? 1 : 0;
+        expect_mean(scene, 64, {}, 0.5 * (1 - std::numbers::ln2));
+    }
+}
+
+// Lights with an area, drawn by the lights and found by paths, bring together what a background as bright does.
+TEST_P(ClosedForms, AMetalInARoomThatGlowsIsAsInUniformLight) {
+    Scene scene = uniform_light({0, 0, 0});
+    scene.materials = {black("metal"), black("lamp")};
+    scene.materials[0].phong.diffuse = {1, 1, 1};
+    scene.materials[1].optics.emission = {0.5F, 0.5F, 0.5F};
+    scene.materials[1].sides = FaceSides::double_sided;
+    // a room of six quads around a ball
+    Mesh room{.name = "room"};
+    for (int i = 0; i < 8; ++i) {
+        const auto at = [&](int bit) { return (i & bit) != 0 ? 4.0F : -4.0F; };
+        room.positions.push_back({at(1), at(2), at(4)});
+    }
+    room.quads = {0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3};
+    scene.meshes = {room};
+    scene.nodes = {camera({0, 0, 3}, 1e-3), body(SphereShape{0.5}, {0, 0, 0}, 0), body(MeshShape{0}, {0, 0, 0}, 1)};
+    for (const float roughness : {0.3F, 0.7F, 1.0F}) {
+        scene.materials[0].microfacets = Microfacets{1, roughness};
+        const Vec3d mean = mean_of(scene, 256, {}, 24);
+        Scene sky = uniform_light({0.5F, 0.5F, 0.5F});
+        sky.materials = {scene.materials[0]};
+        sky.nodes = {scene.nodes[0], scene.nodes[1]};
+        const Vec3d by_sky = mean_of(sky, 256, {}, 24);
+        EXPECT_NEAR(mean.x, by_sky.x, 5e-3) << roughness;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, ClosedForms, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
 
 }  // namespace

@@ -46,7 +46,7 @@ PreparedScene prepare_forced(const Scene& scene, EffectMask on, EffectMask off) 
 
 /// Does the oracle estimate something of it in another way?
 bool has_own_estimators(EffectMask effects) {
-    return effects.has(Effect::area_lights) || effects.has(Effect::environment_light) || effects.has(Effect::indirect);
+    return effects.has_any(Effect::area_lights | Effect::environment_light | Effect::indirect | Effect::microfacets);
 }
 
 /// The chance of a difference as large as this between samples of equal means. B. L. Welch, Biometrika 34, 1947.

@@ -9,6 +9,7 @@
 
 #include "support/backend_list.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -21,6 +22,11 @@ Json read_golden() {
     return Json::parse(file);
 }
 
+/// By name, or a file beside the scripts of assets/scenes.
+Scene scene_of(const std::string& name) {
+    return name.ends_with(".gltf") ? load_scene(TANDEM_SCENES "/" + name) : named_scene(name);
+}
+
 class Golden : public test::ExactBackend {};
 
 TEST_P(Golden, FilmsAreAsStored) {
@@ -29,7 +35,7 @@ TEST_P(Golden, FilmsAreAsStored) {
     for (Json& entry : golden["films"]) {
         const char* field = GetParam().tier == Tier::precise ? "precise_sha256" : "strict_sha256";
         const auto frame = entry["frame"].get<std::uint32_t>();
-        const PreparedScene scene = prepare(named_scene(entry["scene"].get<std::string>()),
+        const PreparedScene scene = prepare(scene_of(entry["scene"].get<std::string>()),
                                             {.frame = static_cast<std::int32_t>(frame), .camera = ""});
         RenderJob job;
         job.width = entry["width"];

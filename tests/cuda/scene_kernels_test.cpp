@@ -75,7 +75,8 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
     const Linked everything = write(all_effects);
     EXPECT_GT(everything.code_bytes, 3 * nothing.code_bytes);
     // what a path carries from vertex to vertex, beside kernels that may use as many registers
-    for (const Effect one : {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect}) {
+    for (const Effect one :
+         {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect, Effect::microfacets}) {
         const Linked& alone = linked(facts(one));
         EXPECT_EQ(alone.registers, everything.registers) << to_string(one);
         EXPECT_GT(everything.stack_bytes, 3 * alone.stack_bytes) << to_string(one);
@@ -115,6 +116,7 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     EXPECT_EQ(glass.reflection, 5U) << "total internal reflection";
     EXPECT_EQ(glass.refraction, 6U);
     EXPECT_EQ(linked_facts(scene, Effect::indirect, limits).diffuse, 7U);
+    EXPECT_EQ(linked_facts(scene, Effect::microfacets, limits).reflection, 5U);
     scene.area_light_kinds = PrimitiveKinds::quad;
     EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).light_kinds, PrimitiveKinds::quad);
     EXPECT_EQ(linked_facts(scene, Effect::emission, limits).light_kinds, 0U);

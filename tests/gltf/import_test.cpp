@@ -206,12 +206,46 @@ TEST_F(Import, ReadsPhongMaterialsWithTandemsDefaults) {
     EXPECT_EQ(whole.shininess, 7.5F);
 }
 
-TEST_F(Import, ApproximatesOtherMaterialsFromTheirBaseColour) {
+TEST_F(Import, ReadsMetallicRoughness) {
     TestFile file = small_file();
     file.json["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.75, 1}}}}};
-    const PhongMaterial phong = import(file).scene.materials[0].phong;
-    EXPECT_EQ(phong.diffuse, Vec3f(0.5F, 0.25F, 0.75F));
-    EXPECT_EQ(phong.ambient, Vec3f(0.5F, 0.25F, 0.75F) * 0.1F);
+    const Material absent = import(file).scene.materials[0];
+    EXPECT_EQ(absent.phong.diffuse, Vec3f(0.5F, 0.25F, 0.75F));
+    EXPECT_EQ(absent.phong.ambient, Vec3f(0.5F, 0.25F, 0.75F) * 0.1F);
+    ASSERT_TRUE(absent.microfacets);
+    EXPECT_EQ(absent.microfacets->metallic, 1) << "the default of glTF";
+    EXPECT_EQ(absent.microfacets->roughness, 1) << "the default of glTF";
+    Json& pbr = file.json["materials"][0]["pbrMetallicRoughness"];
+    pbr["metallicFactor"] = 0.25;
+    pbr["roughnessFactor"] = 0;
+    file.json["materials"][0]["extensions"]["KHR_materials_ior"] = {{"ior", 1.75}};
+    const ImportResult read = import(file);
+    EXPECT_EQ(read.scene.materials[0].microfacets->metallic, 0.25F);
+    EXPECT_EQ(read.scene.materials[0].microfacets->roughness, 0);
+    EXPECT_EQ(read.scene.materials[0].optics.ior, 1.75F);
+    EXPECT_TRUE(prepare(read.scene).effects.has(Effect::microfacets));
+    EXPECT_NE(test::sentences(read.report)
+                  .find("rendered: metallic-roughness material at materials[0]: reflection from GGX microfacets"),
+              std::string::npos);
+}
+
+TEST_F(Import, GlassAndUnlitMaterialsHaveNoMicrofacets) {
+    TestFile file = small_file();
+    file.json["materials"][0] = {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"roughnessFactor", 0.5}}}};
+    const auto expect_none = [&](const char* sentence) {
+        const ImportResult read = import(file);
+        EXPECT_FALSE(read.scene.materials[0].microfacets) << sentence;
+        EXPECT_NE(test::sentences(read.report).find(sentence), std::string::npos) << sentence;
+    };
+    file.json["materials"][0]["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}};
+    expect_none("ignored: roughnessFactor at materials[0].pbrMetallicRoughness.roughnessFactor: bodies of glass");
+    expect_none("approximated: metallic-roughness material at materials[0]: a body of glass");
+    file.json["materials"][0]["extensions"] = {{"KHR_materials_unlit", Json::object()}};
+    expect_none("ignored: metallicFactor at materials[0].pbrMetallicRoughness.metallicFactor: an unlit material");
+    file.json["materials"][0]["extensions"] = {{"TANDEM_materials_phong", Json::object()}};
+    expect_none("ignored: metallicFactor at materials[0].pbrMetallicRoughness.metallicFactor: TANDEM_materials_phong");
+    file.json["materials"][0]["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 0}}}};
+    EXPECT_TRUE(import(file).scene.materials[0].microfacets) << "nothing passes through it";
 }
 
 TEST_F(Import, PrimitivesWithoutMaterialShareOneWhiteOne) {

@@ -48,7 +48,9 @@ const StoredScene stored_scenes[] = {
     {"soft-shadows", glow},
     {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
     {"motion", Effect::shadows | Effect::motion_blur},
-    {"whitted", all_effects - Effect::motion_blur},
+    {"whitted", all_effects - (Effect::motion_blur | Effect::microfacets)},
+    {"metals", glow | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
+                   Effect::indirect | Effect::roulette},
 };
 
 class SceneScript : public test::GltfFiles, public ::testing::WithParamInterface<StoredScene> {};

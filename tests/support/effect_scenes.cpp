@@ -217,6 +217,26 @@ Scene with_culled_faces() {
     add("roof", {0.2, 1.2, 0}, {0.7, 0.1, 0, 0.7});
     return scene;
 }
+Material polished(std::string name, const Vec3f& colour, float metallic, float roughness) {
+    Material material = matt(std::move(name), colour);
+    material.microfacets = Microfacets{metallic, roughness};
+    return material;
+}
+/// A smooth metal, a rough one, and a varnished body.
+Scene polished_scene() {
+    return still_life(polished("gold", {0.9F, 0.7F, 0.3F}, 1, 0.15F), polished("worn", {0.6F, 0.6F, 0.7F}, 0.7F, 0.6F),
+                      polished("varnish", {0.1F, 0.2F, 0.5F}, 0, 0.4F));
+}
+/// Every kind of primitive with microfacets under a picture, whose normals lean and whose faces are seen from both
+/// sides.
+Scene worn_scene() {
+    Scene scene = textured(true, true, false);
+    for (std::size_t i = 1; i < scene.materials.size(); ++i) {
+        scene.materials[i].microfacets = Microfacets{0.9F, 0.7F};
+        scene.materials[i].metallic_roughness_texture = TextureReference{0, {0.3F, 0.1F}, 0.2F, {2, 1}};
+    }
+    return scene;
+}
 Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
     scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U, indirect ? 1U : 0U};
     return scene;
@@ -283,11 +303,20 @@ std::vector<EffectScene> make_scenes() {
     scenes.push_back({"unlit, indirect", in_daylight(lit(with_unlit(), {}), false, true),
                       shadows | Effect::textures | Effect::emission | Effect::indirect | Effect::roulette});
     scenes.push_back({"culled faces", lit(with_culled_faces(), {}), shadows | Effect::cutouts});
+    const Effect facets = Effect::microfacets;
+    scenes.push_back({"microfacets", lit(polished_scene(), plain), facets});
+    scenes.push_back({"microfacets, lamps", with_lamps(polished_scene()), lamps | facets});
+    scenes.push_back({"microfacets, lamps, indirect", in_daylight(with_lamps(polished_scene()), true, true),
+                      lamps | facets | Effect::environment_light | Effect::indirect | Effect::roulette});
+    scenes.push_back({"worn metal", in_daylight(lit(worn_scene(), {}), true, false),
+                      shadows | facets | Effect::textures | Effect::normal_maps | Effect::environment_light});
     Scene everything = in_daylight(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);
     const Scene pictures = textured(true, true, true);
     everything.images = pictures.images;
     everything.textures = pictures.textures;
     everything.materials[0] = pictures.materials[1];
+    everything.materials[0].microfacets = Microfacets{0.6F, 0.5F};
+    everything.materials[0].metallic_roughness_texture = TextureReference{1};
     everything = through(everything, {0.03, 3});
     everything.materials[3].optics.mirror = {0.2F, 0.1F, 0.1F};
     everything.materials[2].optics.transmission = 0.7F;

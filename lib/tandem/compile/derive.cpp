@@ -60,6 +60,8 @@ void add_pictures(const PreparedTextures& textures, std::size_t material, const 
     if (is_new) known->second = has_colours(textures, of_material.diffuse);
     if (known->second) needs.add(Effect::textures, name + " has a texture");
     if (has_colours(textures, of_material.emission)) needs.add(Effect::textures, name + " has an emissive texture");
+    if (has_colours(textures, of_material.metallic_roughness))
+        needs.add(Effect::textures, name + " has a metallic-roughness texture");
     if (of_material.colour_slot != no_slot) needs.add(Effect::textures, name + " has vertices with colours");
     if (of_material.normal.texture != no_texture) needs.add(Effect::normal_maps, name + " has a normal map");
     if (of_material.alpha_cutoff > 0) needs.add(Effect::cutouts, name + " is cut out by its alpha");
@@ -128,6 +130,11 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         const std::string name = label("material", scene.materials[i].name, i);
         add_material(prepared.optics[i], name, needs);
         add_pictures(prepared.textures, i, name, coloured, needs);
+        if (!prepared.microfacets.empty() && prepared.microfacets[i].is_there != 0) {
+            const Microfacets& facets = prepared.microfacets[i];
+            needs.add(Effect::microfacets, fmt::format("{} has a roughness of {:g}, and is {:.3g} % metal", name,
+                                                       facets.roughness, facets.metallic * 100));
+        }
     }
     if (prepared.culled_node != PreparedScene::never) {
         const std::uint32_t node = prepared.culled_node;
@@ -188,6 +195,7 @@ Scene without_effects(Scene scene, EffectMask off) {
     }
     for (Material& material : scene.materials) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
+        if (off.has(Effect::microfacets)) material.microfacets.reset();
         if (off.has(Effect::refraction)) material.optics.transmission = 0;
         if (off.has(Effect::cutouts)) {
             material.alpha_mode = AlphaMode::opaque;
@@ -196,6 +204,7 @@ Scene without_effects(Scene scene, EffectMask off) {
         if (off.has(Effect::textures)) {
             remove_colours(scene, material);
             material.emissive_texture.reset();
+            material.metallic_roughness_texture.reset();
         }
         if (off.has(Effect::normal_maps)) material.normal_texture.reset();
         if (off.has(Effect::emission)) {

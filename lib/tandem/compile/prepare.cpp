@@ -123,7 +123,8 @@ class Preparer {
             result_.materials.push_back(material.phong);
             result_.optics.push_back(material.optics);
         }
-        result_.textures = prepare_textures(scene_, result_.materials, result_.optics);
+        add_microfacets();
+        result_.textures = prepare_textures(scene_, result_.materials, result_.optics, result_.microfacets);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             if (scene_.materials[i].unlit) make_unlit(result_.materials[i], result_.optics[i]);
         }
@@ -159,6 +160,15 @@ class Preparer {
     }
 
   private:
+    /// For every material, if any has them.
+    void add_microfacets() {
+        const auto has_them = [](const Material& material) { return material.microfacets && !material.unlit; };
+        if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_them)) return;
+        for (const Material& material : scene_.materials) {
+            result_.microfacets.push_back(has_them(material) ? *material.microfacets : Microfacets{0, 0, 0});
+        }
+    }
+
     /// Without copies, which are neither lights nor bodies to a ray.
     void find_what_glows_and_refracts() {
         const auto find = [this](PreparedScene& scene) {

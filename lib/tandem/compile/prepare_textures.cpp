@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t most_texels = std::size_t{1} << 30;
 
 constexpr std::uint32_t rgb = 0x00FFFFFF;  // the bits of a texel's red, green and blue
+constexpr std::uint32_t green_blue = 0x00FFFF00;
 
 /// Of the channels in `bits`.
 bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
@@ -41,13 +42,14 @@ TextureUse with_transform(const TextureReference& reference, std::uint32_t textu
 
 bool has_picture(const MaterialTextures& m) {
     return m.diffuse.texture != no_texture || m.normal.texture != no_texture || m.emission.texture != no_texture ||
-           m.colour_slot != no_slot;
+           m.metallic_roughness.texture != no_texture || m.colour_slot != no_slot;
 }
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics)
-        : scene_(scene), phong_(phong), optics_(optics), slots_(corner_slots(scene)) {
+    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
+             std::vector<Microfacets>& microfacets)
+        : scene_(scene), phong_(phong), optics_(optics), microfacets_(microfacets), slots_(corner_slots(scene)) {
         result_.levels = texture_levels();
     }
 
@@ -98,6 +100,9 @@ class Preparer {
             prepared.normal_scale = material.normal_scale;
         }
         if (material.emissive_texture) add_emission(*material.emissive_texture, slots, index, prepared);
+        if (material.metallic_roughness_texture && !microfacets_.empty() && microfacets_[index].is_there != 0) {
+            add_metallic_roughness(*material.metallic_roughness_texture, slots, index, prepared);
+        }
         result_.materials.push_back(prepared);
     }
 
@@ -126,6 +131,18 @@ class Preparer {
             emission *= colour_of(image.texels[0]);
         } else {
             prepared.emission = with_transform(reference, add(reference, ColourSpace::srgb, false), slots);
+        }
+    }
+
+    /// Red often says something else, such as occlusion.
+    void add_metallic_roughness(const TextureReference& reference, const CornerSlots& slots, std::size_t index,
+                                MaterialTextures& prepared) {
+        const Image& image = image_of(reference);
+        if (has_one_colour(image, green_blue)) {
+            microfacets_[index].roughness *= static_cast<float>(image.texels[0] >> 8 & 255U) / 255.0F;
+            microfacets_[index].metallic *= static_cast<float>(image.texels[0] >> 16 & 255U) / 255.0F;
+        } else {
+            prepared.metallic_roughness = with_transform(reference, add(reference, ColourSpace::linear, false), slots);
         }
     }
 
@@ -170,6 +187,7 @@ class Preparer {
     const Scene& scene_;
     std::vector<PhongMaterial>& phong_;
     std::vector<Optics>& optics_;
+    std::vector<Microfacets>& microfacets_;
     std::vector<CornerSlots> slots_;                                                 ///< by material
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
     std::map<const Image*, Facts> facts_;
@@ -197,8 +215,9 @@ bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
                         [](std::uint32_t t) { return (t & rgb) == rgb; });
 }
 
-PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics) {
-    return Preparer(scene, phong, optics).run();
+PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
+                                  std::vector<Microfacets>& microfacets) {
+    return Preparer(scene, phong, optics, microfacets).run();
 }
 
 }  // namespace tandem

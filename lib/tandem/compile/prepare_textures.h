@@ -8,12 +8,12 @@
 
 namespace tandem {
 
-/// The textures of the materials of a valid scene, without what costs and changes nothing: a diffuse or emissive
-/// texture of one colour becomes a factor of `phong` or `optics`, which go by index of the material; a normal map of
-/// one colour becomes one texel; the colours of a picture that differs in alpha alone become white, and a factor; a
+/// The textures of the materials of a valid scene, without what costs and changes nothing: a texture of
+/// one colour becomes a factor of `phong`, `optics` or `microfacets`, which go by index of the material; a normal map
+/// of one colour becomes one texel; the colours of a picture that differs in alpha alone become white, and a factor; a
 /// mask that lets everything through is none; and pictures that nothing shows are left out. Throws InputError if there
 /// are more than 2^30 texels.
 [[nodiscard]] PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong,
-                                                std::vector<Optics>& optics);
+                                                std::vector<Optics>& optics, std::vector<Microfacets>& microfacets);
 
 }  // namespace tandem

@@ -69,6 +69,8 @@ std::string scene_hash(const PreparedScene& scene) {
         hash.update(array.data(), array.size() * sizeof(array[0]));
     };
 #define TANDEM_SCENE_ARRAY(Type, names) add(scene.names);
+#define TANDEM_RARE_SCENE_ARRAY(Type, name, names) \
+    if (!scene.names.empty()) add(scene.names);
 #include "tandem/kernel/view/scene_arrays.def"
     hash.update_value(std::uint8_t{scene.area_light_shadows});
     hash.update_value(scene.roulette_from);

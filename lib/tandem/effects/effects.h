@@ -70,7 +70,7 @@ struct EffectSet {
 
 /// The effects that continue a path beyond its first vertex.
 inline constexpr EffectMask bouncing_effects =
-    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect;
+    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect | Effect::microfacets;
 
 /// The effects that send rays from surfaces: without them there is one ray per sample.
 inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;

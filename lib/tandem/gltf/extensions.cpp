@@ -44,7 +44,7 @@ constexpr std::array<Reason, 14> reasons = {{
     {"EXT_meshopt_", for_triangles},
     {"KHR_meshopt_", for_triangles},
     {"KHR_materials_variants", "materials stay as the primitives name them"},
-    {"KHR_materials_", "Tandem shades with Phong's model only"},
+    {"KHR_materials_", "of materials Tandem renders base colour, metal and roughness, glass and emission"},
     {"KHR_texture_", for_textures},
     {"EXT_texture_", for_textures},
     {"MSFT_texture_", for_textures},

@@ -22,7 +22,6 @@ struct Feature {
 constexpr const char* film_decides = "the film decides the shape of the picture";
 constexpr const char* no_clipping = "a ray tracer has no clipping planes";
 constexpr const char* no_morphing = "Tandem does not render morph targets yet";
-constexpr const char* phong_only = "Tandem shades with Phong's model only";
 
 /// By place in the file, with [] for any index.
 const std::map<std::string, Feature>& ignored_features() {
@@ -36,9 +35,6 @@ const std::map<std::string, Feature>& ignored_features() {
         {"cameras[].orthographic.xmag", {"camera xmag", film_decides}},
         {"cameras[].orthographic.znear", {"camera znear", no_clipping}},
         {"cameras[].orthographic.zfar", {"camera zfar", no_clipping}},
-        {"materials[].pbrMetallicRoughness.metallicRoughnessTexture", {"metallic-roughness texture", phong_only}},
-        {"materials[].pbrMetallicRoughness.metallicFactor", {"metallicFactor", phong_only}},
-        {"materials[].pbrMetallicRoughness.roughnessFactor", {"roughnessFactor", phong_only}},
         {"materials[].occlusionTexture", {"occlusion texture", "Tandem renders no textures of occlusion"}},
         {"extensions.KHR_lights_punctual.lights[].range",
          {"light range", "light falls off with the square of the distance"}},

@@ -11,9 +11,43 @@ namespace {
 
 constexpr const char* unlit_name = "KHR_materials_unlit";
 
-/// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on.
+/// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on: what
+/// is left of glass, and of microfacets that are not simulated.
 PhongMaterial phong_from_base_colour(const Vec3f& base_colour) {
     return {base_colour * 0.1F, base_colour, {0.04F, 0.04F, 0.04F}, 32};
+}
+
+/// What metallic-roughness says where something else is taken.
+void note_unused_factors(const Json& pbr, const std::string& path, const char* reason, ImportReport& report) {
+    for (const auto& [member, feature] :
+         {std::pair{"metallicRoughnessTexture", "metallic-roughness texture"},
+          std::pair{"metallicFactor", "metallicFactor"}, std::pair{"roughnessFactor", "roughnessFactor"}}) {
+        if (find(pbr, member) == nullptr) continue;
+        report.add(Treatment::ignored, feature, fmt::format("{}.pbrMetallicRoughness.{}", path, member), reason);
+    }
+}
+
+/// `material`: with what is read of it so far.
+void read_metallic_roughness(const Json* pbr, const std::string& path, Material& material, ImportReport& report) {
+    const Vec3f white = {1, 1, 1};
+    material.phong = phong_from_base_colour(pbr == nullptr ? white : read_colour(*pbr, "baseColorFactor", white));
+    const bool is_glass = material.optics.transmission > 0;
+    if (is_glass || material.unlit) {
+        if (pbr != nullptr) {
+            note_unused_factors(
+                *pbr, path, is_glass ? "bodies of glass have smooth borders" : "an unlit material reflects no light",
+                report);
+        }
+        if (material.unlit) return;
+        report.add(Treatment::approximated, "metallic-roughness material", path,
+                   "a body of glass; what it does not transmit has Phong's model with the base colour");
+        return;
+    }
+    const Microfacets absent;
+    material.microfacets = pbr == nullptr ? absent
+                                          : Microfacets{pbr->value("metallicFactor", absent.metallic),
+                                                        pbr->value("roughnessFactor", absent.roughness)};
+    report.add(Treatment::rendered, "metallic-roughness material", path, "reflection from GGX microfacets");
 }
 
 }  // namespace
@@ -40,6 +74,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         Material material{read.value("name", std::string()), {}};
         material.optics = read_optics(read, path, report);
         const Json* phong = find_extension(read, "TANDEM_materials_phong");
+        const Json* pbr = find(read, "pbrMetallicRoughness");
         material.unlit = find_extension(read, unlit_name) != nullptr;
         if (phong != nullptr && !material.unlit) {
             const PhongMaterial absent;
@@ -48,17 +83,9 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
                 read_colour(*phong, "specular", absent.specular), phong->value("shininess", absent.shininess)};
             report.add(Treatment::rendered, "TANDEM_materials_phong", path + ".extensions.TANDEM_materials_phong",
                        "Phong's model");
+            if (pbr != nullptr) note_unused_factors(*pbr, path, "TANDEM_materials_phong takes their place", report);
         } else {
-            const Json* pbr = find(read, "pbrMetallicRoughness");
-            const Vec3f white = {1, 1, 1};
-            material.phong =
-                phong_from_base_colour(pbr == nullptr ? white : read_colour(*pbr, "baseColorFactor", white));
-            if (!material.unlit) {
-                report.add(
-                    Treatment::approximated, "metallic-roughness material", path,
-                    "the base colour is Phong's diffuse reflectance, a tenth of it the ambient one; specular 0.04, "
-                    "shininess 32");
-            }
+            read_metallic_roughness(pbr, path, material, report);
         }
         // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;

@@ -12,10 +12,10 @@
 namespace tandem::gltf {
 
 /// One material per material of the file, in its order. TANDEM_materials_phong as it stands; any other is
-/// approximated from its base colour.
+/// metallic-roughness, or glass whose other terms are approximated from its base colour.
 [[nodiscard]] std::vector<Material> read_materials(const Source& source, ImportReport& report);
 
-/// What glTF gives to primitives that name no material, as far as Phong's model can follow: white.
+/// What glTF gives to primitives that name no material, but matt and not a rough metal: white.
 [[nodiscard]] Material default_material();
 
 /// TANDEM_environment of the scene, else of the root, else nothing.

@@ -33,7 +33,7 @@ Optics read_optics(const Json& material, const std::string& path, ImportReport& 
                        "an index of 0 stands for infinity; Tandem takes 1000");
         } else {
             report.add(Treatment::rendered, "KHR_materials_ior", where("KHR_materials_ior"),
-                       "the refractive index of the body, where it transmits light");
+                       "the refractive index: of glass, and of the dielectric part of metallic-roughness");
         }
     }
     const Json* volume = find_extension(material, "KHR_materials_volume");

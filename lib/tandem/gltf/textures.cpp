@@ -67,6 +67,12 @@ class TextureReader {
                 material.diffuse_texture = read_use(*info, pbr_path + ".baseColorTexture", "base colour texture",
                                                     "sRGB; multiplies the diffuse and the ambient reflectance");
             }
+            const Json* rough = find(*pbr, "metallicRoughnessTexture");
+            if (rough != nullptr && material.microfacets) {
+                material.metallic_roughness_texture =
+                    read_use(*rough, pbr_path + ".metallicRoughnessTexture", "metallic-roughness texture",
+                             "linear; green multiplies the roughness, blue the share of metal");
+            }
         }
         if (const Json* info = find(read, "normalTexture")) {
             material.normal_texture = read_use(*info, path + ".normalTexture", "normal texture",

@@ -1,4 +1,4 @@
-/// Direct light at a vertex of a path, reflected by Phong's model.
+/// Direct light at a vertex of a path, and what the surface reflects of it.
 #pragma once
 
 #include "tandem/kernel/block.h"
@@ -18,6 +18,11 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
     IncidentLight<Real> result;
     result.reflected = phong_light(surface.diffuse, surface.specular, surface.shininess, ray.intensity, surface.normal,
                                    ray.to_light, to_viewer);
+    if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
+        const auto value = facets_light<Real>(surface, point, ray.intensity, ray.to_light, to_viewer, Real(1.0F),
+                                              Double<Real>(1.0F), Mask<Real>(false));
+        result.reflected = select(surface.has_microfacets, value, result.reflected);
+    }
     if (Effects::has(Effect::shadows)) {
         const bool is_far = Effects::has(Effect::directional_lights) && light.kind == PunctualKind::directional;
         result.to = is_far ? constant<Real>(-light.direction) : broadcast<Real>(light.position);
@@ -28,20 +33,21 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
     return result;
 }
 
-/// Phong's sum over all lights, with the ambient term, at `position` in the lanes of `found`. `point`: the same on the
-/// surface, for shadow rays. `goes_on`: the lanes whose path may be scattered here and then hit
-/// lights by itself. With indirect light, each vertex samples one light (LightChoice). One loop
+/// The sum over all lights, with the ambient term, at `position` in the lanes of `found`. `point`: the same on the
+/// surface, for shadow rays. `followed`: the lobes that the path may follow here, and
+/// then hit lights by itself. With indirect light, each vertex samples one light (LightChoice). One loop
 /// covers all kinds of lights, so that a kernel starts shadow rays in one place. `rays` counts
 /// them.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const Surface<Real>& surface,
                                      const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer,
                                      const SurfacePoint<Real>& point, const SampleId<Real>& sample,
-                                     const UInt<Real>& vertex, const Mask<Real>& goes_on, const Mask<Real>& found,
-                                     UInt<Real>& rays) {
+                                     const UInt<Real>& vertex, const FollowedLobes<Real>& followed,
+                                     const Mask<Real>& found, UInt<Real>& rays) {
     const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
     Vec3<Real> reflected = surface.ambient * broadcast<Real>(scene.environment.ambient);
-    const Mask<Real> reflects = found && norm1(surface.diffuse) + norm1(surface.specular) > Real(0.0F);
+    Mask<Real> reflects = found && norm1(surface.diffuse) + norm1(surface.specular) > Real(0.0F);
+    if (Effects::has(Effect::microfacets)) reflects = reflects || (found && surface.has_microfacets);
     const bool any_reflects = any(reflects);
     if (!any_reflects && !keeps_together<Effects>()) return reflected;
     const bool area = Effects::has(Effect::area_lights) && scene.area_light_count > 0;
@@ -60,9 +66,9 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
             } else if (i == count) {
                 light = choice.chosen();
             } else if (area && i == punctual) {
-                light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, goes_on, reflects);
+                light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, followed, reflects);
             } else if (sky) {
-                light = environment_light<Real>(scene, surface, sample, vertex);
+                light = environment_light<Effects>(scene, surface, point, to_viewer, sample, vertex);
             }
         }
         if (by_chance && i < count) {

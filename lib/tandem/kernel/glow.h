@@ -5,6 +5,7 @@
 #include "tandem/kernel/light_picture.h"
 #include "tandem/kernel/lights/quad_light.h"
 #include "tandem/kernel/lights/sphere_light.h"
+#include "tandem/kernel/microfacets.h"
 #include "tandem/kernel/sampler/dimensions.h"
 #include "tandem/kernel/sampler/mis.h"
 #include "tandem/kernel/surface.h"
@@ -90,13 +91,13 @@ TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Re
 }
 
 /// What a surface reflects of one area light, sampled at random, in the lanes of `found`: unbiased together with what a
-/// path hits by itself, in the lanes of `goes_on`, in a scene with indirect light. Source: E. Veach, L. Guibas, 1995
+/// path hits by itself that follows a lobe, in the lanes of `followed`. Source: E. Veach, L. Guibas, 1995
 /// (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
 TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
                                               const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
                                               const SampleId<Real>& sample, const UInt<Real>& vertex,
-                                              const Mask<Real>& goes_on, const Mask<Real>& found) {
+                                              const FollowedLobes<Real>& followed, const Mask<Real>& found) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const D zero(0.0);
@@ -146,11 +147,16 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     Real share(1.0F);  // of the diffuse part: paths that continue find the rest
     if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
         const D other = cosine_hemisphere_pdf(dot(drawn.direction, surface.normal));
-        share = select(goes_on, to_real<Real>(power_heuristic(pdf, other)), share);
+        share = select(followed.diffuse, to_real<Real>(power_heuristic(pdf, other)), share);
     }
     const Real scale = to_real<Real>(constant<D>(inverse_pi) / pdf);
-    const auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
-                                   surface.normal, drawn.direction, to_viewer);
+    auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
+                             surface.normal, drawn.direction, to_viewer);
+    if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
+        const auto of_facets = facets_light<Real>(surface, point, radiance * scale, drawn.direction, to_viewer, share,
+                                                  pdf, followed.glossy);
+        value = select(surface.has_microfacets, of_facets, value);
+    }
     result.reflected = select(seen, value, result.reflected);
     if (scene.area_lights_cast_shadows != 0) keep_in_front(surface, point, drawn.direction, result);
     return result;
@@ -158,17 +164,24 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
 
 /// What a diffuse surface reflects of the background, by one direction around its normal, whichever side is visible: so
 /// the walls of a closed solid are not black from inside. For scenes without indirect light; with it, the continued
-/// path adds the background.
-template <class Real>
+/// path adds the background. Reflections from microfacets find it by the continued path.
+template <class Effects, class Real>
 TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
-                                                     const SampleId<Real>& sample, const UInt<Real>& vertex) {
+                                                     const SurfacePoint<Real>& point,
+                                                     const Vec3<Double<Real>>& to_viewer, const SampleId<Real>& sample,
+                                                     const UInt<Real>& vertex) {
     const auto random = sample.block_at_vertex(Dimension::environment, vertex);
     const auto drawn = sample_cosine_hemisphere<Real>(surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));
     IncidentLight<Real> result;
     result.to = to_real<Real>(drawn.direction);
     // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
-    result.reflected = surface.diffuse * background(scene.environment, result.to);
+    Vec3<Real> reflectance = surface.diffuse;
+    if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
+        const auto coated = coated_reflectance(surface, point, drawn.direction, to_viewer);
+        reflectance = select(surface.has_microfacets, coated, reflectance);
+    }
+    result.reflected = reflectance * background(scene.environment, result.to);
     result.is_far = Mask<Real>(true);
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     return result;

@@ -21,6 +21,13 @@ struct IncidentLight {
     }
 };
 
+/// The lanes whose path may follow a lobe of the vertex, and then hit lights by itself.
+template <class Real>
+struct FollowedLobes {
+    Mask<Real> diffuse = Mask<Real>(false);
+    Mask<Real> glossy = Mask<Real>(false);
+};
+
 /// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface
 /// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
 /// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For

@@ -41,14 +41,16 @@ TANDEM_HD_STEP void step_to_vertex(const SceneView& scene, const Ray<Real>& ray,
 ///
 /// Method: both densities of the power heuristic belong to the point that the direction was sampled from, `drawn_at`.
 /// The ray starts a little above a face, and from there a near light is larger. So the light is scaled by the ratio of
-/// its projected solid angles, as seen from `drawn_at` and from the ray's origin.
+/// its projected solid angles, as seen from `drawn_at` and from the ray's origin. For microfacets,
+/// whose lobe is no longer known, the density is that with which the direction was sampled.
 template <class Effects, class Real>
 TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real, true>& path, const Closest<Real>& hit,
                           const SurfacePoint<Real>& point, const Mask<Real>& glows) {
     using D = Double<Real>;
     const Real whole(1.0F);
-    if (!Effects::has(Effect::indirect) || !Effects::has(Effect::area_lights)) return whole;
-    const Mask<Real> shared = glows && path.pdf > D(0.0);
+    if (!Effects::has_any(Effect::indirect | Effect::microfacets) || !Effects::has(Effect::area_lights)) return whole;
+    const Mask<Real> glossy = Mask<Real>(Effects::has(Effect::microfacets)) && path.pdf < D(0.0);
+    const Mask<Real> shared = glows && (path.pdf > D(0.0) || glossy);
     if (scene.area_light_count == 0 || !any(shared)) return whole;
     const D zero(0.0);
     const D one(1.0);
@@ -66,10 +68,12 @@ TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real,
     const Mask<Real> faces = facing != zero;
     const D turned = select(faces, dot(direction, point.normal) / select(faces, facing, one), one);
     // where the light is seen edge-on, the ratio has no bound
-    const D growth = ((seen_cosine / cosine) * turned) * (shorter * shorter);
+    const D brighter = select(glossy, one, seen_cosine / cosine);
+    const D growth = (brighter * turned) * (shorter * shorter);
     const D bounded = select(growth < D(2.0), greater(growth, zero), D(2.0));
     const D other = area_light_pdf<Real>(scene, hit.primitive, drawn_at, direction, shared);
-    const D share = power_heuristic(cosine_hemisphere_pdf(seen_cosine), other) * bounded;
+    const D pdf = select(glossy, -path.pdf, cosine_hemisphere_pdf(seen_cosine));
+    const D share = power_heuristic(pdf, other) * bounded;
     return select(shared, to_real<Real>(share), whole);
 }
 
@@ -130,7 +134,7 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     }
     auto reflected = reflected_light<Effects>(tracer, scene, vertex.surface, path_detail::point_of(path.ray, hit.t),
                                               -normalize(widen(path.ray.direction)), vertex.point, sample, number,
-                                              Mask<Real>(false), found, tally.rays);
+                                              FollowedLobes<Real>(), found, tally.rays);
     if (Effects::has(Effect::emission)) reflected = reflected + vertex.surface.emission;
     radiance = select(found, reflected, radiance);
 }
@@ -158,7 +162,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     Meeting<Real> meeting;
     Vec3<D> to_viewer;
     Mask<Real> holes(false);
-    Mask<Real> goes_on(false);
+    FollowedLobes<Real> followed;
     if (any(found)) {
         step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
         to_viewer = -normalize(widen(path.ray.direction));
@@ -176,12 +180,15 @@ requires(can_bounce<Effects>()) TANDEM_HD
             radiance = select(found && !dark, radiance + path.throughput * (vertex.surface.emission * share), radiance);
         }
         take_transmitted<Effects>(vertex.surface, meeting);
-        goes_on = meeting.is_front && path.scatterings < UInt<Real>(limits.diffuse);
+        followed.diffuse = meeting.is_front && path.scatterings < UInt<Real>(limits.diffuse);
+        if (Effects::has(Effect::microfacets)) {
+            followed.glossy = vertex.surface.has_microfacets && path.reflections < UInt<Real>(limits.reflection);
+        }
     }
 
     const auto reflected =
         reflected_light<Effects>(tracer, scene, vertex.surface, path_detail::point_of(path.ray, hit.t), to_viewer,
-                                 vertex.point, sample, number, goes_on, found, tally.rays);
+                                 vertex.point, sample, number, followed, found, tally.rays);
     gather_block<Effects>();
     if (!any(path.alive)) return;
     radiance = select(found, radiance + path.throughput * reflected, radiance);

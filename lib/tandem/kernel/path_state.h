@@ -35,8 +35,9 @@ struct PathState<Effects, Real, true> {
     UInt<Real> refractions = UInt<Real>(0U);
     UInt<Real> scatterings = UInt<Real>(0U);  ///< by diffuse surfaces
     UInt<Real> holes = UInt<Real>(0U);
-    Double<Real> pdf = Double<Real>(0.0);  ///< of `ray`'s direction, 1/sr, if a diffuse surface sampled it; else 0
-    Vec3<Real> drawn_at{};                 ///< the point for which it did; `ray` may start a little above it
+    /// Of `ray`'s direction, 1/sr, if a diffuse surface sampled it; negative, if microfacets did; else 0.
+    Double<Real> pdf = Double<Real>(0.0);
+    Vec3<Real> drawn_at{};  ///< the point for which they did; `ray` may start a little above it
     Media media;
 
     /// Of no path yet.

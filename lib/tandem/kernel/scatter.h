@@ -3,6 +3,7 @@
 
 #include "tandem/kernel/bsdf/fresnel.h"
 #include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/microfacets.h"
 #include "tandem/kernel/path_state.h"
 #include "tandem/kernel/roulette.h"
 #include "tandem/kernel/sampler/warp.h"
@@ -24,7 +25,9 @@ struct Meeting {
 /// Can a path continue in more than one way?
 template <class Effects>
 TANDEM_HD constexpr bool has_choice() {
-    return Effects::has(Effect::reflection) + Effects::has(Effect::refraction) + Effects::has(Effect::indirect) > 1;
+    return Effects::has(Effect::reflection) + Effects::has(Effect::refraction) + Effects::has(Effect::indirect) +
+               Effects::has(Effect::microfacets) >
+           1;
 }
 
 template <class Real>
@@ -97,10 +100,25 @@ TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, 
     path.alive = path.alive || (holes && path.holes <= Word(most_holes));
 }
 
-/// Chooses how a path continues: by mirror reflection, by a dielectric or, with indirect light, by diffuse scattering.
-/// The probability of each is proportional to its share of the light, so for a surface of one kind only the Fresnel
-/// reflectance is random. Lanes that do not continue leave path.alive; lanes not in it stay as they are. Returns the
-/// lanes whose media are lost (Border).
+/// A direction in which microfacets reflect a path, world space.
+template <class Real>
+TANDEM_HD_STEP LobeSample<Real> sample_facets(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                              const Meeting<Real>& meeting, const SampleId<Real>& sample,
+                                              const UInt<Real>& vertex) {
+    using D = Double<Real>;
+    const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
+    const auto random = sample.block_at_vertex(Dimension::microfacets, vertex);
+    LobeSample<Real> drawn = view.lobes.specular.sample(
+        view.wo,
+        {widen(to_unit_interval<Real>(random.word[0])), widen(to_unit_interval<Real>(random.word[1])), D(0.0F)});
+    drawn.wi = from_frame(view.frame, drawn.wi.x, drawn.wi.y, drawn.wi.z);
+    return drawn;
+}
+
+/// Chooses how a path continues: by mirror reflection, by a dielectric, by reflection from microfacets or, with
+/// indirect light, by diffuse scattering. The probability of each is proportional to its share of the light, so for a
+/// surface of one kind only the Fresnel reflectance is random. Lanes that do not continue leave path.alive; lanes not
+/// in it stay as they are. Returns the lanes whose media are lost (Border).
 ///
 /// Paths carry L / n^2, which interfaces leave unchanged; a camera in air sees L.
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
@@ -121,22 +139,31 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
         matt = select(meeting.is_front, largest(surface.diffuse), zero);
     }
-    path.alive = path.alive && (mirror > zero || glass > zero || matt > zero);
+    Real glossy = zero;
+    if (Effects::has(Effect::microfacets) && any(path.alive && surface.has_microfacets)) {
+        const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
+        glossy = select(view.shows, largest(view.lobes.specular.albedo(view.wo)), zero);
+    }
+    path.alive = path.alive && (mirror > zero || glass > zero || glossy > zero || matt > zero);
     const Mask<Real> active = path.alive;
     if (!any(active)) return lost;
 
     PhiloxBlock<Word> random;
-    if (Effects::has(Effect::refraction) || Effects::has(Effect::indirect)) {
+    if (Effects::has_any(Effect::refraction | Effect::indirect | Effect::microfacets)) {
         random = sample.block_at_vertex(Dimension::scatter, vertex);
     }
     // a surface of one kind is chosen with the probability 1, exactly
-    const Real total = (mirror + glass) + matt;
+    const Real total = ((mirror + glass) + glossy) + matt;
     const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
-    const Mask<Real> takes_mirror = path.alive && mirror > zero && (place < mirror || (glass == zero && matt == zero));
+    const Mask<Real> takes_mirror =
+        path.alive && mirror > zero && (place < mirror || (glass == zero && glossy == zero && matt == zero));
     const Mask<Real> takes_glass =
-        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || matt == zero);
-    const Mask<Real> takes_matt = path.alive && !takes_mirror && !takes_glass;
-    const Real chance = select(takes_mirror, mirror, select(takes_glass, glass, matt)) / total;
+        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || (glossy == zero && matt == zero));
+    const Mask<Real> takes_glossy = path.alive && !takes_mirror && !takes_glass && glossy > zero &&
+                                    (place < (mirror + glass) + glossy || matt == zero);
+    const Mask<Real> takes_matt = path.alive && !takes_mirror && !takes_glass && !takes_glossy;
+    const Real share = select(takes_glass, glass, select(takes_glossy, glossy, matt));
+    const Real chance = select(takes_mirror, mirror, share) / total;
     Mask<Real> goes_through(false);
     Vec3<D> direction = meeting.direction;
     if (Effects::has(Effect::refraction) && any(takes_glass)) {
@@ -155,16 +182,28 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
         path.refractions = path.refractions + select(goes_through, one, Word(0U));
     }
     const Mask<Real> bounces_off = path.alive && !goes_through && !takes_matt;
-    if (any(bounces_off)) direction = select(bounces_off, mirrored(meeting), direction);
+    const Mask<Real> is_mirrored = bounces_off && !takes_glossy;
+    if (any(is_mirrored)) direction = select(is_mirrored, mirrored(meeting), direction);
     if (Effects::has(Effect::reflection) && any(takes_mirror)) {
         const Vec3<Real> weight = {surface.mirror.x / chance, surface.mirror.y / chance, surface.mirror.z / chance};
         path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
     }
-    if (Effects::has(Effect::indirect)) {
+    if (Effects::has_any(Effect::indirect | Effect::microfacets)) {
         path.pdf = select(active, D(0.0), path.pdf);
         if (Effects::has(Effect::area_lights) && scene.area_light_count > 0) {
             path.drawn_at = select(active, point.position, path.drawn_at);
         }
+    }
+    if (Effects::has(Effect::microfacets) && any(takes_glossy)) {
+        const LobeSample<Real> drawn = sample_facets(surface, point, meeting, sample, vertex);
+        direction = select(takes_glossy, drawn.wi, direction);
+        path.pdf = select(takes_glossy, -drawn.pdf, path.pdf);
+        const Vec3<Real> weight = {drawn.weight.x / chance, drawn.weight.y / chance, drawn.weight.z / chance};
+        path.throughput = select(takes_glossy, path.throughput * weight, path.throughput);
+        const Mask<Real> below = takes_glossy && !(drawn.valid && dot(direction, meeting.facing) > D(0.0));
+        path.alive = path.alive && !below;
+    }
+    if (Effects::has(Effect::indirect)) {
         if (any(takes_matt)) {
             const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
             const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
@@ -172,8 +211,12 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
             direction = select(takes_matt, drawn.direction, direction);
             path.pdf = select(takes_matt, drawn.pdf, path.pdf);
             // the cosine and Lambert's 1 / pi cancel with the density
-            const Vec3<Real> weight = {surface.diffuse.x / chance, surface.diffuse.y / chance,
-                                       surface.diffuse.z / chance};
+            Vec3<Real> reflectance = surface.diffuse;
+            if (Effects::has(Effect::microfacets) && any(takes_matt && surface.has_microfacets)) {
+                const auto coated = coated_reflectance(surface, point, drawn.direction, -meeting.direction);
+                reflectance = select(surface.has_microfacets, coated, reflectance);
+            }
+            const Vec3<Real> weight = {reflectance.x / chance, reflectance.y / chance, reflectance.z / chance};
             path.throughput = select(takes_matt, path.throughput * weight, path.throughput);
             path.scatterings = path.scatterings + select(takes_matt, one, Word(0U));
             // where the shading normal leads through the surface there is no light

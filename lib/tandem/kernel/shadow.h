@@ -33,7 +33,7 @@ TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> r
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active) {
-    constexpr EffectMask scattering = Effect::reflection | Effect::refraction | Effect::indirect;
+    constexpr EffectMask scattering = bouncing_effects - Effect::cutouts;
     if constexpr (!Tracer::has_hierarchy) {
         if (Effects::has(Effect::cutouts) && !Effects::has_any(scattering)) {
             return shadow_detail::closest_by_call<Real>(tracer, ray, source, active);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/effects/effects.h"
+#include "tandem/kernel/bsdf/metallic_roughness.h"
 #include "tandem/kernel/corner_values.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/shapes/ray_source.h"
@@ -25,6 +26,11 @@ struct Surface {
     Vec3<Real> emission;  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
+    /// Then `specular` is black, and `diffuse` lies under the border of the microfacets (kernel/microfacets.h).
+    Mask<Real> has_microfacets = Mask<Real>(false);
+    Vec3<Real> f0{};       ///< reflectance of the microfacets at normal incidence
+    Double<Real> alpha{};  ///< their roughness
+    Real border{};         ///< reflectance of the border at normal incidence
 };
 
 /// How many alpha-masked hits a ray passes before it counts as blocked.
@@ -149,6 +155,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
         const Real one(1.0F);
         Rgba<Real> picture = {one, one, one, one};
         Vec3<Real> glow = {one, one, one};
+        Rgba<Real> rough_metal = {one, one, one, one};
         bool on_face = false;
         FaceSides sides = FaceSides::single_sided;
         SurfacePoint<Real> own;
@@ -190,6 +197,10 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             if (Effects::has(Effect::cutouts)) {
                 surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, picture.a));
             }
+            if (Effects::has(Effect::microfacets) && Effects::has(Effect::textures) &&
+                textures.metallic_roughness.texture != no_texture) {
+                rough_metal = values.texture(textures.metallic_roughness);
+            }
         }
         if (Effects::has(Effect::cutouts) && sides == FaceSides::culled) {
             surface.opaque = surface.opaque && !(here && own.from_inside);
@@ -202,10 +213,25 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             ambient = ambient * factor;
             diffuse = diffuse * factor;
         }
+        Vec3<Real> specular = broadcast<Real>(material.specular);
+        if (Effects::has(Effect::microfacets) && scene.microfacet_count > 0 &&
+            scene.microfacets[number].is_there != 0) {
+            const Microfacets& facets = scene.microfacets[number];
+            const Real metallic = Real(facets.metallic) * rough_metal.b;
+            const MetallicRoughnessLobes<Real> lobes =
+                lobes_of<Real>({diffuse, metallic, Real(facets.roughness) * rough_metal.g, Real(optics.ior)});
+            ambient = ambient * (one - metallic);
+            diffuse = lobes.diffuse.base.reflectance;
+            specular = black;
+            surface.has_microfacets = surface.has_microfacets || here;
+            surface.f0 = select(here, lobes.specular.f0, surface.f0);
+            surface.alpha = select(here, lobes.specular.facets.alpha_x, surface.alpha);
+            surface.border = select(here, lobes.diffuse.f0, surface.border);
+        }
         surface.normal = select(here, normal, surface.normal);
         surface.ambient = select(here, ambient, surface.ambient);
         surface.diffuse = select(here, diffuse, surface.diffuse);
-        surface.specular = select(here, broadcast<Real>(material.specular), surface.specular);
+        surface.specular = select(here, specular, surface.specular);
         surface.shininess = select(here, Real(material.shininess), surface.shininess);
         if (has_bounces<Effects>()) {
             surface.material = select(here, UInt<Real>(number), surface.material);

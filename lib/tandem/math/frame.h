@@ -34,4 +34,10 @@ TANDEM_HD Vec3<D> from_frame(const Frame<D>& frame, const D& x, const D& y, cons
     return frame.tangent * x + frame.bitangent * y + frame.normal * z;
 }
 
+/// The coordinates of a vector along tangent, bitangent and normal.
+template <class D>
+TANDEM_HD Vec3<D> to_frame(const Frame<D>& frame, const Vec3<D>& v) {
+    return {dot(frame.tangent, v), dot(frame.bitangent, v), dot(frame.normal, v)};
+}
+
 }  // namespace tandem

@@ -32,6 +32,7 @@ struct Vertex {
     bool shines = false;  ///< this side emits, if the surface is emissive
     bool is_hole = false;
     Vector emission{0, 0, 0};
+    Real roughness = 0, metal = 0;  ///< of microfacets
 };
 
 Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& nearest) {
@@ -48,6 +49,10 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     vertex.shines = !vertex.from_inside || double_sided || optics.unlit != 0;
     vertex.is_hole = vertex.from_inside && nearest.surface.sides == FaceSides::culled;
     vertex.emission = to_vector(optics.emission);
+    if (scene.microfacet_count > 0) {
+        vertex.roughness = scene.microfacets[vertex.material].roughness;
+        vertex.metal = scene.microfacets[vertex.material].metallic;
+    }
     if (!has_textures(scene.textures)) return vertex;
     const MaterialTextures& textures = scene.textures.materials[vertex.material];
     const auto at = [&](std::uint32_t slot) {
@@ -56,6 +61,9 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
     vertex.is_hole =
         vertex.is_hole || product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
+    const Texel facets = sample_texture(scene, textures.metallic_roughness, at(textures.metallic_roughness.slot));
+    vertex.roughness *= facets.g;
+    vertex.metal *= facets.b;
     const Texel glow =
         optics.unlit != 0 ? vertex.picture : sample_texture(scene, textures.emission, at(textures.emission.slot));
     vertex.emission = times(vertex.emission, {glow.r, glow.g, glow.b});
@@ -152,25 +160,83 @@ Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_ligh
     return intensity;
 }
 
-/// Phong's reflectances where a path has met a surface.
+/// Phong's reflectances where a path has met a surface; or those of microfacets, without a specular one.
 struct Reflectances {
     Vector ambient, diffuse, specular;
     Real shininess;
+    bool has_facets = false;
+    Vector f0{0, 0, 0};  ///< of microfacets: reflectance head-on
+    Real border = 0;     ///< the same of what covers the diffuse base
+    Real alpha = 0;      ///< of GGX
+    Vector to_viewer{};  ///< on the side of the normal for shading
 };
 
 Reflectances reflectances(const SceneView& scene, const Vertex& vertex) {
     const PhongMaterial& material = scene.materials[vertex.material];
     const Real transmission = scene.optics[vertex.material].transmission;
     const Vector colour = {vertex.picture.r, vertex.picture.g, vertex.picture.b};
+    if (scene.microfacet_count > 0 && scene.microfacets[vertex.material].is_there != 0) {
+        const Vector base = times(to_vector(material.diffuse), colour);
+        const Real dielectric = 1 - vertex.metal;
+        Reflectances facets{times(to_vector(material.ambient), colour) * dielectric, base * dielectric, {0, 0, 0}, 1};
+        const Real ior = scene.optics[vertex.material].ior;
+        facets.border = std::pow((1 - ior) / (1 + ior), 2);
+        facets.f0 = base * vertex.metal + Vector{1, 1, 1} * (facets.border * dielectric);
+        facets.alpha = std::clamp<Real>(vertex.roughness * vertex.roughness, Real(0x1p-13), 1);
+        facets.to_viewer = vertex.direction * -1;
+        const Real height = inner(facets.to_viewer, vertex.normal);
+        facets.has_facets = height > 0 || !vertex.from_inside;
+        if (height < 0) facets.to_viewer = facets.to_viewer - vertex.normal * (2 * height);
+        if (!facets.has_facets) facets.diffuse = {0, 0, 0};
+        return facets;
+    }
     const Real highlight = transmission > 0 && vertex.from_inside ? 0 : 1;
     return {times(to_vector(material.ambient), colour) * (1 - transmission),
             times(to_vector(material.diffuse), colour) * (1 - transmission), to_vector(material.specular) * highlight,
             Real{material.shininess}};
 }
 
-/// Light of unit intensity from the direction l, after the paper's formula.
-Vector phong(const Reflectances& material, const Vertex& vertex, const Vector& l) {
+/// Schlick's way from the reflectance head-on to 1, for the microfacets that mirror l to the viewer.
+Real grazing(const Reflectances& material, const Vector& l) {
+    return std::pow(std::max<Real>(0, 1 - inner(unit(l + material.to_viewer), l)), 5);
+}
+
+/// Smith's Lambda of GGX: facets that are hidden for each that is seen, from a direction with this cosine.
+Real hidden(Real alpha, Real cosine) {
+    const Real tangent = std::sqrt(std::max<Real>(0, (1 - cosine) * (1 + cosine))) / cosine;
+    return (std::hypot(Real(1), alpha * tangent) - 1) / 2;
+}
+
+/// GGX by angles, as Walter and others write it; times pi and the cosine of the light.
+Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& l) {
+    const Vector n = vertex.normal, v = material.to_viewer;
+    const Real to_light = inner(n, l), to_viewer = inner(n, v);
+    if (!material.has_facets || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
+    const Real a2 = material.alpha * material.alpha;
+    const Real cosine = std::min<Real>(1, inner(n, unit(l + v)));
+    const Vector sine = unit(l + v) - n * cosine;
+    const Real tangent2 = inner(sine, sine) / (cosine * cosine);
+    const Real density = a2 / (pi * std::pow(cosine, 4) * std::pow(a2 + tangent2, 2));
+    const Real seen = 1 / (1 + hidden(material.alpha, to_light) + hidden(material.alpha, to_viewer));
+    const Vector f = material.f0 + (Vector{1, 1, 1} - material.f0) * grazing(material, l);
+    return f * (pi * density * seen / (4 * to_viewer));
+}
+
+/// The share of light from l that comes to the diffuse base and back to the viewer.
+Real uncovered(const Reflectances& material, const Vector& l) {
+    return material.has_facets ? (1 - material.border) * (1 - grazing(material, l)) : 1;
+}
+
+/// Do lights with an area bring light to microfacets by points that are drawn on them? Else paths find them.
+bool draws_lights(const Reflectances& material) { return material.alpha > Real(0.3); }
+
+/// Light of unit intensity from the direction l: after the paper's formula, or from microfacets if these are `seen`.
+Vector reflected(const Reflectances& material, const Vertex& vertex, const Vector& l, bool seen = true) {
     const Vector n = vertex.normal;
+    if (material.has_facets) {
+        const Vector base = material.diffuse * (std::max<Real>(0, inner(l, n)) * uncovered(material, l));
+        return seen ? base + facets(material, vertex, l) : base;
+    }
     const Vector r = n * (2 * inner(l, n)) - l;
     const Real mirror = -inner(r, vertex.direction);
     const Real specular = mirror > 0 ? std::pow(std::min<Real>(1, mirror), material.shininess) : 0;
@@ -254,8 +320,8 @@ bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex
     return behind;
 }
 
-/// From all emissive surfaces: a point of each, by area.
-Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
+/// From all emissive surfaces: a point of each, by area. `facets`: also to microfacets.
+Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, bool facets, Chance& chance) {
     Vector sum{0, 0, 0};
     for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
         const std::uint32_t id = scene.area_lights[i].primitive;
@@ -267,13 +333,13 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
         Real cosine = -inner(l, light.hit.normal);
         if (is_double_sided(scene, id)) cosine = std::abs(cosine);
         if (!(cosine > 0)) continue;
-        const Vector reflected = phong(material, vertex, l) * (cosine * light.area / (pi * distance2));
-        if (!(largest(reflected) > 0) || is_behind_other_half(scene, id, vertex, way, light)) continue;
+        const Vector brought = reflected(material, vertex, l, facets) * (cosine * light.area / (pi * distance2));
+        if (!(largest(brought) > 0) || is_behind_other_half(scene, id, vertex, way, light)) continue;
         if (scene.area_lights_cast_shadows != 0 &&
             (!is_in_front(vertex, l) || is_stopped(scene, vertex, way, 1 - rounding, id))) {
             continue;
         }
-        sum = sum + times(reflected, emission_at(scene, id, light));
+        sum = sum + times(brought, emission_at(scene, id, light));
     }
     return sum;
 }
@@ -284,22 +350,22 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
     const bool dark = scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, direction, HUGE_VALL);
     if (dark) return {0, 0, 0};
     return times(material.diffuse, background_towards(scene.environment, direction)) *
-           (2 * inner(direction, vertex.normal));
+           (2 * inner(direction, vertex.normal) * uncovered(material, direction));
 }
 
-/// All that a surface reflects of what gives light.
-Vector shade(const SceneView& scene, const Vertex& vertex, Chance& chance) {
+/// All that a surface reflects of what gives light. `ends`: microfacets do not send the path on.
+Vector shade(const SceneView& scene, const Vertex& vertex, bool ends, Chance& chance) {
     const Reflectances material = reflectances(scene, vertex);
     Vector sum = times(material.ambient, to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const PunctualLight& light = scene.lights[i];
         Vector l{};
         const Vector intensity = light_at(light, vertex.point, l);
-        const Vector reflected = phong(material, vertex, l);
-        if (light.casts_shadows != 0 && largest(reflected) > 0 && is_shadowed(scene, light, vertex)) continue;
-        sum = sum + times(reflected, intensity);
+        const Vector brought = reflected(material, vertex, l);
+        if (light.casts_shadows != 0 && largest(brought) > 0 && is_shadowed(scene, light, vertex)) continue;
+        sum = sum + times(brought, intensity);
     }
-    sum = sum + glow(scene, material, vertex, chance);
+    sum = sum + glow(scene, material, vertex, ends || draws_lights(material), chance);
     if (scene.environment.illuminates != 0 && scene.environment.indirect == 0) {
         sum = sum + sky(scene, material, vertex, chance);
     }
@@ -376,6 +442,23 @@ Vector albedo_of(const SceneView& scene, const Vertex& vertex) {
 
 Vector mirrored(const Vector& d, const Vector& n) { return unit(d - n * (2 * inner(d, n))); }
 
+/// Mirrors the path at a normal of GGX, drawn with the density D cos; returns what it carries on, none if it ends.
+Vector reflect_at_facet(const Reflectances& material, const Vertex& vertex, Vector& onward, Chance& chance) {
+    const Vector n = vertex.normal, v = material.to_viewer;
+    const Vector side = std::abs(n.x) < Real(0.5) ? Vector{1, 0, 0} : Vector{0, 1, 0};
+    const Vector t = unit(side - n * inner(side, n));
+    const Vector b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
+    const Real u = chance(), angle = 2 * pi * chance();
+    const Real tangent = material.alpha * std::sqrt(u / (1 - u));
+    const Vector h = unit(t * (tangent * std::cos(angle)) + b * (tangent * std::sin(angle)) + n);
+    onward = unit(h * (2 * inner(v, h)) - v);
+    const Real to_light = inner(n, onward), to_viewer = inner(n, v);
+    if (!(inner(v, h) > 0) || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
+    const Vector f = material.f0 + (Vector{1, 1, 1} - material.f0) * grazing(material, onward);
+    const Real seen = 1 / (1 + hidden(material.alpha, to_light) + hidden(material.alpha, to_viewer));
+    return f * (seen * inner(v, h) / (to_viewer * inner(n, h)));
+}
+
 }  // namespace
 
 NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source, std::uint32_t except,
@@ -432,6 +515,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
     Media media(scene);
     std::uint32_t reflections = 0, refractions = 0, scatterings = 0;
     bool was_scattered = false;  // by a diffuse surface, at the vertex before
+    bool was_drawn = false;      // then, or by microfacets, what lights with an area bring
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
         const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, passed);
         if (nearest.primitive == no_primitive) {
@@ -457,27 +541,32 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         }
         // what is drawn from lights at one vertex is not found again at the next
         const bool is_drawn =
-            was_scattered && std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
-                                         [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
+            was_drawn && std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
+                                     [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
         const bool is_dark = is_drawn || (optics.unlit != 0 && was_scattered);  // what is unlit lights nothing
         if (vertex.shines && !is_dark) radiance = radiance + times(throughput, vertex.emission);
         Chance chance(sample, vertex_number);
-        radiance = radiance + times(throughput, shade(scene, vertex, chance));
+        const bool ends = reflections >= limits.reflection;
+        radiance = radiance + times(throughput, shade(scene, vertex, ends, chance));
 
         const bool is_front = !(inner(vertex.direction, vertex.normal) > 0);
-        const Vector diffuse = reflectances(scene, vertex).diffuse;
+        const Reflectances material = reflectances(scene, vertex);
+        const Vector diffuse = material.diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;
         const Real matt = scene.environment.indirect != 0 && is_front ? largest(diffuse) : 0;
-        if (!(mirror > 0) && !is_glass && !(matt > 0)) return radiance;
+        const Real glossy = material.has_facets ? std::max<Real>(largest(material.f0), Real(0.1)) : 0;
+        if (!(mirror > 0) && !is_glass && !(matt > 0) && !(glossy > 0)) return radiance;
         const auto random = sample.block(Dimension::scatter, vertex_number);
-        const Real total = mirror + glass + matt;
+        const Real total = mirror + glass + matt + glossy;
         const Real place = Real{to_unit_interval<float>(random.word[0])} * total;
         const bool takes_mirror = mirror > 0 && (place < mirror || (!is_glass && !(matt > 0)));
         const bool takes_glass = !takes_mirror && is_glass && (place < mirror + glass || !(matt > 0));
+        const bool takes_glossy = glossy > 0 && (place < glossy || !(matt > 0));
         const Vector facing = vertex.facet * (vertex.from_inside ? -1 : 1);
         const Vector normal = vertex.normal * (is_front ? 1 : -1);
         bool through = false;
-        was_scattered = !takes_mirror && !takes_glass;
+        was_scattered = !takes_mirror && !takes_glass && !takes_glossy;
+        was_drawn = was_scattered || (takes_glossy && draws_lights(material));
         Vector onward{};
         if (takes_glass) {
             Media behind = media;
@@ -492,14 +581,18 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
             through = reflectance < 1 && !(to_unit_interval<float>(random.word[1]) < reflectance);
             if (through) media = behind;
             throughput = throughput * total;
+        } else if (takes_glossy) {
+            throughput = times(throughput, reflect_at_facet(material, vertex, onward, chance) * (total / glossy));
+            if (!(inner(onward, facing) > 0) || !(largest(throughput) > 0)) return radiance;
         } else if (takes_mirror) {
             throughput = times(throughput, to_vector(optics.mirror) * (total / mirror));
         } else {
             onward = on_hemisphere(normal, chance);
             if (!(inner(onward, facing) > 0)) return radiance;
-            throughput = times(throughput, diffuse * (2 * inner(onward, normal) * total / matt));
+            throughput =
+                times(throughput, diffuse * (2 * inner(onward, normal) * uncovered(material, onward) * total / matt));
         }
-        if (!through && !was_scattered) {
+        if (!through && !was_scattered && !takes_glossy) {
             onward = mirrored(vertex.direction, normal);
             if (!(inner(onward, facing) > 0)) onward = mirrored(vertex.direction, facing);
         }

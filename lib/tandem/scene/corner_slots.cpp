@@ -4,7 +4,8 @@ namespace tandem {
 
 std::vector<std::uint32_t> texcoord_sets(const Material& material) {
     std::vector<std::uint32_t> sets;
-    for (const auto* reference : {&material.diffuse_texture, &material.normal_texture, &material.emissive_texture}) {
+    for (const auto* reference : {&material.diffuse_texture, &material.normal_texture, &material.emissive_texture,
+                                  &material.metallic_roughness_texture}) {
         if (*reference) sets.push_back((*reference)->texcoord);
     }
     std::sort(sets.begin(), sets.end());

@@ -118,6 +118,12 @@ class Problems {
         require(positive(optics.emission.x) && positive(optics.emission.y) && positive(optics.emission.z), where,
                 "has an emission that is not three numbers of 0 or more");
         require(optics.priority <= 127, where, "has a dielectric priority above 127");
+        if (!material.microfacets) return;
+        const auto is_part = [](float a) { return a >= 0 && a <= 1; };
+        require(is_part(material.microfacets->metallic), where, "has a share of metal outside [0, 1]");
+        require(is_part(material.microfacets->roughness), where, "has a roughness outside [0, 1]");
+        require(optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0}, where,
+                "has microfacets, and is glass or a mirror too; take the one or the other");
     }
 
     void check_mesh(std::size_t index) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tandem/images/display.h"
+#include "tandem/kernel/bsdf/microfacets.h"
 #include "tandem/kernel/bsdf/optics.h"
 #include "tandem/kernel/bsdf/phong.h"
 #include "tandem/kernel/camera/lens.h"
@@ -124,6 +125,11 @@ struct Material {
     std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
     std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (kernel/texture/normal_map.h)
     std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
+    /// Metallic-roughness, as glTF 2.0 has it: the base colour is the diffuse reflectance with its texture. Takes the
+    /// place of Phong's diffuse and specular terms. Not with a mirror or with transmission.
+    std::optional<Microfacets> microfacets{};
+    /// Linear: green multiplies the roughness, blue the share of metal.
+    std::optional<TextureReference> metallic_roughness_texture{};
     /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
     /// gives any (KHR_materials_unlit).
     bool unlit = false;

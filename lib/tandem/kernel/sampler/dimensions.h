@@ -15,6 +15,7 @@ enum class Dimension : std::uint32_t {
     hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a diffuse surface
     environment = 5,  ///< numbers 0 and 1: direction to the background
     light = 6,        ///< all four: which of the lights has a shadow ray (light_choice.h)
+    microfacets = 7,  ///< numbers 0 and 1: direction of a path from a surface of microfacets
 };
 
 namespace sampler_detail {

@@ -33,22 +33,23 @@ struct TextureUse {
 /// The textures of one material. Its alpha is `alpha` times that of the base colour (kernel/base_colour.h); where
 /// that is below `alpha_cutoff`, there is no surface. 0 cuts nothing.
 struct MaterialTextures {
-    TextureUse diffuse;   ///< base colour: multiplies the diffuse and the ambient reflectance
-    TextureUse normal;    ///< normals in the frame of the surface: normal_map.h
-    TextureUse emission;  ///< multiplies the emission
+    TextureUse diffuse;             ///< base colour: multiplies the diffuse and the ambient reflectance
+    TextureUse normal;              ///< normals in the frame of the surface: normal_map.h
+    TextureUse emission;            ///< multiplies the emission
+    TextureUse metallic_roughness;  ///< green multiplies the roughness of microfacets, blue their share of metal
     float normal_scale = 1;
     float alpha = 1;
     float alpha_cutoff = 0;
     /// Of faces: red and green at the corners in this slot, blue and alpha in the next. They multiply the base colour.
     std::uint32_t colour_slot = no_slot;
 };
-static_assert(sizeof(MaterialTextures) == 112 && sizeof(TextureDescriptor) == 28,
+static_assert(sizeof(MaterialTextures) == 144 && sizeof(TextureDescriptor) == 28,
               "no byte is undefined; scene_hash() reads all");
 
 /// Does the material read colours of corners, or texture coordinates of another slot than 0?
 TANDEM_HD bool reads_several_slots(const MaterialTextures& material) {
     return material.colour_slot != no_slot ||
-           (material.diffuse.slot | material.normal.slot | material.emission.slot) != 0;
+           (material.diffuse.slot | material.normal.slot | material.emission.slot | material.metallic_roughness.slot) != 0;
 }
 
 /// Pointers are to memory of the side that reads them.

@@ -1,6 +1,7 @@
 /// The window through which kernels see a prepared scene, on the CPU and on the GPU.
 #pragma once
 
+#include "tandem/kernel/bsdf/microfacets.h"
 #include "tandem/kernel/bsdf/optics.h"
 #include "tandem/kernel/bsdf/phong.h"
 #include "tandem/kernel/camera/camera.h"
