@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "common/arguments.h"
 #include "common/run_main.h"
@@ -17,6 +18,7 @@
 #include "tandem/gltf/load_scene.h"
 #include "tandem/scene/framing.h"
 #include "tandem/scene/named_scenes.h"
+#include "tandem/scene/read_environment.h"
 
 namespace {
 
@@ -32,6 +34,9 @@ struct Words {
     std::string limits = to_string(PathLimits{});
     std::string planes;  // empty: the colour alone
     std::string light = "default";
+    std::string environment;  // a file; empty: the background of the scene
+    double rotation = 0;      // of its picture, degrees
+    float intensity = 1;
     std::string backend = "cpu";
     std::string specialise = "always";
     int instants = 0;                               // 0: as the cameras say
@@ -71,6 +76,22 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                    "lights for a file that has none: default adds a background and lights from the upper left of the "
                    "camera and from the camera; none adds nothing")
         ->check(CLI::IsMember({"default", "none"}))
+        ->capture_default_str();
+    auto* const picture =
+        app.add_option("--env", words.environment,
+                       "light the scene by a picture of its environment, equirectangular: .hdr, .exr or .pfm. It takes "
+                       "the place of the background and of default lights")
+            ->type_name("FILE");
+    app.add_option("--env-rotation", words.rotation,
+                   "rotation of that picture about the vertical axis, counter-clockwise as seen from above, in degrees")
+        ->type_name("DEG")
+        ->needs(picture)
+        ->check(CLI::Range(-36000.0, 36000.0))
+        ->capture_default_str();
+    app.add_option("--env-intensity", words.intensity, "factor of that picture's values")
+        ->type_name("X")
+        ->needs(picture)
+        ->check(CLI::Range(0.0F, most_environment_intensity))
         ->capture_default_str();
     app.add_option(
         "--effects", words.effects,
@@ -113,6 +134,17 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     app.add_flag("--force", sequence.force, "render every frame, even if its file exists with the same metadata");
     app.add_flag("--quiet", command.quiet, "print only errors");
+}
+
+/// The picture of --env, if there is one.
+std::optional<EnvironmentImage> environment_of(const Words& words, bool quiet) {
+    if (words.environment.empty()) return std::nullopt;
+    EnvironmentFile file = read_environment(words.environment);
+    if (file.negative_texels > 0 && !quiet) {
+        std::fprintf(stderr, "tandem-render: '%s' has %zu texels with negative values, which are taken for 0\n",
+                     words.environment.c_str(), file.negative_texels);
+    }
+    return EnvironmentImage{std::move(file.picture), words.rotation * (pi / 180), words.intensity};
 }
 
 FrameRange frames_of(const Words& words, const Scene& scene) {
@@ -165,9 +197,12 @@ int render(int argc, char** argv) {
 
     const std::atomic<bool>& interrupted = watch_interrupts();
     ImportReport import;
-    Scene scene = load_scene(
-        command.scene, &import,
-        {.camera = sequence.camera, .aspect = aspect_of({width, height}), .default_light = words.light == "default"});
+    std::optional<EnvironmentImage> environment = environment_of(words, command.quiet);
+    Scene scene = load_scene(command.scene, &import,
+                             {.camera = sequence.camera,
+                              .aspect = aspect_of({width, height}),
+                              .default_light = words.light == "default" && !environment});
+    if (environment) light_by(scene, *std::move(environment));
     if (words.instants > 0) set_shutter_instants(scene, words.instants);
     if (!command.quiet) say_what_is_not_rendered(import);
     sequence.frames = frames_of(words, scene);

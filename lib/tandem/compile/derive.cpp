@@ -74,7 +74,8 @@ void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& 
     }
     if (scene.environment.illuminates != 0) {
         needs.add(Effect::environment_light, "the environment lights surfaces");
-        const bool by_shadow_rays = scene.environment.indirect == 0 && prepared.area_light_shadows;
+        const bool by_samples = scene.environment.indirect == 0 || scene.environment_image;
+        const bool by_shadow_rays = by_samples && prepared.area_light_shadows;
         if (by_shadow_rays) needs.add(Effect::shadows, "the environment casts shadows");
     }
     if (prepared.camera.lens.aperture_radius > 0 && !prepared.camera.orthographic) {
@@ -119,6 +120,11 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     std::vector<bool> used(scene.materials.size(), false);
     for (const std::uint32_t material : prepared.material_of) used[material] = true;
     add_motion(scene, prepared, needs);
+    if (scene.environment_image) {
+        const FloatImage& picture = scene.environment_image->picture;
+        needs.add(Effect::environment_picture,
+                  fmt::format("the environment is a picture of {} x {} texels", picture.width, picture.height));
+    }
     if (prepared.material_of.empty()) return needs.take();  // nothing receives light
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
@@ -219,6 +225,7 @@ Scene without_effects(Scene scene, EffectMask off) {
     if (off.has(Effect::nested_media)) scene.bodies_lie_apart = true;
     if (off.has(Effect::area_lights)) scene.area_lights = false;
     if (off.has(Effect::shadows)) scene.area_light_shadows = false;
+    if (off.has(Effect::environment_picture)) scene.environment_image.reset();
     if (off.has(Effect::environment_light)) scene.environment.illuminates = 0;
     if (off.has(Effect::indirect)) scene.environment.indirect = 0;
     if (off.has(Effect::roulette)) scene.roulette = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "tandem/math/fp_environment.h"
 
@@ -65,6 +66,17 @@ EnvironmentTables make_environment_tables(std::uint32_t width, std::uint32_t hei
     }
     share_out(of_bands, tables.band_ends);
     return tables;
+}
+
+void add_environment_picture(PreparedScene& scene, const EnvironmentImage& image) {
+    const FloatImage& picture = image.picture;
+    const auto width = static_cast<std::uint32_t>(picture.width), height = static_cast<std::uint32_t>(picture.height);
+    scene.environment_picture = {image.rotation / (2 * pi), width, height, image.intensity};
+    scene.environment_texels = picture.pixels;
+    EnvironmentTables tables = make_environment_tables(width, height, picture.pixels);
+    scene.environment_borders = std::move(tables.borders);
+    scene.environment_band_ends = std::move(tables.band_ends);
+    scene.environment_cell_ends = std::move(tables.cell_ends);
 }
 
 EnvironmentPictureView view_of(const EnvironmentPicture& picture, std::span<const Vec3f> texels,

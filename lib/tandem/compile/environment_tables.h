@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/lights/environment_picture.h"
+#include "tandem/scene/environment_image.h"
 
 namespace tandem {
 
@@ -22,6 +24,9 @@ struct EnvironmentTables {
 ///        tables on every machine: sums in double, in one order, and no function of the C library.
 [[nodiscard]] EnvironmentTables make_environment_tables(std::uint32_t width, std::uint32_t height,
                                                         std::span<const Vec3f> texels);
+
+/// The picture of the environment and its tables.
+void add_environment_picture(PreparedScene& scene, const EnvironmentImage& image);
 
 /// `texels` and `tables` have to live as long as the view.
 [[nodiscard]] EnvironmentPictureView view_of(const EnvironmentPicture& picture, std::span<const Vec3f> texels,

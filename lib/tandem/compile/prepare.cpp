@@ -10,6 +10,7 @@
 #include "tandem/compile/area_lights.h"
 #include "tandem/compile/cutout_kinds.h"
 #include "tandem/compile/derive.h"
+#include "tandem/compile/environment_tables.h"
 #include "tandem/compile/media.h"
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/prepare_textures.h"
@@ -153,6 +154,7 @@ class Preparer {
             result_.several_slots = result_.several_slots || reads_several_slots(material);
         }
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
+        if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
         if (scene_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
         if (scene_.bodies_lie_apart) result_.media_overlap = false;
         result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;

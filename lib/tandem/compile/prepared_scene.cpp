@@ -24,7 +24,8 @@ SceneView view(const PreparedScene& scene) {
         .roulette_from = scene.roulette_from,
         .media_overlap = scene.media_overlap ? 1U : 0U,
         .camera_media = scene.camera_media,
-        .environment = scene.environment};
+        .environment = scene.environment,
+        .environment_picture = scene.environment_picture};
 }
 
 CameraView camera_view(const PreparedCamera& camera, int width, int height) {
@@ -84,6 +85,7 @@ std::string scene_hash(const PreparedScene& scene) {
     hash.update_value(scene.camera.lens.focus_distance);
     hash.update_value(scene.camera.lens.blades);
     hash.update_value(scene.camera.lens.rotation);
+    if (scene.environment_picture.width != 0) hash.update_value(scene.environment_picture);
     if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
         add(scene.textures.texels);
         add(scene.textures.textures);

@@ -12,6 +12,7 @@
 #include "tandem/kernel/camera/lens.h"
 #include "tandem/kernel/camera/shutter.h"
 #include "tandem/kernel/lights/environment.h"
+#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/view/scene_view.h"
@@ -48,6 +49,7 @@ struct PreparedScene {
     CameraMedia camera_media{};
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
+    EnvironmentPicture environment_picture{};
     EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
     /// Of the Scene, because no ray hits them: faces without area, and bodies that their transforms hide (scale 0).
     std::uint64_t dropped_primitives = 0;

@@ -11,6 +11,7 @@
 #include "tandem/gltf/animation.h"
 #include "tandem/gltf/buffers.h"
 #include "tandem/gltf/display.h"
+#include "tandem/gltf/environment.h"
 #include "tandem/gltf/face_count.h"
 #include "tandem/gltf/features.h"
 #include "tandem/gltf/geometry.h"
@@ -82,8 +83,7 @@ class SceneBuilder {
         gltf::check_face_count(source_, node_of_);
         scene_.materials = gltf::read_materials(source_, report_);
         gltf::read_textures(source_, scene_, report_, flaws_);
-        const auto environment = gltf::read_environment(document_, chosen_, chosen_path_, report_);
-        scene_.environment = environment.value_or(Environment{});
+        const bool has_environment = gltf::read_environment(document_, chosen_, chosen_path_, scene_, report_);
         scene_.display = gltf::read_display(document_, chosen_, chosen_path_, report_);
         scene_.nodes.reserve(node_of_.size());
         for (std::size_t i = 0; i < node_of_.size(); ++i) {
@@ -94,7 +94,7 @@ class SceneBuilder {
         gltf::read_animation(source_, node_of_, scene_, report_, flaws_);
         read_frame_rate();
         gltf::note_length(scene_, report_);
-        return {std::move(scene_), {}, std::move(chosen_path_), environment.has_value()};
+        return {std::move(scene_), {}, std::move(chosen_path_), has_environment};
     }
 
   private:

@@ -1,7 +1,6 @@
 #include "tandem/gltf/materials.h"
 
 #include "tandem/gltf/optics.h"
-#include "tandem/gltf/scene_extension.h"
 
 #include <fmt/format.h>
 
@@ -104,24 +103,5 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
 }
 
 Material default_material() { return {"default", phong_from_base_colour({1, 1, 1}), FaceSides::culled}; }
-
-std::optional<Environment> read_environment(const Document& document, const Json* scene, const std::string& scene_path,
-                                            ImportReport& report) {
-    constexpr const char* name = "TANDEM_environment";
-    const auto [found, path] = find_scene_extension(document, scene, scene_path, name, report);
-    if (found == nullptr) return std::nullopt;
-    Environment environment;
-    report.add(Treatment::rendered, name, path, "background and ambient light");
-    if (const Json* gradient = find(*found, "gradient")) {
-        environment.bottom = read_colour(*gradient, "bottom", environment.bottom);
-        environment.top = read_colour(*gradient, "top", environment.top);
-    }
-    environment.illuminates = found->value("illuminates", false) ? 1U : 0U;
-    environment.indirect = found->value("indirect", false) ? 1U : 0U;
-    // light that is computed takes the place of the ambient term
-    if (environment.illuminates != 0 || environment.indirect != 0) environment.ambient = {0, 0, 0};
-    environment.ambient = read_colour(*found, "ambient", environment.ambient);
-    return environment;
-}
 
 }  // namespace tandem::gltf

@@ -1,7 +1,6 @@
-/// Materials and the environment.
+/// Materials.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "tandem/gltf/buffers.h"
@@ -17,10 +16,6 @@ namespace tandem::gltf {
 
 /// What glTF gives to primitives that name no material, but matt and not a rough metal: white.
 [[nodiscard]] Material default_material();
-
-/// TANDEM_environment of the scene, else of the root, else nothing.
-[[nodiscard]] std::optional<Environment> read_environment(const Document& document, const Json* scene,
-                                                          const std::string& scene_path, ImportReport& report);
 
 /// Three numbers of a member, or `absent`.
 [[nodiscard]] Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent);

@@ -1,5 +1,6 @@
 #include "tandem/gltf/schema_property.h"
 #include "tandem/images/display.h"
+#include "tandem/scene/environment_image.h"
 
 namespace tandem::gltf::schema {
 
@@ -219,6 +220,9 @@ constexpr Property properties[] = {
     numbers("environment", "ambient", 3).not_negative(),
     truth("environment", "illuminates"),
     truth("environment", "indirect"),
+    text("environment", "uri"),
+    number("environment", "rotation").between(-1e6, 1e6),
+    number("environment", "intensity").between(0, most_environment_intensity),
     object("root extensions", "TANDEM_display", "display").with(vital),
     object("scene extensions", "TANDEM_display", "display").with(vital),
     text("display", "transfer", "srgb linear"),

@@ -7,6 +7,7 @@
 #include "tandem/kernel/light_choice.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shadow.h"
+#include "tandem/kernel/surroundings.h"
 
 namespace tandem {
 
@@ -52,7 +53,9 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     if (!any_reflects && !keeps_together<Effects>()) return reflected;
     const bool area = Effects::has(Effect::area_lights) && scene.area_light_count > 0;
     const bool indirect = Effects::has(Effect::indirect) && scene.environment.indirect != 0;
-    const bool sky = Effects::has(Effect::environment_light) && scene.environment.illuminates != 0 && !indirect;
+    const bool picture = samples_environment_picture<Effects>(scene);
+    const bool sky =
+        picture || (Effects::has(Effect::environment_light) && scene.environment.illuminates != 0 && !indirect);
     const std::uint32_t punctual = Effects::light_count(scene.light_count);
     const std::uint32_t count = punctual + (area ? 1U : 0U) + (sky ? 1U : 0U);
     const bool by_chance = indirect && count > 1;
@@ -67,6 +70,8 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
                 light = choice.chosen();
             } else if (area && i == punctual) {
                 light = area_light<Effects>(scene, surface, point, to_viewer, sample, vertex, followed, reflects);
+            } else if (picture) {
+                light = environment_picture_light<Effects>(scene, surface, point, to_viewer, sample, vertex, followed);
             } else if (sky) {
                 light = environment_light<Effects>(scene, surface, point, to_viewer, sample, vertex);
             }

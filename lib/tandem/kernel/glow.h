@@ -90,6 +90,30 @@ TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Re
     return result;
 }
 
+/// What a surface reflects of `radiance` from a direction that was sampled with density `pdf`: by Phong's model with
+/// the reflectance `specular`, or by microfacets. Paths that follow a lobe, in the lanes of `followed`, find the rest.
+template <class Effects, class Real>
+TANDEM_HD Vec3<Real> light_by_sample(const SceneView& scene, const Surface<Real>& surface, const Vec3<Real>& specular,
+                                     const SurfacePoint<Real>& point, const Vec3<Real>& radiance,
+                                     const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& to_viewer,
+                                     const Double<Real>& pdf, const FollowedLobes<Real>& followed) {
+    using D = Double<Real>;
+    Real share(1.0F);  // of the diffuse part
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        const D other = cosine_hemisphere_pdf(dot(direction, surface.normal));
+        share = select(followed.diffuse, to_real<Real>(power_heuristic(pdf, other)), share);
+    }
+    const Real scale = to_real<Real>(constant<D>(inverse_pi) / pdf);
+    auto value = phong_light(surface.diffuse * share, specular, surface.shininess, radiance * scale, surface.normal,
+                             direction, to_viewer);
+    if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
+        const auto of_facets =
+            facets_light<Real>(surface, point, radiance * scale, direction, to_viewer, share, pdf, followed.glossy);
+        value = select(surface.has_microfacets, of_facets, value);
+    }
+    return value;
+}
+
 /// What a surface reflects of one area light, sampled at random, in the lanes of `found`: unbiased together with what a
 /// path hits by itself that follows a lobe, in the lanes of `followed`. Source: E. Veach, L. Guibas, 1995
 /// (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
@@ -144,19 +168,8 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     const Mask<Real> seen = found && drawn.pdf > zero;
     if (!any(seen)) return result;
     const D pdf = select(seen, drawn.pdf, D(1.0));
-    Real share(1.0F);  // of the diffuse part: paths that continue find the rest
-    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
-        const D other = cosine_hemisphere_pdf(dot(drawn.direction, surface.normal));
-        share = select(followed.diffuse, to_real<Real>(power_heuristic(pdf, other)), share);
-    }
-    const Real scale = to_real<Real>(constant<D>(inverse_pi) / pdf);
-    auto value = phong_light(surface.diffuse * share, surface.specular, surface.shininess, radiance * scale,
-                             surface.normal, drawn.direction, to_viewer);
-    if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
-        const auto of_facets = facets_light<Real>(surface, point, radiance * scale, drawn.direction, to_viewer, share,
-                                                  pdf, followed.glossy);
-        value = select(surface.has_microfacets, of_facets, value);
-    }
+    const Vec3<Real> value = light_by_sample<Effects>(scene, surface, surface.specular, point, radiance,
+                                                      drawn.direction, to_viewer, pdf, followed);
     result.reflected = select(seen, value, result.reflected);
     if (scene.area_lights_cast_shadows != 0) keep_in_front(surface, point, drawn.direction, result);
     return result;

@@ -84,7 +84,9 @@ template <class Effects, class Real, bool bounces>
 TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, PathState<Effects, Real, bounces>& path,
                               Vec3<Real>& radiance) {
     using D = Double<Real>;
-    const Vec3<Real> seen = background(scene.environment, path.ray.direction);
+    const bool picture = has_environment_picture<Effects>(scene);
+    const Vec3<Real> seen = picture ? seen_environment_picture<Effects, Real, bounces>(scene, path)
+                                    : background(scene.environment, path.ray.direction);
     if constexpr (bounces) {
         path.absorb(scene, D(__builtin_huge_val()), UInt<Real>(no_medium), missed);
         Mask<Real> shows = missed;

@@ -6,16 +6,12 @@
 #include <vector>
 
 #include "tandem/kernel/media/medium_stack.h"  // for no_medium alone
+#include "tandem/oracle/oracle_environment.h"
 #include "tandem/oracle/oracle_textures.h"
 
 namespace tandem::oracle {
 
 namespace {
-
-Vector background_towards(const Environment& environment, const Vector& direction) {
-    const Real m = (unit(direction).y + 1) / 2;
-    return to_vector(environment.bottom) * (1 - m) + to_vector(environment.top) * m;
-}
 
 Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
 
@@ -344,17 +340,28 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
     return sum;
 }
 
-/// From the background, in one direction of the hemisphere.
-Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, Chance& chance) {
+/// Which lobes of a vertex reflect what no path will find.
+struct EndingLobes {
+    bool diffuse, facets;
+};
+
+/// From the background, in one direction of the hemisphere. Facets that no path follows show a picture as well.
+Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
+           Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
-    const bool dark = scene.area_lights_cast_shadows != 0 && is_stopped(scene, vertex, direction, HUGE_VALL);
-    if (dark) return {0, 0, 0};
-    return times(material.diffuse, background_towards(scene.environment, direction)) *
-           (2 * inner(direction, vertex.normal) * uncovered(material, direction));
+    if (scene.area_lights_cast_shadows != 0) {
+        const bool shared = scene.environment.indirect != 0 || material.has_facets;
+        if (has_picture(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
+        if (is_stopped(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
+    }
+    Vector reflected{0, 0, 0};
+    if (ends.diffuse) reflected = material.diffuse * (inner(direction, vertex.normal) * uncovered(material, direction));
+    if (ends.facets) reflected = reflected + facets(material, vertex, direction);
+    return times(reflected, background_towards(scene, direction)) * 2;
 }
 
-/// All that a surface reflects of what gives light. `ends`: microfacets do not send the path on.
-Vector shade(const SceneView& scene, const Vertex& vertex, bool ends, Chance& chance) {
+/// All that a surface reflects of what gives light.
+Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance) {
     const Reflectances material = reflectances(scene, vertex);
     Vector sum = times(material.ambient, to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
@@ -365,9 +372,11 @@ Vector shade(const SceneView& scene, const Vertex& vertex, bool ends, Chance& ch
         if (light.casts_shadows != 0 && largest(brought) > 0 && is_shadowed(scene, light, vertex)) continue;
         sum = sum + times(brought, intensity);
     }
-    sum = sum + glow(scene, material, vertex, ends || draws_lights(material), chance);
-    if (scene.environment.illuminates != 0 && scene.environment.indirect == 0) {
-        sum = sum + sky(scene, material, vertex, chance);
+    sum = sum + glow(scene, material, vertex, ends.facets || draws_lights(material), chance);
+    const bool picture = has_picture(scene);
+    const EndingLobes of_sky = {scene.environment.indirect == 0 || (picture && ends.diffuse), picture && ends.facets};
+    if (scene.environment.illuminates != 0 && (of_sky.diffuse || of_sky.facets)) {
+        sum = sum + sky(scene, material, vertex, of_sky, chance);
     }
     return sum;
 }
@@ -520,7 +529,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, passed);
         if (nearest.primitive == no_primitive) {
             const bool shows = !was_scattered || scene.environment.illuminates != 0;
-            const Vector seen = background_towards(scene.environment, ray.direction);
+            const Vector seen = background_towards(scene, ray.direction);
             return shows ? radiance + times(throughput, seen) : radiance;
         }
         const Vertex vertex = vertex_at(scene, ray, nearest);
@@ -546,10 +555,10 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const bool is_dark = is_drawn || (optics.unlit != 0 && was_scattered);  // what is unlit lights nothing
         if (vertex.shines && !is_dark) radiance = radiance + times(throughput, vertex.emission);
         Chance chance(sample, vertex_number);
-        const bool ends = reflections >= limits.reflection;
+        const bool is_front = !(inner(vertex.direction, vertex.normal) > 0);
+        const EndingLobes ends = {!is_front || scatterings >= limits.diffuse, reflections >= limits.reflection};
         radiance = radiance + times(throughput, shade(scene, vertex, ends, chance));
 
-        const bool is_front = !(inner(vertex.direction, vertex.normal) > 0);
         const Reflectances material = reflectances(scene, vertex);
         const Vector diffuse = material.diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;

@@ -15,12 +15,14 @@ class Backdrop {
     Backdrop(const PreparedScene& scene, int width, int height);
 
     /// The means of a film of that size, and black where they are those of the background: in every channel between
-    /// what it has at the corners of the pixel, but for a hundredth, which is for lenses.
+    /// what it has at the corners of the pixel, but for a hundredth, which is for lenses. A picture of the environment
+    /// is part of what is shown.
     [[nodiscard]] FloatImage foreground(const Film& film) const;
 
   private:
     CameraView camera_;
     Environment environment_;
+    bool is_picture_;
 };
 
 }  // namespace tandem

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tandem/images/image.h"
+#include "tandem/scene/environment_image.h"
 
 namespace tandem {
 
@@ -11,10 +11,6 @@ struct EnvironmentFile {
     FloatImage picture;               ///< equirectangular (kernel/lights/environment_picture.h); finite, not negative
     std::size_t negative_texels = 0;  ///< that were taken for black in a channel: resampling leaves such
 };
-
-/// The brightest texel, and the most texels, of an environment.
-inline constexpr float brightest_environment = 0x1p100F;
-inline constexpr std::size_t most_environment_texels = std::size_t{1} << 27;
 
 /// Linear light, from a .hdr, .exr or .pfm file. Throws InputError with the path: for a file that cannot be read, for
 /// 8-bit formats, for texels that are not finite or above 2^100, whose place it says, and for more than 2^27 texels.

@@ -193,8 +193,29 @@ class Problems {
         };
         require(good(scene_.environment.bottom) && good(scene_.environment.top) && good(scene_.environment.ambient),
                 "the environment", "has a colour that is not three numbers of 0 or more");
+        if (scene_.environment_image) check_image(*scene_.environment_image);
         require(std::isfinite(scene_.frames_per_second) && scene_.frames_per_second > 0, "the scene",
                 "has a frame rate that is not positive");
+    }
+
+    void check_image(const EnvironmentImage& image) {
+        const FloatImage& picture = image.picture;
+        const std::string where = "the environment's picture";
+        const auto is_side = [](int texels) { return texels >= 1 && texels <= widest_environment; };
+        require(is_side(picture.width) && is_side(picture.height) && picture.pixels.size() == pixel_count(picture) &&
+                    picture.pixels.size() <= most_environment_texels,
+                where,
+                fmt::format("has {} x {} texels; from 1 x 1 to 2^27 are possible, of at most {} a side, so make it "
+                            "smaller",
+                            picture.width, picture.height, widest_environment)
+                    .c_str());
+        const auto is_light = [](float x) { return x >= 0 && x <= brightest_environment; };
+        require(std::all_of(picture.pixels.begin(), picture.pixels.end(),
+                            [&](const Vec3f& a) { return is_light(a.x) && is_light(a.y) && is_light(a.z); }),
+                where, "has values that are not from 0 to 1.2e30");
+        require(image.intensity >= 0 && image.intensity <= most_environment_intensity, where,
+                fmt::format("has an intensity that is not from 0 to {:g}", most_environment_intensity).c_str());
+        require(std::abs(image.rotation) <= 1e6, where, "has a rotation that is not an angle of up to 1e6");
     }
 
     std::vector<std::string> take() { return std::move(found_); }

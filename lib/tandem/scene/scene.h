@@ -18,6 +18,7 @@
 #include "tandem/kernel/lights/environment.h"
 #include "tandem/kernel/shapes/face_sides.h"
 #include "tandem/math/transform.h"
+#include "tandem/scene/environment_image.h"
 #include "tandem/scene/texture.h"
 
 namespace tandem {
@@ -176,7 +177,8 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
-    Display display{};  ///< of 8-bit pictures; no part of what is rendered
+    std::optional<EnvironmentImage> environment_image{};  ///< takes the place of the gradient
+    Display display{};                                    ///< of 8-bit pictures; no part of what is rendered
     double frames_per_second = 24;
     bool area_lights = true;         ///< sample points of emissive surfaces; without it only paths find them
     bool area_light_shadows = true;  ///< also of the background

@@ -7,6 +7,7 @@
 #include "tandem/kernel/camera/camera.h"
 #include "tandem/kernel/lights/area_light.h"
 #include "tandem/kernel/lights/environment.h"
+#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/quad.h"
@@ -35,7 +36,14 @@ struct SceneView {
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
     Environment environment;
+    EnvironmentPicture environment_picture;
 };
+
+/// The picture of the environment; without one, its width is 0.
+TANDEM_HD EnvironmentPictureView environment_picture(const SceneView& scene) {
+    return {scene.environment_picture, scene.environment_texels, scene.environment_borders, scene.environment_band_ends,
+            scene.environment_cell_ends};
+}
 
 TANDEM_HD std::uint32_t primitive_count(const SceneView& scene) {
     std::uint32_t count = 0;
