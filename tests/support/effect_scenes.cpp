@@ -241,6 +241,18 @@ Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
     scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U, indirect ? 1U : 0U};
     return scene;
 }
+/// Within a turned picture of 12 x 6 texels with a bright window.
+Scene within_picture(Scene scene, bool illuminates, bool indirect) {
+    scene = in_daylight(std::move(scene), illuminates, indirect);
+    EnvironmentImage image{{12, 6, {}}, 0.7, 0.8F};
+    for (int i = 0; i < 72; ++i) {
+        const auto level = static_cast<float>((i * 37 + i / 12 * 91) % 50);
+        image.picture.pixels.push_back({0.1F + level * 0.01F, 0.3F, 0.7F - level * 0.01F});
+    }
+    for (const std::size_t window : {17, 18, 30}) image.picture.pixels[window] = {5, 4, 3};
+    scene.environment_image = std::move(image);
+    return scene;
+}
 Scene through(Scene scene, const Lens& lens) {
     std::get<PerspectiveCamera>(*scene.nodes[0].camera).lens = lens;
     return scene;
@@ -310,7 +322,14 @@ std::vector<EffectScene> make_scenes() {
                       lamps | facets | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back({"worn metal", in_daylight(lit(worn_scene(), {}), true, false),
                       shadows | facets | Effect::textures | Effect::normal_maps | Effect::environment_light});
-    Scene everything = in_daylight(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);
+    const EffectMask surroundings = shadows | Effect::environment_light | Effect::environment_picture;
+    scenes.push_back(
+        {"picture behind", within_picture(lit(matt_scene(), plain), false, false), Effect::environment_picture});
+    scenes.push_back({"picture", within_picture(matt_scene(), true, false), surroundings});
+    scenes.push_back({"picture, microfacets", within_picture(polished_scene(), true, false), surroundings | facets});
+    scenes.push_back({"picture, lamps, indirect", within_picture(with_lamps(polished_scene()), true, true),
+                      surroundings | lamps | facets | Effect::indirect | Effect::roulette});
+    Scene everything = within_picture(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);
     const Scene pictures = textured(true, true, true);
     everything.images = pictures.images;
     everything.textures = pictures.textures;
