@@ -47,7 +47,8 @@ class EnvironmentPictures : public test::ExactBackend {
         Estimate estimate;
         for (std::uint64_t seed = first_seed; seed < first_seed + 24; ++seed) {
             double sum = 0;
-            for (const Vec3d& pixel : film_of(scene, seed, samples).sums()) sum += pixel.x + 2 * pixel.y + 3 * pixel.z;
+            const Film film = film_of(scene, seed, samples);
+            for (const Vec3d& pixel : film.sums()) sum += pixel.x + 2 * pixel.y + 3 * pixel.z;
             estimate.add(sum / (16 * 16 * samples));
         }
         return estimate;
