@@ -246,6 +246,12 @@ Json describe(const std::string& specification, const Scene& scene, const Import
                                   {"ambient", colour(environment.ambient)},
                                   {"illuminates", environment.illuminates != 0},
                                   {"indirect", environment.indirect != 0}};
+    if (const auto& image = scene.environment_image) {
+        description["environment"]["picture"] = {{"width", image->picture.width},
+                                                 {"height", image->picture.height},
+                                                 {"rotation", image->rotation},
+                                                 {"intensity", image->intensity}};
+    }
     description["display"] = {{"transfer", to_string(scene.display.transfer)},
                               {"exposure_stops", scene.display.exposure_stops}};
     description["animation"] = describe_animation(scene);
@@ -283,9 +289,13 @@ std::string to_text(const Json& description) {
     add_list(text, "lights", description["lights"], most_lines, line_of_light);
     add_list(text, "materials", description["materials"], most_lines, line_of_material);
     const Json& environment = description["environment"];
-    text += fmt::format("environment: gradient from {} at the bottom to {} at the top, ambient {}{}{}\n",
-                        components(environment["bottom"]), components(environment["top"]),
-                        components(environment["ambient"]),
+    std::string background = fmt::format("gradient from {} at the bottom to {} at the top",
+                                         components(environment["bottom"]), components(environment["top"]));
+    if (const auto picture = environment.find("picture"); picture != environment.end()) {
+        background = fmt::format("picture of {} x {} texels, times {:g}", (*picture)["width"].get<int>(),
+                                 (*picture)["height"].get<int>(), (*picture)["intensity"].get<double>());
+    }
+    text += fmt::format("environment: {}, ambient {}{}{}\n", background, components(environment["ambient"]),
                         environment["illuminates"].get<bool>() ? ", lights surfaces" : "",
                         environment["indirect"].get<bool>() ? ", indirect light" : "");
     const Json& display = description["display"];

@@ -111,7 +111,7 @@ TEST(SceneHash, ChangesWithEveryField) {
         s.microfacets = {{0.5F, 1}}; }},
         {"roughness", [](PreparedScene& s) {
         s.microfacets = {{1, 0.5F}}; }},
-        {"no texture", [PreparedScene& s) {
+        {"no texture", [](PreparedScene& s) {
         s.textures = {}; }},
         {"light position", [](PreparedScene& s) {
         s.lights[0].position.x = 7; }},
@@ -119,6 +119,10 @@ TEST(SceneHash, ChangesWithEveryField) {
         s.lights[0].intensity.y = 7; }},
         {"background bottom", [](PreparedScene& s) {
         s.environment.bottom.x = 7; }},
+        {"environment texels", [](PreparedScene& s) {
+        s.environment_texels = {{1, 2, 3}}; }},
+        {"environment rotation", [](PreparedScene& s) {
+        s.environment_picture = {0.5, 1, 1}; }},
         {"background top", [](PreparedScene& s) {
         s.environment.top.x = 7; }},
         {"ambient light", [](PreparedScene& s) {

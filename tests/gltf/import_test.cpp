@@ -8,6 +8,7 @@
 #include "gltf/files.h"
 #include "support/thrown_message.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/images/image_io.h"
 
 namespace tandem {
 namespace {
@@ -270,6 +271,31 @@ TEST_F(Import, TheEnvironmentOfTheSceneGoesBeforeTheFiles) {
     const Environment of_scene = import(file).scene.environment;
     EXPECT_EQ(of_scene.top, Environment{}.top);
     EXPECT_EQ(of_scene.ambient, Vec3f(2, 2, 2));
+}
+
+TEST_F(Import, ReadsThePictureOfTheEnvironment) {
+    write_image((folder_ / "sky.pfm").string(), FloatImage{2, 1, {{1, 2, 3}, {4, -5, 6}}}, {});
+    write_image((folder_ / "sky.png").string(), FloatImage{1, 1, {{1, 1, 1}}}, {});
+    TestFile file = small_file();
+    Json& environment = file.json["scenes"][0]["extensions"]["TANDEM_environment"];
+    environment = {{"uri", "sky.pfm"}, {"rotation", 0.5}, {"intensity", 2}};
+    const ImportResult result = import(file);
+    ASSERT_TRUE(result.scene.environment_image);
+    EXPECT_EQ(result.scene.environment_image->picture.pixels, (std::vector<Vec3f>{{1, 2, 3}, {4, 0, 6}}));
+    EXPECT_EQ(result.scene.environment_image->rotation, 0.5);
+    EXPECT_EQ(result.scene.environment_image->intensity, 2.0F);
+    EXPECT_EQ(result.scene.environment.illuminates, 1U);
+    EXPECT_EQ(result.scene.environment.ambient, Vec3f(0, 0, 0));
+    EXPECT_TRUE(test::contains(to_string(result.report.notes().back()), "negative"));
+    environment["illuminates"] = false;
+    EXPECT_EQ(import(file).scene.environment.illuminates, 0U);
+    for (const auto& [uri, reason] : {std::pair{"none.hdr", "none.hdr"}, std::pair{"sky.png", "8 bits"},
+                                      std::pair{"../sky.pfm", "folder"}, std::pair{"data:,1", "embeds"}}) {
+        environment = {{"uri", uri}};
+        const std::string message = test::input_error([&] { (void)import(file); });
+        EXPECT_TRUE(test::contains(message, "scenes[0].extensions.TANDEM_environment.uri"));
+        EXPECT_TRUE(test::contains(message, reason));
+    }
 }
 
 TEST_F(Import, ReadsHowPicturesAreMeant) {

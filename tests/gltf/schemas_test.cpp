@@ -95,7 +95,9 @@ TEST_F(Schemas, Environment) {
              R"({"gradient": {}})", R"({"gradient": {"bottom": [0, 0, 0]}})",
              R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2, 3]}})", R"({"gradient": [1, 1, 1]})",
              R"({"gradient": {"bottom": [0, 0, 0], "top": [1, 2]}, "ambient": [1, 1, 1]})",
-             R"({"illuminates": true, "indirect": false})", R"({"indirect": 1})"},
+             R"({"illuminates": true, "indirect": false})", R"({"indirect": 1})", R"({"uri": 1})",
+             R"({"rotation": -3.5, "intensity": 2})", R"({"rotation": 2e6})", R"({"intensity": -1})",
+             R"({"intensity": 2e6})"},
             [](Json& d, const Json& v) { d["scenes"][0]["extensions"]["TANDEM_environment"] = v; });
 }
 

@@ -161,6 +161,26 @@ INSTANTIATE_TEST_SUITE_P(
              },
              "a key with the rotation (0, 0, 0, 0)"},
         Flaw{"environment", [](Scene& s) { s.environment.top.x = -1; }, "the environment has a colour"},
+        Flaw{"picture without texels",
+             [](Scene& s) {
+                 s.environment_image = EnvironmentImage{{2, 1, {}}};
+             },
+             "the environment's picture has 2 x 1 texels"},
+        Flaw{"dark picture",
+             [](Scene& s) {
+                 s.environment_image = EnvironmentImage{{1, 1, {{0, -1, 0}}}};
+             },
+             "the environment's picture has values"},
+        Flaw{"intensity",
+             [](Scene& s) {
+                 s.environment_image = EnvironmentImage{{1, 1, {{1, 1, 1}}}, 0, -1};
+             },
+             "the environment's picture has an intensity"},
+        Flaw{"rotation",
+             [](Scene& s) {
+                 s.environment_image = EnvironmentImage{{1, 1, {{1, 1, 1}}}, HUGE_VAL, 1};
+             },
+             "the environment's picture has a rotation"},
         Flaw{"exposure", [](Scene& s) { s.display.exposure_stops = 101; }, "the display has an exposure that is not"},
         Flaw{"frame_rate", [](Scene& s) { s.frames_per_second = 0; }, "a frame rate that is not positive"}),
     [](const auto& info) { return std::string(info.param.name); });

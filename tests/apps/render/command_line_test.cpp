@@ -9,6 +9,7 @@
 
 #include "support/temporary_folder.h"
 #include "tandem/base/version.h"
+#include "tandem/images/image_io.h"
 
 namespace tandem {
 namespace {
@@ -35,7 +36,7 @@ TEST(CommandLine, HelpAndVersion) {
     const Finished help = tandem_render("--help");
     EXPECT_EQ(help.status, 0);
     for (const char* word : {"SCENE", "--frames", "--ppm-text", "--force", "--shutter-instants", "--exposure",
-                             "--transfer", "--aov", "albedo", "named:paper"}) {
+                             "--transfer", "--aov", "albedo", "--env", "named:paper"}) {
         EXPECT_NE(help.printed.find(word), std::string::npos) << word;
     }
     const Finished shown = tandem_render("--version");
@@ -46,6 +47,8 @@ TEST(CommandLine, HelpAndVersion) {
 TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
     const test::TemporaryFolder folder;
     const std::string out = " -o '" + folder.file("a.png") + "'";
+    const std::string picture_of_bytes = folder.file("sky.png");
+    write_image(picture_of_bytes, FloatImage{1, 1, {{1, 1, 1}}}, {});
     using Case = std::pair<std::string, const char*>;
     for (const auto& [arguments, reason] :
          {Case{"", "SCENE"},
@@ -66,6 +69,10 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
           Case{"named:paper -o a.jpg", ".png"},
           Case{"named:paper -o '" + folder.file("none/a.png") + "'", "none"},
           Case{"named:paper --threads -1" + out, "--threads"},
+          Case{"named:paper --env '" + folder.file("none.hdr") + "'" + out, "none.hdr"},
+          Case{"named:paper --env '" + picture_of_bytes + "'" + out, "8 bits"},
+          Case{"named:paper --env-rotation 90" + out, "--env"},
+          Case{"named:paper --env a.hdr --env-intensity -1" + out, "--env-intensity"},
           Case{"named:paper --exposure bright" + out, "--exposure is 'bright'"},
           Case{"named:paper --exposure -101" + out, "--exposure is '-101'"},
           Case{"named:paper --exposure ''" + out, "--exposure"},
@@ -81,6 +88,21 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
         EXPECT_NE(run.printed.find(reason), std::string::npos) << arguments << "\n" << run.printed;
     }
     EXPECT_TRUE(folder.names().empty());
+}
+
+// The film is the picture, turned and scaled, and the lights of a file without light are not added.
+TEST(CommandLine, LightsByAPicture) {
+    const test::TemporaryFolder folder;
+    const std::string sky = folder.file("sky.pfm"), out = folder.file("a.pfm"), file = folder.file("a.gltf");
+    write_image(sky, FloatImage{2, 1, {{1, 2, 4}, {1, 2, 4}}}, {});
+    write_file(file, R"({"asset": {"version": "2.0"}, "nodes": [{"camera": 0}], "scenes": [{"nodes": [0]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]})");
+    const Finished run = tandem_render("'" + file + "' --env '" + sky +
+                                       "' --env-rotation 30 --env-intensity 2 --size 4x3 --spp 1 -o '" + out + "'");
+    EXPECT_EQ(run.status, 0) << run.printed;
+    EXPECT_EQ(run.printed.find("no light"), std::string::npos) << run.printed;
+    const FloatImage film = read_image(out).image;
+    for (const Vec3f& pixel : film.pixels) EXPECT_EQ(pixel, Vec3f(2, 4, 8));
 }
 
 }  // namespace
