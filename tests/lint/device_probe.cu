@@ -2,6 +2,7 @@
 #include "cuda/render_thread.h"
 #include "tandem/kernel/bsdf/lobes.h"
 #include "tandem/kernel/bsdf/metallic_roughness.h"
+#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/quad_light.h"
 #include "tandem/kernel/lights/sphere_light.h"
 #include "tandem/kernel/pixel.h"
@@ -55,6 +56,13 @@ __global__ void sphere_light(Vec3d point, Vec3d centre, double radius, double u,
 
 __global__ void quad_light(Vec3d point, Vec3d v0, Vec3d v1, Vec3d v2, Vec3d v3, double u, double v, double* out) {
     sample_and_weigh(view_quad_light<float>(point, v0, v1, v2, v3), u, v, out);
+}
+
+__global__ void environment_picture(EnvironmentPictureView view, PhiloxBlock<std::uint32_t> random, double* out) {
+    const auto drawn = sample_environment<float>(view, random);
+    const auto seen = see_environment<float>(view, drawn.direction);
+    out[0] = drawn.pdf + seen.pdf;
+    out[1] = static_cast<double>(norm1(drawn.radiance) + norm1(seen.radiance));
 }
 
 __global__ void warps(int blades, double u, double v, double* out) {
