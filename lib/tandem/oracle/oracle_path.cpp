@@ -435,8 +435,9 @@ float depth_of(const CameraView& camera, const Vector& point) {
 Vector albedo_of(const SceneView& scene, const Vertex& vertex) {
     const Optics& optics = scene.optics[vertex.material];
     const Real t = optics.transmission;
-    const Vector sum = reflectances(scene, vertex).diffuse + to_vector(scene.materials[vertex.material].specular) +
-                       to_vector(optics.mirror) + Vector{t, t, t};
+    const Reflectances material = reflectances(scene, vertex);
+    const Vector specular = material.has_facets ? material.f0 : to_vector(scene.materials[vertex.material].specular);
+    const Vector sum = material.diffuse + specular + to_vector(optics.mirror) + Vector{t, t, t};
     return {std::min<Real>(sum.x, 1), std::min<Real>(sum.y, 1), std::min<Real>(sum.z, 1)};
 }
 
