@@ -9,7 +9,7 @@ namespace tandem {
 
 /// Those that say where a camera ray goes, what it passes through, and what the surface is that it hits.
 using FirstHitEffects = EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps |
-                                   Effect::reflection | Effect::refraction)
+                                   Effect::reflection | Effect::refraction | Effect::microfacets)
                                       .bits()>;
 
 /// Of which planes it finds the values.
