@@ -36,105 +36,68 @@ PreparedScene one_of_each() {
 TEST(SceneHash, ChangesWithEveryField) {
     const std::map<std::string, std::function<void(PreparedScene&)>> changes = {
         {"nothing", [](PreparedScene&) {}},
-        {"sphere centre", [](PreparedScene& s) {
-        s.spheres[0].centre.y = 7; }},
-        {"sphere radius", [](PreparedScene& s) {
-        s.spheres[0].radius = 7; }},
-        {"one more sphere", [](PreparedScene& s) {
-        s.spheres.push_back(s.spheres[0]); }},
-        {"box lower", [](PreparedScene& s) {
-        s.boxes[0].lower.x = -7; }},
-        {"box upper", [](PreparedScene& s) {
-        s.boxes[0].upper.z = 7; }},
-        {"ellipsoid map", [](PreparedScene& s) {
-        s.ellipsoids[0].object_from_world.row[2].z = 7; }},
-        {"ellipsoid centre", [](PreparedScene& s) {
-        s.ellipsoids[0].centre.x = 7; }},
-        {"ellipsoid bound", [](PreparedScene& s) {
-        s.ellipsoids[0].bounding_sphere.radius = 7; }},
-        {"ellipsoid extent", [](PreparedScene& s) {
-        s.ellipsoids[0].half_extent.y = 7; }},
-        {"parallelepiped map", [](PreparedScene& s) {
-        s.parallelepipeds[0].object_from_world.row[0].x = 7; }},
-        {"triangle corner", [](PreparedScene& s) {
-        s.triangles[0].v2.y = 7; }},
-        {"triangle normals", [](PreparedScene& s) {
-        s.triangles[0].attributes.normals = 1; }},
-        {"triangle texture", [](PreparedScene& s) {
-        s.triangles[0].attributes.texcoords = 1; }},
-        {"triangle sides", [](PreparedScene& s) {
-        s.triangles[0].attributes.sides = FaceSides::double_sided; }},
-        {"quad corner", [](PreparedScene& s) {
-        s.quads[0].v3.x = -7; }},
-        {"quad sides", [](PreparedScene& s) {
-        s.quads[0].attributes.sides = FaceSides::double_sided; }},
-        {"normal", [](PreparedScene& s) {
-        s.normals[6].x = 1; }},
-        {"texture coordinates", [](PreparedScene& s) {
-        s.texcoords[6].x = 1; }},
-        {"material index", [](PreparedScene& s) {
-        s.material_of[3] = 1; }},
-        {"ambient", [](PreparedScene& s) {
-        s.materials[0].ambient.x = 0.5F; }},
-        {"diffuse", [](PreparedScene& s) {
-        s.materials[0].diffuse.y = 0.5F; }},
-        {"specular", [](PreparedScene& s) {
-        s.materials[0].specular.z = 0.5F; }},
-        {"shininess", [](PreparedScene& s) {
-        s.materials[0].shininess = 7; }},
-        {"texel", [](PreparedScene& s) {
-        s.textures.texels[1] = 7; }},
-        {"texture size", [](PreparedScene& s) {
-        s.textures.textures[0].width = 7; }},
-        {"wrap mode", [](PreparedScene& s) {
-        s.textures.textures[0].wrap_t = Wrap::clamp_to_edge; }},
-        {"filter", [](PreparedScene& s) {
-        s.textures.textures[0].filter = Filter::nearest; }},
-        {"colour space", [](PreparedScene& s) {
-        s.textures.textures[0].space = ColourSpace::linear; }},
-        {"diffuse texture", [](PreparedScene& s) {
-        s.textures.materials[0].diffuse.texture = 0; }},
-        {"texture place", [](PreparedScene& s) {
-        s.textures.materials[0].diffuse.v_row[2] = 7; }},
-        {"normal texture", [](PreparedScene& s) {
-        s.textures.materials[0].normal.texture = 0; }},
-        {"normal scale", [](PreparedScene& s) {
-        s.textures.materials[0].normal_scale = 7; }},
-        {"alpha cutoff", [](PreparedScene& s) {
-        s.textures.materials[0].alpha_cutoff = 7; }},
+        {"sphere centre", [](PreparedScene& s) { s.spheres[0].centre.y = 7; }},
+        {"sphere radius", [](PreparedScene& s) { s.spheres[0].radius = 7; }},
+        {"one more sphere", [](PreparedScene& s) { s.spheres.push_back(s.spheres[0]); }},
+        {"box lower", [](PreparedScene& s) { s.boxes[0].lower.x = -7; }},
+        {"box upper", [](PreparedScene& s) { s.boxes[0].upper.z = 7; }},
+        {"ellipsoid map", [](PreparedScene& s) { s.ellipsoids[0].object_from_world.row[2].z = 7; }},
+        {"ellipsoid centre", [](PreparedScene& s) { s.ellipsoids[0].centre.x = 7; }},
+        {"ellipsoid bound", [](PreparedScene& s) { s.ellipsoids[0].bounding_sphere.radius = 7; }},
+        {"ellipsoid extent", [](PreparedScene& s) { s.ellipsoids[0].half_extent.y = 7; }},
+        {"parallelepiped map", [](PreparedScene& s) { s.parallelepipeds[0].object_from_world.row[0].x = 7; }},
+        {"triangle corner", [](PreparedScene& s) { s.triangles[0].v2.y = 7; }},
+        {"triangle normals", [](PreparedScene& s) { s.triangles[0].attributes.normals = 1; }},
+        {"triangle texture", [](PreparedScene& s) { s.triangles[0].attributes.texcoords = 1; }},
+        {"triangle sides", [](PreparedScene& s) { s.triangles[0].attributes.sides = FaceSides::double_sided; }},
+        {"quad corner", [](PreparedScene& s) { s.quads[0].v3.x = -7; }},
+        {"quad sides", [](PreparedScene& s) { s.quads[0].attributes.sides = FaceSides::double_sided; }},
+        {"normal", [](PreparedScene& s) { s.normals[6].x = 1; }},
+        {"texture coordinates", [](PreparedScene& s) { s.texcoords[6].x = 1; }},
+        {"material index", [](PreparedScene& s) { s.material_of[3] = 1; }},
+        {"ambient", [](PreparedScene& s) { s.materials[0].ambient.x = 0.5F; }},
+        {"diffuse", [](PreparedScene& s) { s.materials[0].diffuse.y = 0.5F; }},
+        {"specular", [](PreparedScene& s) { s.materials[0].specular.z = 0.5F; }},
+        {"shininess", [](PreparedScene& s) { s.materials[0].shininess = 7; }},
+        {"texel", [](PreparedScene& s) { s.textures.texels[1] = 7; }},
+        {"texture size", [](PreparedScene& s) { s.textures.textures[0].width = 7; }},
+        {"wrap mode", [](PreparedScene& s) { s.textures.textures[0].wrap_t = Wrap::clamp_to_edge; }},
+        {"filter", [](PreparedScene& s) { s.textures.textures[0].filter = Filter::nearest; }},
+        {"colour space", [](PreparedScene& s) { s.textures.textures[0].space = ColourSpace::linear; }},
+        {"diffuse texture", [](PreparedScene& s) { s.textures.materials[0].diffuse.texture = 0; }},
+        {"texture place", [](PreparedScene& s) { s.textures.materials[0].diffuse.v_row[2] = 7; }},
+        {"normal texture", [](PreparedScene& s) { s.textures.materials[0].normal.texture = 0; }},
+        {"normal scale", [](PreparedScene& s) { s.textures.materials[0].normal_scale = 7; }},
+        {"alpha cutoff", [](PreparedScene& s) { s.textures.materials[0].alpha_cutoff = 7; }},
         {"metallic-roughness texture",
+         [](PreparedScene& s) { s.textures.materials[0].metallic_roughness.texture = 0; }},
+        {"microfacets", [](PreparedScene& s) { s.microfacets.resize(1); }},
+        {"metal",
          [](PreparedScene& s) {
-        s.textures.materials[0].metallic_roughness.texture = 0; }},
-        {"microfacets", [](PreparedScene& s) {
-        s.microfacets.resize(1); }},
-        {"metal", [](PreparedScene& s) {
-        s.microfacets = {{0.5F, 1}}; }},
-        {"roughness", [](PreparedScene& s) {
-        s.microfacets = {{1, 0.5F}}; }},
-        {"no texture", [](PreparedScene& s) {
-        s.textures = {}; }},
-        {"light position", [](PreparedScene& s) {
-        s.lights[0].position.x = 7; }},
-        {"light intensity", [](PreparedScene& s) {
-        s.lights[0].intensity.y = 7; }},
-        {"background bottom", [](PreparedScene& s) {
-        s.environment.bottom.x = 7; }},
-        {"environment texels", [](PreparedScene& s) {
-        s.environment_texels = {{1, 2, 3}}; }},
-        {"environment rotation", [](PreparedScene& s) {
-        s.environment_picture = {0.5, 1, 1}; }},
-        {"background top", [](PreparedScene& s) {
-        s.environment.top.x = 7; }},
-        {"ambient light", [](PreparedScene& s) {
-        s.environment.ambient.x = 7; }},
-        {"camera axes", [](PreparedScene& s) {
-        s.camera.render_from_camera.linear.row[0].y = 7; }},
-        {"camera place", [](PreparedScene& s) {
-        s.camera.render_from_camera.translation.y = 7; }},
-        {"projection", [](PreparedScene& s) {
-        s.camera.orthographic = true; }},
-        {"field of view", [](PreparedScene& s) {
-        s.camera.half_height = 7; }},
+             s.microfacets = {{0.5F, 1}};
+         }},
+        {"roughness",
+         [](PreparedScene& s) {
+             s.microfacets = {{1, 0.5F}};
+         }},
+        {"no texture", [](PreparedScene& s) { s.textures = {}; }},
+        {"light position", [](PreparedScene& s) { s.lights[0].position.x = 7; }},
+        {"light intensity", [](PreparedScene& s) { s.lights[0].intensity.y = 7; }},
+        {"background bottom", [](PreparedScene& s) { s.environment.bottom.x = 7; }},
+        {"environment texels",
+         [](PreparedScene& s) {
+             s.environment_texels = {{1, 2, 3}};
+         }},
+        {"environment rotation",
+         [](PreparedScene& s) {
+             s.environment_picture = {0.5, 1, 1};
+         }},
+        {"background top", [](PreparedScene& s) { s.environment.top.x = 7; }},
+        {"ambient light", [](PreparedScene& s) { s.environment.ambient.x = 7; }},
+        {"camera axes", [](PreparedScene& s) { s.camera.render_from_camera.linear.row[0].y = 7; }},
+        {"camera place", [](PreparedScene& s) { s.camera.render_from_camera.translation.y = 7; }},
+        {"projection", [](PreparedScene& s) { s.camera.orthographic = true; }},
+        {"field of view", [](PreparedScene& s) { s.camera.half_height = 7; }},
     };
     std::map<std::string, std::string> name_of;
     for (const auto& [name, change] : changes) {

@@ -48,9 +48,9 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_TRUE(contains(test::sentences(box.report), "rendered: triangle mesh at meshes[0].primitives[0] (6 uses)"));
     const auto helmet = import_gltf(*folder / "FlightHelmet/FlightHelmet.gltf");
     EXPECT_EQ(helmet.scene.nodes.size(), 6U);
-    EXPECT_TRUE(contains(test::sentences(helmet.report), "rendered: image at images[2] (10 uses)"));
-    EXPECT_TRUE(contains(test::sentences(helmet.report), "ignored: image at images[1] (5 uses)"));
-    ASSERT_EQ(helmet.scene.images.size(), 10U);
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "rendered: image at images[2] (15 uses)"));
+    EXPECT_TRUE(contains(test::sentences(helmet.report), "rendered: metallic-roughness texture at materials[0]"));
+    ASSERT_EQ(helmet.scene.images.size(), 15U);
     EXPECT_EQ(helmet.scene.images[0].texels.size(),
               std::size_t{helmet.scene.images[0].width} * helmet.scene.images[0].height);
     const auto fox = import_gltf(*folder / "Fox.glb");
@@ -60,8 +60,8 @@ TEST(RealFiles, BesideTheCheckout) {
     EXPECT_TRUE(contains(test::sentences(fox.report), "ignored: further animation at animations[1] (2 uses)"));
 }
 
-/// `scene` seen from `eye` towards -z, with a light there. The lamps of the file do not shine: the oracle would draw
-/// other points of them.
+/// `scene` seen from `eye` towards -z, with a light there. The lamps of the file do not shine, and materials have
+/// Phong's model: the oracle would draw other points of lamps, and other directions from microfacets.
 PreparedScene seen_from(Scene scene, const Vec3d& eye) {
     Node node;
     node.trs.translation = eye;
@@ -69,7 +69,7 @@ PreparedScene seen_from(Scene scene, const Vec3d& eye) {
     node.light = LightSource{};
     scene.nodes.push_back(node);
     PrepareOptions options;
-    options.effects.off = Effect::area_lights;
+    options.effects.off = Effect::area_lights | Effect::microfacets;
     return prepare(scene, options);
 }
 

@@ -172,7 +172,8 @@ TEST_F(Report, NamesUnknownExtensionsWhereverTheyAre) {
     file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = Json::object();
     expect(file, "ignored: ACME_sparkle at nodes[1].extensions.ACME_sparkle: Tandem does not know it");
     expect(file, "ignored: ACME_unused at extensionsUsed[1]: the file lists it and uses it nowhere");
-    expect(file, "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: Tandem shades");
+    expect(file,
+           "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: of materials Tandem");
 }
 
 /// It is used, though not where it counts.

@@ -11,7 +11,7 @@ CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 BASELINE = "apps/bench/baseline/"
 # The tier fast: its files, and no others, may use what the exact tiers must not (docs/tiers.md). The CPU's kernels of all
 # tiers are the same files; a definition tells them apart.
-FAST_TIER = re.compile(r"^cuda/kernels_fast\w*\.cu$|^lib/tandem/math/fast_\w+\.h$")
+FAST_TIER = re.compile(r"^cuda/(?:kernels|first_hits)_fast\w*\.cu$|^lib/tandem/math/fast_\w+\.h$")
 FAST_KERNEL = "-DTANDEM_KERNEL_TIER=fast "
 FAST_FLAGS = {"cpu/CMakeLists.txt": {"-ffp-contract=fast"}, "cuda/CMakeLists.txt": {"--use_fast_math"}}
 FAST_MATH = re.compile(

@@ -9,7 +9,7 @@ namespace tandem {
 
 /// Those that say where a camera ray goes, what it passes through, and what the surface is that it hits.
 using FirstHitEffects = EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps |
-                                   Effect::reflection | Effect::refraction)
+                                   Effect::reflection | Effect::refraction | Effect::microfacets)
                                       .bits()>;
 
 /// Of which planes it finds the values.
@@ -37,9 +37,9 @@ TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
         const Real albedo = ((diffuse * kept + specular) + mirror) + surface.transmission;
         return select(albedo < one, albedo, one);
     };
-    return {sum(surface.diffuse.x, surface.specular.x, surface.mirror.x),
-            sum(surface.diffuse.y, surface.specular.y, surface.mirror.y),
-            sum(surface.diffuse.z, surface.specular.z, surface.mirror.z)};
+    const Vec3<Real> specular = select(surface.has_microfacets, surface.f0, surface.specular);
+    return {sum(surface.diffuse.x, specular.x, surface.mirror.x), sum(surface.diffuse.y, specular.y, surface.mirror.y),
+            sum(surface.diffuse.z, specular.z, surface.mirror.z)};
 }
 
 /// Adds a surface that samples have hit first at `hit`, in the lanes of `drawn`. `is_first`: it is the first sample.

@@ -90,7 +90,8 @@ TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, 
     if constexpr (bounces) {
         path.absorb(scene, D(__builtin_huge_val()), UInt<Real>(no_medium), missed);
         Mask<Real> shows = missed;
-        if (Effects::has(Effect::indirect) && scene.environment.illuminates == 0) shows = shows && path.pdf == D(0.0);
+        // only matt surfaces ask whether it illuminates
+        if (Effects::has(Effect::indirect) && scene.environment.illuminates == 0) shows = shows && !(path.pdf > D(0.0));
         radiance = select(shows, radiance + path.throughput * seen, radiance);
     } else {
         radiance = select(missed, seen, radiance);

@@ -167,18 +167,32 @@ struct Reflectances {
     Vector to_viewer{};  ///< on the side of the normal for shading
 };
 
+bool is_of_facets(const SceneView& scene, const Vertex& vertex) {
+    return scene.microfacet_count > 0 && scene.microfacets[vertex.material].is_there != 0;
+}
+
+Vector colour_of(const Vertex& vertex) { return {vertex.picture.r, vertex.picture.g, vertex.picture.b}; }
+
+/// Of microfacets, whichever side is seen.
+Reflectances facets_at(const SceneView& scene, const Vertex& vertex) {
+    const PhongMaterial& material = scene.materials[vertex.material];
+    const Vector base = times(to_vector(material.diffuse), colour_of(vertex));
+    const Real dielectric = 1 - vertex.metal;
+    Reflectances facets{
+        times(to_vector(material.ambient), colour_of(vertex)) * dielectric, base * dielectric, {0, 0, 0}, 1};
+    const Real ior = scene.optics[vertex.material].ior;
+    facets.border = std::pow((1 - ior) / (1 + ior), 2);
+    facets.f0 = base * vertex.metal + Vector{1, 1, 1} * (facets.border * dielectric);
+    facets.alpha = std::clamp<Real>(vertex.roughness * vertex.roughness, Real(0x1p-13), 1);
+    return facets;
+}
+
 Reflectances reflectances(const SceneView& scene, const Vertex& vertex) {
     const PhongMaterial& material = scene.materials[vertex.material];
     const Real transmission = scene.optics[vertex.material].transmission;
-    const Vector colour = {vertex.picture.r, vertex.picture.g, vertex.picture.b};
-    if (scene.microfacet_count > 0 && scene.microfacets[vertex.material].is_there != 0) {
-        const Vector base = times(to_vector(material.diffuse), colour);
-        const Real dielectric = 1 - vertex.metal;
-        Reflectances facets{times(to_vector(material.ambient), colour) * dielectric, base * dielectric, {0, 0, 0}, 1};
-        const Real ior = scene.optics[vertex.material].ior;
-        facets.border = std::pow((1 - ior) / (1 + ior), 2);
-        facets.f0 = base * vertex.metal + Vector{1, 1, 1} * (facets.border * dielectric);
-        facets.alpha = std::clamp<Real>(vertex.roughness * vertex.roughness, Real(0x1p-13), 1);
+    const Vector colour = colour_of(vertex);
+    if (is_of_facets(scene, vertex)) {
+        Reflectances facets = facets_at(scene, vertex);
         facets.to_viewer = vertex.direction * -1;
         const Real height = inner(facets.to_viewer, vertex.normal);
         facets.has_facets = height > 0 || !vertex.from_inside;
@@ -444,8 +458,11 @@ float depth_of(const CameraView& camera, const Vector& point) {
 Vector albedo_of(const SceneView& scene, const Vertex& vertex) {
     const Optics& optics = scene.optics[vertex.material];
     const Real t = optics.transmission;
-    const Vector sum = reflectances(scene, vertex).diffuse + to_vector(scene.materials[vertex.material].specular) +
-                       to_vector(optics.mirror) + Vector{t, t, t};
+    const bool facets = is_of_facets(scene, vertex);
+    const Reflectances material = facets ? facets_at(scene, vertex) : reflectances(scene, vertex);
+    const Vector diffuse = material.diffuse * (facets ? 1 - t : Real(1));
+    const Vector specular = facets ? material.f0 : to_vector(scene.materials[vertex.material].specular);
+    const Vector sum = diffuse + specular + to_vector(optics.mirror) + Vector{t, t, t};
     return {std::min<Real>(sum.x, 1), std::min<Real>(sum.y, 1), std::min<Real>(sum.z, 1)};
 }
 

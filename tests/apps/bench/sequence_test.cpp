@@ -68,9 +68,11 @@ TEST(SequenceText, NamesWhatHoldsItBack) {
     times.render = 4;
     times.download = 1;
     times.encode = 18;
-    EXPECT_NE(what_holds_it_back(times).find("most is encoding"), std::string::npos) << what_holds_it_back(times);
+    EXPECT_NE(what_holds_it_back(times).find("The bottleneck is encoding"), std::string::npos)
+        << what_holds_it_back(times);
     times.download = 9.5;
-    EXPECT_NE(what_holds_it_back(times).find("most is copying"), std::string::npos) << what_holds_it_back(times);
+    EXPECT_NE(what_holds_it_back(times).find("The bottleneck is copying"), std::string::npos)
+        << what_holds_it_back(times);
     EXPECT_NE(what_holds_it_back(times).find("40 %"), std::string::npos);
 }
 

@@ -48,8 +48,8 @@ static_assert(sizeof(MaterialTextures) == 144 && sizeof(TextureDescriptor) == 28
 
 /// Does the material read colours of corners, or texture coordinates of another slot than 0?
 TANDEM_HD bool reads_several_slots(const MaterialTextures& material) {
-    return material.colour_slot != no_slot ||
-           (material.diffuse.slot | material.normal.slot | material.emission.slot | material.metallic_roughness.slot) != 0;
+    return material.colour_slot != no_slot || (material.diffuse.slot | material.normal.slot | material.emission.slot |
+                                               material.metallic_roughness.slot) != 0;
 }
 
 /// Pointers are to memory of the side that reads them.
