@@ -19,8 +19,7 @@ if(NOT embree_FOUND)
   find_dependency(embree 3.13)
 endif()
 
-# By name, because Debian 12 has no CMake package of GLM, and FindCUDAToolkit of CMake 3.25 asks for a library that CUDA 13
-# has not.
+# By name, because FindCUDAToolkit of CMake 3.25 asks for a library that CUDA 13 has not.
 # tandem_find_library(TARGET LIBRARIES... [HEADER FILE] [HINTS DIRS...]): an imported target, or nothing when a part is missing.
 function(tandem_find_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "HINTS")
@@ -48,7 +47,6 @@ function(tandem_find_library target)
   target_include_directories(${target} SYSTEM INTERFACE ${${prefix}_INCLUDE_DIR})
 endfunction()
 
-tandem_find_library(Tandem::glm HEADER glm/vec3.hpp)
 tandem_find_library(Tandem::jpeg jpeg HEADER jpeglib.h)
 
 # Only where the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS says where the toolkit was.

@@ -5,9 +5,6 @@ include(${CMAKE_CURRENT_LIST_DIR}/TandemDependencies.cmake)
 unset(CMAKE_FIND_PACKAGE_NAME)
 find_package(nlohmann_json REQUIRED) # headers, seen by our sources only
 
-if(NOT TARGET Tandem::glm)
-  message(FATAL_ERROR "Tandem: no GLM headers (glm/vec3.hpp) found; on Debian and Ubuntu install libglm-dev")
-endif()
 if(TARGET OpenEXR::OpenEXR)
   set(TANDEM_HAS_EXR ON)
 else()

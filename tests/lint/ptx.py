@@ -5,7 +5,7 @@ Fails on .approx, .full and .ftz in the kernels of the exact tiers, and on any s
 in double, and in single precision only in loose_multiply_add(), which is switched off here; with --fmad=false the compiler
 adds none. The tier fast is compiled with the flags of its own, and must have them. Needs nvcc, no GPU.
 
-usage: ptx.py ROOT NVCC GLM_INCLUDE
+usage: ptx.py ROOT NVCC
 """
 
 import collections
@@ -30,9 +30,7 @@ def units_of(source):
 
 
 def main():
-    root, nvcc, glm = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3]
-    # naming the system's own folder would hide the C library from the C++ one
-    where = [] if glm == "/usr/include" else [f"-isystem={glm}"]
+    root, nvcc = pathlib.Path(sys.argv[1]), sys.argv[2]
     report = Report()
     units = [unit for source in sorted((root / "cuda").glob("*.cu")) for unit in units_of(source)]
     units.append((root / "tests/lint/device_probe.cu", []))
@@ -44,7 +42,7 @@ def main():
             fast = FAST_TIER.match(name)
             exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
             result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines, *where,
+                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines,
                  *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{root / 'lib'}", f"-I{root}", str(source), "-o", str(ptx)],
                 capture_output=True, text=True)
             if result.returncode:

@@ -11,13 +11,13 @@ import rooms
 
 class Comments(unittest.TestCase):
     def test_are_blanked_and_lines_kept(self):
-        text = 'a; // sinf(x)\n/* expf(\n) */ b; f("powf(");\n#include <glm/vec3.hpp>\n#include "glm/x.h"\n'
+        text = 'a; // sinf(x)\n/* expf(\n) */ b; f("powf(");\n#include <a/b.h>\n#include "c/x.h"\n'
         code = lint.without_comments(text)
         self.assertNotIn("sinf", code)
         self.assertNotIn("expf", code)
         self.assertNotIn("powf", code)
-        self.assertIn("<glm/vec3.hpp>", code)
-        self.assertIn('"glm/x.h"', code)
+        self.assertIn("<a/b.h>", code)
+        self.assertIn('"c/x.h"', code)
         self.assertEqual(text.count("\n"), code.count("\n"))
 
 

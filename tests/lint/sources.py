@@ -38,7 +38,6 @@ EPSILON = re.compile(
 
 # header: where it may be included
 LIBRARIES = {
-    "GLM": (r"glm/", lambda path: path == "lib/tandem/math/vec.h"),
     "Embree": (r"embree\d?/", lambda path: path.startswith(("cpu/", BASELINE))),
     "TBB": (r"(?:tbb|oneapi)/", lambda path: path.startswith(("cpu/", BASELINE))),
     "libjpeg": (r"jpeglib\.h", lambda path: path.startswith("lib/tandem/images/")),

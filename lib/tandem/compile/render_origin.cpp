@@ -68,7 +68,7 @@ double snap(double x, double step) { return std::abs(x) < step * 0x1p52 ? std::r
 }  // namespace
 
 void RenderOrigin::add_sphere(const Vec3d& centre, double radius) {
-    add_extent(centre - radius, centre + radius);
+    add_extent(centre - Vec3d(radius), centre + Vec3d(radius));
     const Vec3d to_camera = camera_ - centre;
     const double distance = length(to_camera);
     const double gap = std::abs(distance - radius);

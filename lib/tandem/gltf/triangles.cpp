@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "tandem/base/error.h"
@@ -97,12 +98,11 @@ class TriangleReader {
                             "same",
                             mesh_quantization));
         }
-        constexpr std::size_t width = Vector::length();
+        constexpr int width = std::is_same_v<Vector, Vec2f> ? 2 : 3;
         std::vector<Vector> result(vertices_);
-        for (std::size_t i = 0; i < vertices_; ++i) {
-            for (std::size_t c = 0; c < width; ++c) {
-                result[i][static_cast<typename Vector::length_type>(c)] = values[i * width + c];
-            }
+        std::size_t next = 0;
+        for (Vector& vector : result) {
+            for (int c = 0; c < width; ++c) vector[c] = values[next++];
         }
         return result;
     }

@@ -1,33 +1,71 @@
-/// Vectors: the only include of GLM. GLM brings the type and the component-wise operators; what rounds more than
-/// once (dot, cross, length) is written here, because its order of operations is part of the result.
+/// Vectors of three and of two numbers, or packets of them. The order of operations of what rounds more than once (dot,
+/// cross, length) is part of the result.
 #pragma once
 
 #include "tandem/math/error_free.h"
 #include "tandem/math/inverse_square_root.h"
 
-#define GLM_FORCE_XYZW_ONLY
-#if TANDEM_COMPILING_CUDA
-#include <cuda.h>  // GLM asks for its CUDA_VERSION
-#define GLM_FORCE_CUDA
-#pragma nv_diagnostic push
-#pragma nv_diag_suppress 20012  // GLM marks defaulted functions for the device, which changes nothing
-#else
-#define GLM_FORCE_INLINE
-#endif
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#if TANDEM_COMPILING_CUDA
-#pragma nv_diagnostic pop
-#endif
-
 namespace tandem {
 
-template <class Real>
-using Vec3 = glm::vec<3, Real, glm::defaultp>;
+/// Operators work by component.
+template <class T>
+struct Vec3 {
+    T x, y, z;
+
+    Vec3() = default;
+    TANDEM_HD constexpr Vec3(const T& of_x, const T& of_y, const T& of_z) : x(of_x), y(of_y), z(of_z) {}
+    TANDEM_HD constexpr explicit Vec3(const T& all) : x(all), y(all), z(all) {}
+    /// Each component converted: to a narrower type it is rounded.
+    template <class Other>
+    TANDEM_HD constexpr explicit Vec3(const Vec3<Other>& a)
+        : x(static_cast<T>(a.x)), y(static_cast<T>(a.y)), z(static_cast<T>(a.z)) {}
+
+    TANDEM_HD constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+    TANDEM_HD constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+
+    TANDEM_HD friend constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+    TANDEM_HD friend constexpr Vec3 operator+(const Vec3& a, const Vec3& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    TANDEM_HD friend constexpr Vec3 operator-(const Vec3& a, const Vec3& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    TANDEM_HD friend constexpr Vec3 operator*(const Vec3& a, const Vec3& b) {
+        return {a.x * b.x, a.y * b.y, a.z * b.z};
+    }
+    TANDEM_HD friend constexpr Vec3 operator*(const Vec3& a, const T& b) { return {a.x * b, a.y * b, a.z * b}; }
+    TANDEM_HD friend constexpr Vec3 operator*(const T& a, const Vec3& b) { return {a * b.x, a * b.y, a * b.z}; }
+    TANDEM_HD friend constexpr Vec3 operator/(const Vec3& a, const Vec3& b) {
+        return {a.x / b.x, a.y / b.y, a.z / b.z};
+    }
+    TANDEM_HD friend constexpr Vec3 operator/(const Vec3& a, const T& b) { return {a.x / b, a.y / b, a.z / b}; }
+    TANDEM_HD constexpr Vec3& operator+=(const Vec3& a) { return *this = *this + a; }
+    TANDEM_HD constexpr Vec3& operator-=(const Vec3& a) { return *this = *this - a; }
+    TANDEM_HD constexpr Vec3& operator*=(const Vec3& a) { return *this = *this * a; }
+    TANDEM_HD constexpr Vec3& operator*=(const T& a) { return *this = *this * a; }
+    TANDEM_HD constexpr Vec3& operator/=(const T& a) { return *this = *this / a; }
+    TANDEM_HD friend constexpr bool operator==(const Vec3& a, const Vec3& b) {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+};
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
-template <class Real>
-using Vec2 = glm::vec<2, Real, glm::defaultp>;
+
+template <class T>
+struct Vec2 {
+    T x, y;
+
+    Vec2() = default;
+    TANDEM_HD constexpr Vec2(const T& of_x, const T& of_y) : x(of_x), y(of_y) {}
+
+    TANDEM_HD constexpr T& operator[](int i) { return i == 0 ? x : y; }
+    TANDEM_HD constexpr const T& operator[](int i) const { return i == 0 ? x : y; }
+
+    TANDEM_HD friend constexpr Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
+    TANDEM_HD friend constexpr Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
+    TANDEM_HD friend constexpr Vec2 operator*(const Vec2& a, const T& b) { return {a.x * b, a.y * b}; }
+    TANDEM_HD friend constexpr bool operator==(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
+};
 using Vec2f = Vec2<float>;
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24 && sizeof(Vec2f) == 8,
               "vectors are packed; device buffers rely on it");

@@ -8,7 +8,7 @@
 
 namespace tandem::test {
 
-using LongVector = glm::vec<3, long double, glm::defaultp>;
+using LongVector = Vec3<long double>;
 
 inline LongVector long_vector(const Vec3d& v) { return {v.x, v.y, v.z}; }
 inline LongVector unit(const LongVector& v) {
