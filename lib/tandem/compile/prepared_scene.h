@@ -49,7 +49,8 @@ struct PreparedScene {
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
     EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
-    /// Of the Scene, because no ray hits them: faces without area, and bodies that their transforms hide (scale 0).
+    /// Of the Scene, because no ray hits them: faces without area, bodies that their transforms hide (scale 0), and what
+    /// an alpha mask leaves nothing of.
     std::uint64_t dropped_primitives = 0;
     std::uint64_t dropped_lights = 0;  ///< spot and directional lights that a scale of 0 leaves without direction
 
