@@ -150,7 +150,7 @@ class CpuScene final : public ResidentScene {
                 *indices++ = static_cast<std::uint32_t>(face * floats) + corners[c] * 3U;
             }
         }
-        rtcSetGeometryUserData(geometry.get(), &view_.first_id[id]);
+        rtcSetGeometryUserData(geometry.get(), &view_);
         rtcSetGeometryIntersectFilterFunction(geometry.get(), kernels.filter_nearest);
         rtcSetGeometryOccludedFilterFunction(geometry.get(), kernels.filter_any);
         rtcCommitGeometry(geometry.get());

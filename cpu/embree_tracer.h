@@ -6,6 +6,7 @@
 
 #include "cpu/kernels.h"
 #include "cpu/query_source.h"
+#include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/lanes.h"
 
@@ -74,12 +75,37 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
 
 namespace embree_detail {
 
+/// The primitive that is number `index` of one of Embree's geometries.
+template <class Word>
+TANDEM_HD Word primitive_of(const CpuSceneView& view, const Word& geometry, const Word& index) {
+    return index + select(geometry == Word(embree_triangles), Word(view.first_id[embree_triangles]),
+                          Word(view.first_id[embree_quads]));
+}
+
+/// Is primitive `id` a culled face that the ray hits from behind at `t`, in the lanes of `valid`?
+template <class Real>
+TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, const Double<Real>& t,
+                               const UInt<Real>& id, const Mask<Real>& valid) {
+    Mask<Real> culled(false);
+    if ((scene.cutout_kinds & PrimitiveKinds::faces) == 0) return culled;
+    for_each_value(id, valid, [&](std::uint32_t number, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        visit_primitive<PrimitiveKinds::faces>(scene, number, [&](const auto& face) TANDEM_INLINE_LAMBDA {
+            if (face.attributes.sides != FaceSides::culled) return;
+            culled = culled || (here && surface_point(face, ray, t, Mask<Real>(false), here).from_inside);
+        });
+    });
+    return culled;
+}
+
 /// Which of Embree's hits on its own faces do not count. `s`: their parameter, `id`: their primitive.
 template <Search search, class Real>
-TANDEM_HD Mask<Real> is_excluded(const QueryContext<Real>& query, const Float<Real>& s, const UInt<Real>& id) {
+TANDEM_HD Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real>& query, const Float<Real>& s,
+                                 const UInt<Real>& id, const Mask<Real>& valid) {
     const QuerySource<Real>& source = *query.source;
     if constexpr (search == Search::nearest) {
-        return source.primitive == id || !is_beyond<Real>(source.passed, query.proposal.parameter(s), id);
+        const Double<Real> t = query.proposal.parameter(s);
+        const Mask<Real> excluded = source.primitive == id || !is_beyond<Real>(source.passed, t, id);
+        return source.culls ? excluded || is_culled<Real>(scene, query.filter.ray, t, id, valid) : excluded;
     } else {
         return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);
     }
@@ -94,18 +120,19 @@ TANDEM_HD T load(const void* field) {
 
 }  // namespace embree_detail
 
-/// Embree's filter for hits on its own faces: rejects the face that a ray leaves, and the light that a shadow ray aims
-/// at and everything beyond it.
+/// Embree's filter for hits on its own faces: rejects the face that a ray leaves, the backs of culled faces, and the
+/// light that a shadow ray aims at and everything beyond it.
 template <Search search, class One, class Packet>
 void filter_callback(const RTCFilterFunctionNArguments* args) {
     using embree_detail::is_excluded;
     using embree_detail::load;
-    const std::uint32_t first_id = *static_cast<const std::uint32_t*>(args->geometryUserPtr);
+    const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
     if (args->N == 1) {
         const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
         const auto& query = *reinterpret_cast<const QueryContext<One>*>(args->context);
         const One s(reinterpret_cast<const RTCRay*>(args->ray)->tfar);
-        if (is_excluded<search, One>(query, s, first_id + hit.primID)) args->valid[0] = 0;
+        const std::uint32_t id = embree_detail::primitive_of<std::uint32_t>(view, hit.geomID, hit.primID);
+        if (is_excluded<search, One>(view.scene, query, s, id, true)) args->valid[0] = 0;
         return;
     }
     using Lanes = embree::Packet<Packet::size>;
@@ -113,9 +140,9 @@ void filter_callback(const RTCFilterFunctionNArguments* args) {
     const auto& hit = *reinterpret_cast<const typename Lanes::Hit*>(args->hit);
     const auto& query = *reinterpret_cast<const QueryContext<Packet>*>(args->context);
     const auto s = load<Float<Packet>>(reinterpret_cast<const typename Lanes::Ray*>(args->ray)->tfar);
-    const Word id = Word(first_id) + load<Word>(hit.primID);
+    const Word id = embree_detail::primitive_of<Word>(view, load<Word>(hit.geomID), load<Word>(hit.primID));
     const Mask<Packet> valid(load<typename Mask<Packet>::Vector>(args->valid));
-    const auto kept = (valid && !is_excluded<search, Packet>(query, s, id)).vector();
+    const auto kept = (valid && !is_excluded<search, Packet>(view.scene, query, s, id, valid)).vector();
     std::memcpy(args->valid, &kept, sizeof(kept));
 }
 
@@ -141,7 +168,8 @@ struct EmbreeTracer {
             const std::uint32_t geometry = rayhit.hit.geomID;
             if (geometry != RTC_INVALID_GEOMETRY_ID) {
                 const Real t = query.proposal.parameter(rayhit.ray.tfar);
-                offer<Real>(true, t, view.first_id[geometry] + rayhit.hit.primID, query.best);
+                const auto id = embree_detail::primitive_of<std::uint32_t>(view, geometry, rayhit.hit.primID);
+                offer<Real>(true, t, id, query.best);
             }
         }
         return query.best;
@@ -165,11 +193,9 @@ struct EmbreeTracer {
         if constexpr (is_fast<Real>) {
             using embree_detail::load;
             const auto geometry = load<UInt<Real>>(rayhit.hit.geomID);
-            const UInt<Real> first_id =
-                select(geometry == UInt<Real>(embree_triangles), UInt<Real>(view.first_id[embree_triangles]),
-                       UInt<Real>(view.first_id[embree_quads]));
-            offer<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)),
-                        first_id + load<UInt<Real>>(rayhit.hit.primID), query.best);
+            const auto id =
+                embree_detail::primitive_of<UInt<Real>>(view, geometry, load<UInt<Real>>(rayhit.hit.primID));
+            offer<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)), id, query.best);
         }
         return query.best;
     }

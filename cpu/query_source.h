@@ -5,25 +5,27 @@
 
 namespace tandem {
 
-/// A PathSource that is a ShadowSource too: no hit on `light` counts.
+/// A PathSource that is a ShadowSource too: no hit on `light` counts. For paths, culled faces are not hit from behind.
 template <class Real>
 struct QuerySource : PathSource<Real> {
     UInt<Real> light = UInt<Real>(no_primitive);
+    bool culls = false;
 
     TANDEM_HD QuerySource() = default;
     TANDEM_HD explicit QuerySource(const NoSource&) {}
-    TANDEM_HD explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source) {}
+    TANDEM_HD explicit QuerySource(const Source<Real>& source) : PathSource<Real>{source} {}
+    TANDEM_HD explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source), culls(true) {}
     TANDEM_HD explicit QuerySource(const ShadowSource<Real>& source) : PathSource<Real>{source}, light(source.light) {}
 };
 
 namespace query_detail {
 
-/// first_from() of rays that start on the primitive itself, or that have passed a masked hit.
+/// first_from() of rays that start on the primitive itself, that have passed a masked hit, or that meet a culled face.
 template <class Real, class Primitive>
 TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                                              const PathSource<Real>& source, const Mask<Real>& active,
-                                             const Double<Real>& farthest, Double<Real>& t) {
-    return first_from(source, primitive, id, ray, active, farthest, t);
+                                             const Double<Real>& farthest, Double<Real>& t, bool culls) {
+    return first_from(source, primitive, id, ray, active, farthest, t, culls);
 }
 
 }  // namespace query_detail
@@ -37,10 +39,12 @@ TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const R
         candidate && source.light != number && can_meet<Real, Primitive>(source, id, Mask<Real>(false));
     if (!any(active)) return;
     const Mask<Real> starts_here = source.primitive == number;
+    bool culls = false;
+    if constexpr (is_face<Primitive>) culls = source.culls && primitive.attributes.sides == FaceSides::culled;
     Double<Real> t(0.0);
     Mask<Real> hit;
-    if (any(active && (starts_here || source.passed.t > Double<Real>(0.0)))) {
-        hit = query_detail::first_from_surface<Real>(primitive, id, ray, source, active, best.t, t);
+    if (culls || any(active && (starts_here || source.passed.t > Double<Real>(0.0)))) {
+        hit = query_detail::first_from_surface<Real>(primitive, id, ray, source, active, best.t, t, culls);
     } else {
         hit = first_from(NoSource{}, primitive, id, ray, active, best.t, t);
     }

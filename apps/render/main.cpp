@@ -57,7 +57,6 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         app.add_option("--spp", sequence.job.samples,
                        "samples per pixel; if not given, fewer where large primitives overlap (docs/images.md)")
             ->capture_default_str();
-    app.callback([&sequence, samples] { sequence.fewer_samples = samples->empty(); });
     app.add_option("--seed", sequence.job.seed, "seed of the random numbers")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
@@ -102,9 +101,16 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                    "camera's own number")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
-    app.add_option("--limits", words.limits, "most reflections, refractions and diffuse bounces of a path")
-        ->type_name("R,T,D")
-        ->capture_default_str();
+    auto* const limits =
+        app.add_option("--limits", words.limits,
+                       "most reflections, refractions and diffuse bounces of a path; if not given, fewer where very many "
+                       "large primitives overlap (docs/images.md)")
+            ->type_name("R,T,D")
+            ->capture_default_str();
+    app.callback([&sequence, samples, limits] {
+        sequence.fewer_samples = samples->empty();
+        sequence.shorter_paths = limits->empty() && samples->empty();
+    });
     std::string planes;
     for (const PlaneInfo& info : plane_infos()) planes += std::string("; ") + info.name + ": " + info.help;
     app.add_option("--aov", words.planes,

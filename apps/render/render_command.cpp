@@ -44,13 +44,14 @@ void say_exposure(const FrameRecord& first) {
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 
-/// Why the frames have fewer samples than usual, if they do.
-void say_samples(const FrameRecord& first) {
+/// Why the frames have fewer samples than usual, or shorter paths, if they do.
+void say_work(const FrameRecord& first) {
     if (first.bounds_per_ray == 0) return;
-    const std::string sentence = fmt::format(
-        "{} samples a pixel are taken, because large primitives overlap and a ray crosses the bounds of {:.0f} of "
-        "them; --spp takes another number",
-        first.metadata.samples, first.bounds_per_ray);
+    const std::string paths = fmt::format(", and --limits longer paths than {}", first.metadata.limits);
+    const std::string sentence =
+        fmt::format("samples per pixel: {}, because large primitives overlap and a ray crosses the bounds of {:.0f} of "
+                    "them; --spp takes another number{}",
+                    first.metadata.samples, first.bounds_per_ray, first.has_short_paths ? paths : "");
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 
@@ -67,13 +68,13 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     const auto& exposure = command.sequence.exposure;
     const bool finds_exposure = exposure && exposure->automatic && !command.quiet;
-    bool exposure_is_said = false, samples_are_said = command.quiet;
+    bool exposure_is_said = false, work_is_said = command.quiet;
     ProgressBar progress(total, !command.quiet && stderr_is_terminal());
     const auto on_frame = [&](const FrameRecord& record) {
         progress.advance(!record.skipped);
         progress.clear();
         if (finds_exposure && !std::exchange(exposure_is_said, true)) say_exposure(record);
-        if (!std::exchange(samples_are_said, true)) say_samples(record);
+        if (!std::exchange(work_is_said, true)) say_work(record);
         if (prints_lines) {
             std::puts(frame_line(record).c_str());
             std::fflush(stdout);

@@ -104,7 +104,8 @@ class Sequence {
           format_(format_of(options.output, options.write)),
           write_(options.write),
           samples_(options.job.samples),
-          samples_are_open_(options.fewer_samples),
+          limits_(options.job.limits),
+          work_is_open_(options.fewer_samples || options.shorter_paths),
           exposure_is_open_(options.exposure && options.exposure->automatic && !holds_floats(format_)),
           exposure_rule_(exposure_is_open_ ? automatic_exposure : ""),
           most_writing_(writer_count(options)) {
@@ -152,12 +153,14 @@ class Sequence {
         const PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = options_.effects};
         Stopwatch watch;
         std::optional<PreparedScene> prepared;
-        if (std::exchange(samples_are_open_, false)) prepared = choose_samples(prepare_options);
+        if (std::exchange(work_is_open_, false)) prepared = choose_work(prepare_options);
         job.samples = samples_;
+        job.limits = limits_;
         const FramePlan plan = plan_frame(scene_, prepare_options, job);
         FrameRecord record;
         record.file = pattern_.path(job.frame);
         record.bounds_per_ray = bounds_per_ray_;
+        record.has_short_paths = limits_ != options_.job.limits;
         if (is_blurred(plan)) {
             start_blurred(plan, job, std::move(record));
         } else {
@@ -167,12 +170,13 @@ class Sequence {
     }
 
     /// By the first frame, which comes back prepared.
-    PreparedScene choose_samples(const PrepareOptions& options) {
+    PreparedScene choose_work(const PrepareOptions& options) {
         PreparedScene prepared = prepare(scene_, options);
         const RenderJob& job = options_.job;
         const double bounds = bounds_per_ray(prepared, job.width, job.height);
-        samples_ = affordable_samples(job.samples, bounds);
-        if (samples_ < job.samples) bounds_per_ray_ = bounds;
+        if (options_.fewer_samples) samples_ = affordable_samples(job.samples, bounds);
+        if (options_.shorter_paths) limits_ = affordable_limits(job.limits, job.samples, bounds);
+        if (samples_ < job.samples || limits_ != job.limits) bounds_per_ray_ = bounds;
         return prepared;
     }
 
@@ -314,7 +318,8 @@ class Sequence {
     ImageFormat format_;
     WriteOptions write_;
     int samples_;
-    bool samples_are_open_;  ///< until the first frame is prepared
+    PathLimits limits_;
+    bool work_is_open_;  ///< until the first frame is prepared
     double bounds_per_ray_ = 0;
     bool exposure_is_open_;  ///< until the first frame is there
     std::string exposure_rule_;

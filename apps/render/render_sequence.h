@@ -21,6 +21,7 @@ struct SequenceOptions {
     RenderJob job;  ///< its frame is set for each frame
     /// The job's samples are nobody's wish: scenes whose rays are very much work get fewer (render/ray_cost.h).
     bool fewer_samples = false;
+    bool shorter_paths = false;  ///< the same of the job's limits
     std::string camera;  ///< empty: the first of the scene
     ForcedEffects effects{};
     WriteOptions write;  ///< its display is the scene's, but for these two:
@@ -46,7 +47,8 @@ struct FrameRecord {
     FrameSeconds seconds;
     RenderCounters counters;
     std::size_t nan_values = 0;  ///< EncodedImage
-    double bounds_per_ray = 0;   ///< where fewer samples were taken for it, else 0
+    double bounds_per_ray = 0;   ///< where fewer samples were taken for it, or paths shortened, else 0
+    bool has_short_paths = false;
     // of RenderStats
     std::string variant{};
     EffectMask effects{}, carried{};
@@ -66,7 +68,7 @@ struct FrameRecord {
 /// An automatic exposure is that of the first frame, so that nothing flickers: auto_exposure() of its foreground. If
 /// its file exists and says that its exposure was automatic, it is taken from the file.
 ///
-/// With `fewer_samples` the first frame decides for all how many there are.
+/// With `fewer_samples` or `shorter_paths` the first frame decides for all.
 ///
 /// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible
 /// before the first frame; errors of backends and writers come out as they are. Then files that were written stay,

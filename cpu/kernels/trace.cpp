@@ -41,12 +41,12 @@ TANDEM_HD Ray<Packet> gather_rays(const TraceJob& job, std::size_t first, std::s
 }
 
 template <class Packet>
-TANDEM_HD PathSource<Packet> gather_sources(const TraceJob& job, std::size_t first, std::size_t used) {
+TANDEM_HD Source<Packet> gather_sources(const TraceJob& job, std::size_t first, std::size_t used) {
     using Word = UInt<Packet>;
     if (job.sources.empty()) return {};
     const RaySource* sources = job.sources.data() + first;
-    return {{gather<Word>(used, [&](std::size_t i) { return sources[i].primitive; }),
-             gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U)}};
+    return {gather<Word>(used, [&](std::size_t i) { return sources[i].primitive; }),
+            gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U)};
 }
 
 // The queries of a job, for one ray and for a packet: the nearest hits of rays that start in space, ...
@@ -83,13 +83,13 @@ struct AskNearestFromSurface {
     using Packet = typename Reals::Packet;
     template <class Tracer>
     TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
-        const PathSource<One> source = {to_real<One>(job.sources[i])};
+        const Source<One> source = to_real<One>(job.sources[i]);
         AskNearest<Reals>::write(job, i, tracer.closest(to_real<One>(job.rays[i]), source, active));
     }
     template <class Tracer>
     TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
                                  std::size_t used, const Mask<Packet>& active) {
-        const PathSource<Packet> source = gather_sources<Packet>(job, first, used);
+        const Source<Packet> source = gather_sources<Packet>(job, first, used);
         AskNearest<Reals>::write(job, first, used, tracer.closest(rays, source, active));
     }
 };

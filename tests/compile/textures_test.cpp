@@ -101,6 +101,26 @@ TEST(PrepareTextures, KeepsAMaskThatCutsAndNoOther) {
     EXPECT_TRUE(prepare(scene).textures.materials.empty());
 }
 
+TEST(PrepareTextures, AMaskThatLeavesNothingDropsThePrimitive) {
+    constexpr std::uint32_t faint = 0x40BC0000U;
+    Scene scene = textured_scene(red, faint);
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    const auto counts = [&] {
+        const PreparedScene prepared = prepare(scene);
+        EXPECT_EQ(prepared.material_of.empty(), prepared.dropped_primitives == 1);
+        EXPECT_EQ(prepared.effects.has(Effect::cutouts), !prepared.material_of.empty());
+        return prepared.dropped_primitives;
+    };
+    scene.materials[0].alpha = 0.75F;
+    EXPECT_EQ(counts(), 0U) << "one texel is below the cutoff, one above";
+    scene.materials[0].alpha = 0.5F;
+    EXPECT_EQ(counts(), 0U) << "the other is at the cutoff";
+    scene.materials[0].alpha = 0.49F;
+    EXPECT_EQ(counts(), 1U);
+    scene.materials[0].alpha_mode = AlphaMode::opaque;
+    EXPECT_EQ(prepare(scene).dropped_primitives, 0U);
+}
+
 TEST(PrepareTextures, MovesScalesAndTurns) {
     Scene scene = textured_scene();
     TextureReference& reference = *scene.materials[0].diffuse_texture;

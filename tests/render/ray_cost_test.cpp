@@ -36,5 +36,11 @@ TEST(AffordableSamples, AreInProportionToTheWorkAndOneAtLeast) {
     EXPECT_EQ(affordable_samples(100, 1e9), 1);
 }
 
+TEST(AffordableLimits, AreThoseOfShortPathsWhereOneSampleIsTooMuch) {
+    EXPECT_EQ(affordable_limits({8, 16, 4}, 100, 100 * most_bounds_per_ray), (PathLimits{8, 16, 4}));
+    EXPECT_EQ(affordable_limits({8, 16, 4}, 100, 101 * most_bounds_per_ray), (PathLimits{1, 1, 0}));
+    EXPECT_EQ(affordable_limits({0, 16, 4}, 100, 1e9), (PathLimits{0, 1, 0}));
+}
+
 }  // namespace
 }  // namespace tandem

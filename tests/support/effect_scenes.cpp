@@ -169,6 +169,16 @@ Scene with_lamps(Scene scene) {
     scene.nodes.insert(scene.nodes.end(), {ball, panel});
     return scene;
 }
+/// A ball so small and so far that the point of a shadow ray's target is as coarse as the ball: its surface is often
+/// hit before the ray's end.
+Scene with_star(Scene scene) {
+    const auto number = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back(lamp({4e10F, 3e10F, 2e10F}));
+    Node star{.name = "star", .trs = {.translation = {30, 90, 40}}};
+    star.geometry.push_back({SphereShape{1e-3}, number, {}});
+    scene.nodes.push_back(star);
+    return scene;
+}
 /// The same lamps under pictures: of the sheet at its second set of texture coordinates, some of it beyond the picture.
 Scene with_pictured_lamps() {
     Scene scene = with_lamps(matt_scene());
@@ -298,6 +308,8 @@ std::vector<EffectScene> make_scenes() {
     scenes.push_back({"normal maps", lit(textured(false, true, false), plain), Effect::normal_maps});
     scenes.push_back({"cut-outs", lit(textured(true, true, true), {}),
                       shadows | Effect::textures | Effect::normal_maps | Effect::cutouts});
+    scenes.push_back({"cut-outs under a star", with_star(textured(true, true, true)),
+                      lamps | Effect::textures | Effect::normal_maps | Effect::cutouts});
     scenes.push_back({"round lens", lit(through(matt_scene(), {0.1, 3}), plain), Effect::lens});
     scenes.push_back({"five blades", lit(through(matt_scene(), {0.15, 2.4, 5, 0.3}), plain), Effect::lens});
     scenes.push_back({"lamps", with_lamps(matt_scene()), lamps});

@@ -240,6 +240,10 @@ class Preparer {
     }
 
     void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
+        if (!result_.textures.is_masked_out.empty() && result_.textures.is_masked_out[geometry.material]) {
+            result_.dropped_primitives += primitives_in(geometry.shape);
+            return;
+        }
         if (!std::holds_alternative<MeshShape>(geometry.shape) && is_hidden(world_from_object.linear)) {
             ++result_.dropped_primitives;
             return;

@@ -24,10 +24,16 @@ bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
                        [&](std::uint32_t t) { return (t & bits) == (image.texels[0] & bits); });
 }
 
-std::uint32_t least_alpha(const Image& image) {
-    std::uint32_t least = 255;
-    for (const std::uint32_t texel : image.texels) least = std::min(least, texel >> 24);
-    return least;
+struct AlphaRange {
+    std::uint32_t least = 255, most = 0;
+};
+AlphaRange alphas(const Image& image) {
+    AlphaRange range;
+    for (const std::uint32_t texel : image.texels) {
+        range.least = std::min(range.least, texel >> 24);
+        range.most = std::max(range.most, texel >> 24);
+    }
+    return range;
 }
 
 TextureUse with_transform(const TextureReference& reference, std::uint32_t texture, const CornerSlots& slots) {
@@ -66,7 +72,7 @@ class Preparer {
         const CornerSlots& slots = slots_[index];
         MaterialTextures prepared;
         if (slots.has_colours) prepared.colour_slot = slots.colour_slot();
-        std::uint32_t alpha = 255;  // the least of the texture
+        AlphaRange alpha = {255, 255};  // of the texture
         if (material.alpha_mode == AlphaMode::mask) {
             prepared.alpha = material.alpha;
             prepared.alpha_cutoff = material.alpha_cutoff;
@@ -84,13 +90,14 @@ class Preparer {
             if (facts.has_one_rgba) {
                 prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
             } else if (!one_colour || prepared.alpha_cutoff > 0) {
-                if (prepared.alpha_cutoff > 0) alpha = facts.least_alpha;
+                if (prepared.alpha_cutoff > 0) alpha = facts.alpha;
                 prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
             }
         }
         // beyond the rounding of the kernels' product
-        if (!slots.has_colours &&
-            double{prepared.alpha} * (alpha / 255.0) > double{prepared.alpha_cutoff} * (1 + 1e-6)) {
+        const double cutoff = prepared.alpha_cutoff, rounding = 1e-6;
+        result_.is_masked_out.push_back(double{prepared.alpha} * (alpha.most / 255.0) < cutoff * (1 - rounding));
+        if (!slots.has_colours && double{prepared.alpha} * (alpha.least / 255.0) > cutoff * (1 + rounding)) {
             prepared.alpha = 1;
             prepared.alpha_cutoff = 0;
         }
@@ -109,13 +116,13 @@ class Preparer {
     /// What a look at every texel says.
     struct Facts {
         bool has_one_rgb, has_one_rgba;
-        std::uint32_t least_alpha;
+        AlphaRange alpha;
     };
     /// Many materials may show one image.
     const Facts& facts_of(const Image& image) {
         const auto known = facts_.find(&image);
         if (known != facts_.end()) return known->second;
-        return facts_[&image] = {has_one_colour(image, rgb), has_one_colour(image), least_alpha(image)};
+        return facts_[&image] = {has_one_colour(image, rgb), has_one_colour(image), alphas(image)};
     }
 
     const Image& image_of(const TextureReference& reference) const {

@@ -13,6 +13,8 @@ struct PreparedTextures {
 #define TANDEM_TEXTURE_ARRAY(Type, names) std::vector<Type> names;
 #include "tandem/kernel/texture/texture_arrays.def"
 #undef TANDEM_TEXTURE_ARRAY
+    /// By material, if any has textures: whether its alpha is below its cutoff everywhere. No kernel reads this.
+    std::vector<bool> is_masked_out;
 };
 
 /// The window of the kernels onto the arrays, which must outlive it.

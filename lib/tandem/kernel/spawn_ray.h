@@ -129,7 +129,7 @@ TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = normal;
-    point.from_inside = dot(widen(ray.direction), normal) > D(0.0);
+    point.from_inside = comes_from_behind(ray, normal);
     const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
     const D above = dot(hit - broadcast<D>(v0), normal);
     point.position = to_real<Real>(along<Real>(hit, normal, -above));

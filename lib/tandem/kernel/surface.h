@@ -89,35 +89,19 @@ TANDEM_HD_STEP Vec3<Double<Real>> bent_normal(const SceneView& scene, const Mate
     return select(turned, -bent, bent);
 }
 
-/// Is primitive `id` a face whose back is culled, and does the ray come from behind? `on_face`: whether it is a face at
-/// all.
-template <std::uint32_t kinds, class Real>
-TANDEM_HD Mask<Real> is_culled(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
-                               const Mask<Real>& here, bool& on_face) {
-    Mask<Real> culled(false);
-    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-        if constexpr (is_face<std::decay_t<decltype(body)>>) {
-            on_face = true;
-            if (!may_be_cut_out(kind_of<std::decay_t<decltype(body)>>)) return;
-            if (body.attributes.sides != FaceSides::culled) return;
-            culled = surface_point(body, ray, t, Mask<Real>(false), here).from_inside;
-        }
-    });
-    return culled;
-}
-
 /// Is the surface opaque at `hit`, or masked out, in the lanes of `found`?
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STEP Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                        const Closest<Real>& hit, const Mask<Real>& found) {
     Mask<Real> opaque(true);
     for_each_value(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        bool on_face = false;
-        const Mask<Real> culled = is_culled<kinds>(scene, primitive, ray, hit.t, here, on_face);
-        opaque = opaque && !(here && culled);
         if (!has_textures(scene.textures)) return;
         const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
         if (!(textures.alpha_cutoff > 0.0F)) return;
+        bool on_face = false;
+        visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            on_face = is_face<std::decay_t<decltype(body)>>;
+        });
         const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
         CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
         const Real alpha = base_colour(textures, on_face, values).a;
@@ -201,9 +185,6 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                 textures.metallic_roughness.texture != no_texture) {
                 rough_metal = values.texture(textures.metallic_roughness);
             }
-        }
-        if (Effects::has(Effect::cutouts) && sides == FaceSides::culled) {
-            surface.opaque = surface.opaque && !(here && own.from_inside);
         }
         const PhongMaterial& material = scene.materials[number];
         Vec3<Real> ambient = broadcast<Real>(material.ambient);

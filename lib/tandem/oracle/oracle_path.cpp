@@ -43,7 +43,6 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     const bool double_sided = nearest.surface.sides == FaceSides::double_sided;
     const Optics& optics = scene.optics[vertex.material];
     vertex.shines = !vertex.from_inside || double_sided || optics.unlit != 0;
-    vertex.is_hole = vertex.from_inside && nearest.surface.sides == FaceSides::culled;
     vertex.emission = to_vector(optics.emission);
     if (scene.microfacet_count > 0) {
         vertex.roughness = scene.microfacets[vertex.material].roughness;
@@ -55,8 +54,7 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
         return texture_point(scene, nearest.primitive, vertex.point, nearest.surface, slot);
     };
     vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
-    vertex.is_hole =
-        vertex.is_hole || product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
+    vertex.is_hole = product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
     const Texel facets = sample_texture(scene, textures.metallic_roughness, at(textures.metallic_roughness.slot));
     vertex.roughness *= facets.g;
     vertex.metal *= facets.b;
@@ -89,7 +87,7 @@ bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way,
     const RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
     Passed passed;
     while (true) {
-        const NearestSurface between = nearest_surface(scene, ray, source, except, passed);
+        const NearestSurface between = nearest_surface(scene, ray, source, except, &passed);
         if (between.primitive == no_primitive || between.surface.t >= to) return false;
         if (!vertex_at(scene, ray, between).is_hole) return true;
         passed = {between.surface.t, between.primitive};
@@ -488,21 +486,22 @@ Vector reflect_at_facet(const Reflectances& material, const Vertex& vertex, Vect
 }  // namespace
 
 NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source, std::uint32_t except,
-                               const Passed& passed) {
+                               const Passed* passed) {
     NearestSurface nearest;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         if (id == except) continue;
-        const auto is_beyond = [&](const SurfaceHit& hit) {
-            return hit.t > passed.t || (hit.t == passed.t && id > passed.primitive);
+        const auto counts = [&](const SurfaceHit& hit) {
+            if (passed == nullptr) return true;
+            if (hit.sides == FaceSides::culled && inner(line.direction, hit.facet) > 0) return false;
+            return hit.t > passed->t || (hit.t == passed->t && id > passed->primitive);
         };
         const Start start = id != source.primitive ? Start::anywhere
                             : source.inside        ? Start::leaving_inward
                                                    : Start::leaving_outward;
         auto hit = hit_primitive(scene, id, line, start);
         // what it has met before it may cross once more: a body, or a folded quad
-        if (hit && !is_beyond(*hit) && start == Start::anywhere)
-            hit = hit_primitive(scene, id, line, Start::before_first);
-        if (hit && !is_beyond(*hit)) continue;
+        if (hit && !counts(*hit) && start == Start::anywhere) hit = hit_primitive(scene, id, line, Start::before_first);
+        if (hit && !counts(*hit)) continue;
         // ids ascend, so a tie keeps the lower one
         if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
     }
@@ -515,7 +514,7 @@ void add_first_hit(const SceneView& scene, const CameraView& camera, const Line&
     NearestSurface nearest;
     Vertex vertex{};
     do {
-        nearest = nearest_surface(scene, camera_ray, {}, no_primitive, passed);
+        nearest = nearest_surface(scene, camera_ray, {}, no_primitive, &passed);
         if (nearest.primitive != no_primitive) vertex = vertex_at(scene, camera_ray, nearest);
         passed = {nearest.surface.t, nearest.primitive};
     } while (nearest.primitive != no_primitive && vertex.is_hole);
@@ -543,7 +542,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
     bool was_scattered = false;  // by a diffuse surface, at the vertex before
     bool was_drawn = false;      // then, or by microfacets, what lights with an area bring
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
-        const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, passed);
+        const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, &passed);
         if (nearest.primitive == no_primitive) {
             const bool shows = !was_scattered || scene.environment.illuminates != 0;
             const Vector seen = background_towards(scene, ray.direction);

@@ -53,4 +53,9 @@ int affordable_samples(int samples, double bounds_per_ray) {
     return std::max(1, static_cast<int>(samples * (most_bounds_per_ray / bounds_per_ray)));
 }
 
+PathLimits affordable_limits(const PathLimits& limits, int samples, double bounds_per_ray) {
+    if (!(bounds_per_ray > samples * most_bounds_per_ray)) return limits;
+    return {std::min(limits.reflection, 1U), std::min(limits.refraction, 1U), 0};
+}
+
 }  // namespace tandem

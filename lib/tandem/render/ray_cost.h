@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
+#include "tandem/kernel/path_limits.h"
 
 namespace tandem {
 
@@ -16,5 +17,9 @@ inline constexpr double most_bounds_per_ray = 1'000;
 
 /// As many samples, of `samples` and one at least, as make no more work than those of a scene with most_bounds_per_ray.
 [[nodiscard]] int affordable_samples(int samples, double bounds_per_ray);
+
+/// `limits`, or those of short paths (one reflection, one refraction, no diffuse bounce) where even one sample is more
+/// work than `samples` in a scene with most_bounds_per_ray.
+[[nodiscard]] PathLimits affordable_limits(const PathLimits& limits, int samples, double bounds_per_ray);
 
 }  // namespace tandem

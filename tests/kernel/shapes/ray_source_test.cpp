@@ -145,5 +145,42 @@ TEST(ShadowSource, DoesNotSeeTheLight) {
     EXPECT_TRUE(first_from<float>(source, light, 4, ray, true, HUGE_VAL, t));
 }
 
+/// Where a ray along -z from z = 4 hits a face, as a path's; infinity for a miss.
+template <class Face>
+double first_of_path(const Face& face, bool culls, double passed = 0) {
+    const Ray<float> ray = {{0.125F, 0.5F, 4}, {0, 0, -1}};
+    PathSource<float> source;
+    if (passed > 0) source.passed = {passed, 3};
+    double t = HUGE_VAL;
+    return first_from<float>(source, face, 3, ray, true, HUGE_VAL, t, culls) ? t : HUGE_VAL;
+}
+
+TEST(PathSource, PassesTheBackOfACulledFace) {
+    const Vec3f a{0, 0, 1}, b{1, 0, 1}, c{0, 1, 1};
+    for (const FaceSides sides : {FaceSides::single_sided, FaceSides::double_sided, FaceSides::culled}) {
+        Triangle front = {a, b, c};
+        Triangle back = {a, c, b};
+        front.attributes.sides = back.attributes.sides = sides;
+        for (const bool culls : {false, true}) {
+            EXPECT_EQ(first_of_path(front, culls), 3);
+            EXPECT_EQ(first_of_path(back, culls), culls && sides == FaceSides::culled ? HUGE_VAL : 3);
+        }
+    }
+}
+
+// Folded along the diagonal, the upper half seen from behind, the lower one from the front.
+TEST(PathSource, PassesTheCulledHalfOfAFoldedQuad) {
+    Quad folded = {{-1, -1, 1}, {-1, 1, 2}, {1, 1, 1}, {-1, 1, 0.5F}};
+    folded.attributes.sides = FaceSides::culled;
+    const double upper = first_of_path(folded, false);
+    const double lower = first_of_path(folded, true);
+    ASSERT_LT(upper, lower);
+    EXPECT_EQ(first_of_path(folded, false, upper), lower);
+    EXPECT_EQ(first_of_path(folded, true, upper), lower);
+    EXPECT_EQ(first_of_path(folded, true, lower), HUGE_VAL);
+    folded.attributes.sides = FaceSides::double_sided;
+    EXPECT_EQ(first_of_path(folded, true), upper);
+}
+
 }  // namespace
 }  // namespace tandem

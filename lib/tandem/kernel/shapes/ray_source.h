@@ -201,29 +201,36 @@ TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real>
 }  // namespace source_detail
 
 // A ray may hit a primitive again that it hit before the last masked hit: a solid where it leaves it, a folded quad at
-// its other half.
+// its other half. `culls`: a culled face may be passed from behind.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                Double<Real>& t) {
+                                Double<Real>& t, bool culls) {
     const UInt<Real> number(id);
-    const auto counts = [&](const Double<Real>& at)
-                            TANDEM_INLINE_LAMBDA { return is_beyond<Real>(source.passed, at, number); };
-    if constexpr (std::is_same_v<Primitive, Quad>) {
-        return first_that_counts(primitive, ray, t, active && source.primitive != number, farthest, counts);
+    const Source<Real>& surface = source;
+    if constexpr (is_face<Primitive>) {
+        culls = culls && primitive.attributes.sides == FaceSides::culled;
+        const auto counts = [&](const Double<Real>& at, const Vec3f& b, const Vec3f& c) TANDEM_INLINE_LAMBDA {
+            Mask<Real> hit = is_beyond<Real>(source.passed, at, number);
+            if (culls) hit = hit && !comes_from_behind(ray, geometric_normal<Real>(primitive.v0, b, c));
+            return hit;
+        };
+        if constexpr (std::is_same_v<Primitive, Quad>) {
+            return first_that_counts(primitive, ray, t, active && source.primitive != number, farthest, counts);
+        } else {
+            const Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
+            if (!culls && !any(source.passed.t > Double<Real>(0.0))) [[likely]]
+                return hit;
+            return hit && counts(t, primitive.v1, primitive.v2);
+        }
     } else {
-        const Source<Real>& surface = source;
         Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
         if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
             return hit;
-        if constexpr (std::is_same_v<Primitive, Triangle>) {
-            hit = hit && counts(t);
-        } else {
-            const Mask<Real> before = hit && source.passed.t > Double<Real>(0.0) && !counts(t);
-            if (any(before)) {
-                t = select(before, source_detail::second_crossing<Real>(primitive, ray, before), t);
-                hit = hit && (!before || counts(t));
-            }
+        const auto before = hit && source.passed.t > Double<Real>(0.0) && !is_beyond<Real>(source.passed, t, number);
+        if (any(before)) {
+            t = select(before, source_detail::second_crossing<Real>(primitive, ray, before), t);
+            hit = hit && (!before || is_beyond<Real>(source.passed, t, number));
         }
         return hit;
     }

@@ -388,6 +388,12 @@ TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, 
     }
 }
 
+/// Does a ray come from behind a face? `normal`: its geometric_normal().
+template <class Real>
+TANDEM_HD Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<Real>>& normal) {
+    return dot(widen(ray.direction), normal) > Double<Real>(0.0);
+}
+
 /// Is its area zero, exactly? No ray hits such a triangle.
 [[nodiscard]] TANDEM_HD bool is_degenerate(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     const Vec3d e1 = widen(v1) - widen(v0);

@@ -23,11 +23,14 @@ TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Re
                       const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
     Mask<Real> hit;
-    if constexpr (std::is_same_v<From, PathSource<Real>> && !is_face<Primitive>) {
-        // a body without holes that lies before the last hole would have stopped the ray
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        // a body that rays do not pass, neither through a mask nor as the light of a shadow ray, would have stopped the
+        // ray if it lay before the last hit that was passed
+        const bool culls = may_be_cut_out(kind_of<Primitive>);
+        const bool is_passed = is_face<Primitive> || culls || may_glow(kind_of<Primitive>);
         const Source<Real>& surface = source;
-        hit = may_be_cut_out(kind_of<Primitive>) ? first_from(source, primitive, id, ray, candidate, best.t, t)
-                                                 : first_from(surface, primitive, id, ray, candidate, best.t, t);
+        hit = is_passed ? first_from(source, primitive, id, ray, candidate, best.t, t, culls)
+                        : first_from(surface, primitive, id, ray, candidate, best.t, t);
     } else {
         hit = first_from(source, primitive, id, ray, candidate, best.t, t);
     }
