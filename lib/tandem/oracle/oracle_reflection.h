@@ -1,0 +1,46 @@
+/// What surfaces reflect, after the papers' formulas: Phong, and GGX by angles.
+#pragma once
+
+#include <algorithm>
+
+#include "tandem/oracle/oracle_chance.h"
+#include "tandem/oracle/oracle_vertex.h"
+
+namespace tandem::oracle {
+
+inline Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
+
+/// Phong's reflectances where a path has met a surface; or those of microfacets, without a specular one.
+struct Reflectances {
+    Vector ambient, diffuse, specular;
+    Real shininess;
+    bool has_facets = false;
+    Vector f0{0, 0, 0};  ///< of microfacets: reflectance head-on
+    Real border = 0;     ///< the same of what covers the diffuse base
+    Real alpha = 0;      ///< of GGX
+    Vector to_viewer{};  ///< on the side of the normal for shading
+};
+
+/// At a vertex, on the side that is seen.
+[[nodiscard]] Reflectances reflectances(const SceneView& scene, const Vertex& vertex);
+
+/// GGX by angles, as Walter and others write it; times pi and the cosine of the light.
+[[nodiscard]] Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& l);
+
+/// The share of light from l that comes to the diffuse base and back to the viewer.
+[[nodiscard]] Real uncovered(const Reflectances& material, const Vector& l);
+
+/// Do lights with an area bring light to microfacets by points that are drawn on them? Else paths find them.
+inline bool draws_lights(const Reflectances& material) { return material.alpha > Real(0.3); }
+
+/// Light of unit intensity from the direction l: after the paper's formula, or from microfacets if these are `seen`.
+[[nodiscard]] Vector reflected(const Reflectances& material, const Vertex& vertex, const Vector& l, bool seen = true);
+
+/// Mirrors the path at a normal of GGX, drawn with the density D cos; returns what it carries on, none if it ends.
+[[nodiscard]] Vector reflect_at_facet(const Reflectances& material, const Vertex& vertex, Vector& onward,
+                                      Chance& chance);
+
+/// All that a surface reflects and transmits.
+[[nodiscard]] Vector albedo_of(const SceneView& scene, const Vertex& vertex);
+
+}  // namespace tandem::oracle
