@@ -52,10 +52,11 @@ class Elf {
     [[nodiscard]] std::optional<Elf64_Shdr> section(std::string_view name) const {
         for (std::uint64_t i = 0; i < header_.e_shnum; ++i) {
             const auto found = section(i);
-            if (found && text_at(names_, found->sh_name) == name) return found;
+            if (found && this->name(*found) == name) return found;
         }
         return std::nullopt;
     }
+    [[nodiscard]] std::string_view name(const Elf64_Shdr& section) const { return text_at(names_, section.sh_name); }
     [[nodiscard]] Bytes contents(const Elf64_Shdr& section) const {
         return section.sh_type == SHT_NOBITS ? Bytes{} : part(file_, section.sh_offset, section.sh_size);
     }
@@ -117,6 +118,21 @@ std::optional<CubinFacts> cubin_facts(std::span<const std::byte> cubin, std::str
     facts.code = elf.contents(*code);
     if (facts.code.empty()) return std::nullopt;
     return facts;
+}
+
+std::string_view undefined_variable(std::span<const std::byte> cubin) {
+    const Elf elf(cubin);
+    const auto symbols = elf.section(".symtab");
+    if (!symbols) return {};
+    const Bytes entries = elf.contents(*symbols);
+    std::uint64_t index = 0;
+    while (const auto symbol = read<Elf64_Sym>(entries, index * sizeof(Elf64_Sym))) {
+        const auto section = elf.section(symbol->st_shndx);
+        const bool is_variable = ELF64_ST_TYPE(symbol->st_info) == STT_OBJECT;
+        if (is_variable && section && elf.name(*section) == ".nv.global") return symbol_name(elf, index);
+        ++index;
+    }
+    return {};
 }
 
 }  // namespace tandem::cuda

@@ -54,8 +54,6 @@ std::string load(void* handle, JitLinker& linker) {
     symbols.find("nvJitLinkGetLinkedCubin", linker.cubin);
     symbols.find("nvJitLinkGetErrorLogSize", linker.error_log_size);
     symbols.find("nvJitLinkGetErrorLog", linker.error_log);
-    symbols.find("nvJitLinkGetInfoLogSize", linker.info_log_size);
-    symbols.find("nvJitLinkGetInfoLog", linker.info_log);
     if (!symbols.missing().empty()) return symbols.missing();
     return version(&linker.version.major, &linker.version.minor) == 0 ? "" : "a version";
 }

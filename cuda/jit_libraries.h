@@ -30,8 +30,6 @@ struct JitLinker {
     int (*cubin)(void* handle, void* bytes);
     int (*error_log_size)(void* handle, std::size_t* bytes);
     int (*error_log)(void* handle, char* text);
-    int (*info_log_size)(void* handle, std::size_t* bytes);
-    int (*info_log)(void* handle, char* text);
 };
 
 /// NVRTC. 0 is success.

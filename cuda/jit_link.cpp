@@ -125,15 +125,17 @@ std::vector<std::byte> link(const JitInput& input) {
           "reading its facts");
     check(linker.complete(handle.get()), "linking");
 
-    // some errors leave a result that looks good: a constant in another memory space, or one that nothing defines
+    // some errors leave a result that looks good: a constant in another memory space ...
     if (!log().empty()) fail("linking", 0, log());
-    const std::string remarks = text_of(handle.get(), linker.info_log_size, linker.info_log);
-    if (remarks.find("Unresolved extern") != std::string::npos) fail("linking", 0, remarks);
 
     std::size_t bytes = 0;
     check(linker.cubin_size(handle.get(), &bytes), "fetching the result");
     std::vector<std::byte> cubin(bytes);
     check(linker.cubin(handle.get(), cubin.data()), "fetching the result");
+    // ... or one that nothing defines; the linker's remark on that is not always there
+    if (const auto name = undefined_variable(cubin); !name.empty()) {
+        fail("linking", 0, fmt::format("nothing defines '{}'", name));
+    }
     if (!cubin_facts(cubin, input.kernel)) fail("linking", 0, fmt::format("there is no kernel '{}'", input.kernel));
     return cubin;
 }

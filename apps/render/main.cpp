@@ -35,7 +35,8 @@ struct Words {
     std::string planes;  // empty: the colour alone
     std::string light = "default";
     std::string environment;  // a file; empty: the background of the scene
-    double rotation = 0;      // of its picture, degrees
+    bool indirect = false;
+    double rotation = 0;  // of its picture, degrees
     float intensity = 1;
     std::string backend = "cpu";
     std::string specialise = "always";
@@ -102,9 +103,10 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
     auto* const limits =
-        app.add_option("--limits", words.limits,
-                       "most reflections, refractions and diffuse bounces of a path; if not given, fewer where very many "
-                       "large primitives overlap (docs/images.md)")
+        app.add_option(
+               "--limits", words.limits,
+               "most reflections, refractions and diffuse bounces of a path; if not given, fewer where very many "
+               "large primitives overlap (docs/images.md)")
             ->type_name("R,T,D")
             ->capture_default_str();
     app.callback([&sequence, samples, limits] {
@@ -118,6 +120,8 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                    "beside a .pfm" +
                        planes)
         ->type_name("LIST");
+    app.add_flag("--indirect", words.indirect,
+                 "let surfaces light each other, also where the file does not ask for it; in place of ambient light");
     app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
     app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
@@ -209,6 +213,10 @@ int render(int argc, char** argv) {
                               .aspect = aspect_of({width, height}),
                               .default_light = words.light == "default" && !environment});
     if (environment) light_by(scene, *std::move(environment));
+    if (words.indirect) {
+        scene.environment.indirect = 1;
+        scene.environment.ambient = {0, 0, 0};
+    }
     if (words.instants > 0) set_shutter_instants(scene, words.instants);
     if (!command.quiet) say_what_is_not_rendered(import);
     sequence.frames = frames_of(words, scene);

@@ -123,7 +123,9 @@ TEST_P(EffectBits, OfWhatIsForcedOffAreThoseOfTheSceneWithoutIt) {
             const RenderResult forced = render(prepare_forced(entry.scene, {}, effect));
             EXPECT_FALSE(forced.stats.effects.has(effect)) << entry.name;
             // a kernel that could simulate it does not
-            const RenderResult carried = render(prepare_forced(without_effects(entry.scene, effect), all_effects, {}));
+            const PrepareOptions all = {.effects = {all_effects, {}},
+                                        .settings = without_effects(RenderSettings{}, effect)};
+            const RenderResult carried = render(prepare(without_effects(entry.scene, effect), all));
             EXPECT_EQ(film_hash(forced.film), film_hash(carried.film)) << entry.name << ", " << to_string(effect);
             if (effect == Effect::roulette) continue;      // of paths this short it may end none
             if (effect == Effect::nested_media) continue;  // may change nothing

@@ -161,22 +161,22 @@ INSTANTIATE_TEST_SUITE_P(
              },
              "a key with the rotation (0, 0, 0, 0)"},
         Flaw{"environment", [](Scene& s) { s.environment.top.x = -1; }, "the environment has a colour"},
-        Flaw{"picture without texels",
+        Flaw{"picture_without_texels",
              [](Scene& s) {
                  s.environment_image = EnvironmentImage{{2, 1, {}}};
              },
              "the environment's picture has 2 x 1 texels"},
-        Flaw{"dark picture",
+        Flaw{"dark_picture",
              [](Scene& s) {
                  s.environment_image = EnvironmentImage{{1, 1, {{0, -1, 0}}}};
              },
              "the environment's picture has values"},
-        Flaw{"intensity",
+        Flaw{"picture_intensity",
              [](Scene& s) {
                  s.environment_image = EnvironmentImage{{1, 1, {{1, 1, 1}}}, 0, -1};
              },
              "the environment's picture has an intensity"},
-        Flaw{"rotation",
+        Flaw{"picture_rotation",
              [](Scene& s) {
                  s.environment_image = EnvironmentImage{{1, 1, {{1, 1, 1}}}, HUGE_VAL, 1};
              },

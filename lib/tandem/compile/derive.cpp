@@ -222,14 +222,18 @@ Scene without_effects(Scene scene, EffectMask off) {
     if (off.has(Effect::textures)) {
         for (Mesh& mesh : scene.meshes) mesh.colours.clear();
     }
-    if (off.has(Effect::nested_media)) scene.bodies_lie_apart = true;
-    if (off.has(Effect::area_lights)) scene.area_lights = false;
-    if (off.has(Effect::shadows)) scene.area_light_shadows = false;
     if (off.has(Effect::environment_picture)) scene.environment_image.reset();
     if (off.has(Effect::environment_light)) scene.environment.illuminates = 0;
     if (off.has(Effect::indirect)) scene.environment.indirect = 0;
-    if (off.has(Effect::roulette)) scene.roulette = false;
     return scene;
+}
+
+RenderSettings without_effects(RenderSettings settings, EffectMask off) {
+    if (off.has(Effect::nested_media)) settings.bodies_lie_apart = true;
+    if (off.has(Effect::area_lights)) settings.area_lights = false;
+    if (off.has(Effect::shadows)) settings.area_light_shadows = false;
+    if (off.has(Effect::roulette)) settings.roulette = false;
+    return settings;
 }
 
 }  // namespace tandem

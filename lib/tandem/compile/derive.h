@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tandem/compile/prepared_scene.h"
+#include "tandem/compile/render_settings.h"
 #include "tandem/effects/effects.h"
 #include "tandem/scene/scene.h"
 
@@ -25,8 +26,9 @@ inline constexpr EffectMask host_effects = Effect::motion_blur;
 
 [[nodiscard]] EffectMask mask_of(const std::vector<EffectNeed>& needs);
 
-/// The scene without what needs these effects: its lights cast no shadows, its mirrors and dielectrics are gone, and so
-/// on. This is how an effect is forced off: the kernels then have nothing to leave out.
+/// The scene, and the settings, without what needs these effects: lights cast no shadows, mirrors and dielectrics are
+/// gone, and so on. This is how an effect is forced off: the kernels then have nothing to leave out.
 [[nodiscard]] Scene without_effects(Scene scene, EffectMask off);
+[[nodiscard]] RenderSettings without_effects(RenderSettings settings, EffectMask off);
 
 }  // namespace tandem

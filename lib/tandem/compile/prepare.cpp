@@ -115,7 +115,8 @@ void make_unlit(PhongMaterial& phong, Optics& optics) {
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, const PrepareOptions& options) : scene_(scene), options_(options) {}
+    Preparer(const Scene& scene, const PrepareOptions& options)
+        : scene_(scene), options_(options), settings_(without_effects(options.settings, options.effects.off)) {}
 
     PreparedScene run() {
         result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
@@ -149,14 +150,14 @@ class Preparer {
         join_kinds();
         result_.copies = find_copies(result_);
         find_what_glows_and_refracts();
-        result_.area_light_shadows = scene_.area_light_shadows;
+        result_.area_light_shadows = settings_.area_light_shadows;
         for (const MaterialTextures& material : result_.textures.materials) {
             result_.several_slots = result_.several_slots || reads_several_slots(material);
         }
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
-        if (scene_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
-        if (scene_.bodies_lie_apart) result_.media_overlap = false;
+        if (settings_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
+        if (settings_.bodies_lie_apart) result_.media_overlap = false;
         result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;
         return std::move(result_);
     }
@@ -175,7 +176,7 @@ class Preparer {
     void find_what_glows_and_refracts() {
         const auto find = [this](PreparedScene& scene) {
             find_media(scene);
-            if (scene_.area_lights) find_area_lights(scene);
+            if (settings_.area_lights) find_area_lights(scene);
         };
         if (result_.copies.empty()) return find(result_);
         PreparedScene traced = without_copies(result_);
@@ -496,6 +497,7 @@ class Preparer {
 
     const Scene& scene_;
     const PrepareOptions& options_;
+    const RenderSettings settings_;
     std::vector<Transform> world_from_node_;
     std::vector<Ball> balls_;
     std::vector<Block> blocks_;

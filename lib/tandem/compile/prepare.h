@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tandem/compile/prepared_scene.h"
+#include "tandem/compile/render_settings.h"
 #include "tandem/effects/names.h"
 #include "tandem/scene/scene.h"
 
@@ -16,6 +17,7 @@ struct PrepareOptions {
     std::optional<Vec3d> origin{};  ///< of render space, in world space; empty: chosen for precision (RenderOrigin)
     ForcedEffects effects{};        ///< forced on, or forced off even if the scene needs them
     std::optional<double> time{};   ///< seconds: an instant instead of the frame's time, with the shutter closed
+    RenderSettings settings{};
 };
 
 /// Throws InputError with the list of validate() if that is not empty.

@@ -21,7 +21,7 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
                                    ray.to_light, to_viewer);
     if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
         const auto value = facets_light<Real>(surface, point, ray.intensity, ray.to_light, to_viewer, Real(1.0F),
-                                              Double<Real>(1.0F), Mask<Real>(false));
+                                              Double<Real>(1.0F), FollowedLobes<Real>());
         result.reflected = select(surface.has_microfacets, value, result.reflected);
     }
     if (Effects::has(Effect::shadows)) {
@@ -35,10 +35,9 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
 }
 
 /// The sum over all lights, with the ambient term, at `position` in the lanes of `found`. `point`: the same on the
-/// surface, for shadow rays. `followed`: the lobes that the path may follow here, and
-/// then hit lights by itself. With indirect light, each vertex samples one light (LightChoice). One loop
-/// covers all kinds of lights, so that a kernel starts shadow rays in one place. `rays` counts
-/// them.
+/// surface, for shadow rays. `followed`: the lobes that the path may follow here, and then hit lights by itself. With
+/// indirect light, each vertex samples one light (LightChoice). One loop covers all kinds of lights, so that a kernel
+/// starts shadow rays in one place. `rays` counts them.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const Surface<Real>& surface,
                                      const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer,

@@ -108,7 +108,7 @@ TANDEM_HD Vec3<Real> light_by_sample(const SceneView& scene, const Surface<Real>
                              direction, to_viewer);
     if (Effects::has(Effect::microfacets) && any(surface.has_microfacets)) {
         const auto of_facets =
-            facets_light<Real>(surface, point, radiance * scale, direction, to_viewer, share, pdf, followed.glossy);
+            facets_light<Real>(surface, point, radiance * scale, direction, to_viewer, share, pdf, followed);
         value = select(surface.has_microfacets, of_facets, value);
     }
     return value;

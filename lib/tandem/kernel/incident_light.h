@@ -26,6 +26,7 @@ template <class Real>
 struct FollowedLobes {
     Mask<Real> diffuse = Mask<Real>(false);
     Mask<Real> glossy = Mask<Real>(false);
+    Real glossy_chance = Real(1.0F);  ///< with which it follows that of microfacets
 };
 
 /// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/bsdf/metallic_roughness.h"
+#include "tandem/kernel/incident_light.h"
 #include "tandem/kernel/sampler/mis.h"
 #include "tandem/kernel/surface.h"
 #include "tandem/math/frame.h"
@@ -35,19 +36,19 @@ TANDEM_HD FacetView<Real> view_facets(const Surface<Real>& surface, const Surfac
 
 /// What the surface makes of light from one direction: pi f cos times `light`, so that a diffuse reflectance is as
 /// bright as Phong's. `diffuse_share`: of the diffuse part that counts. The glossy part shares the light with paths
-/// that go on, in the lanes of `follows`: the direction was drawn with density `pdf`.
+/// that follow its lobe, in the lanes of `followed`: the direction was sampled with density `pdf`.
 template <class Real>
 TANDEM_HD_STEP Vec3<Real> facets_light(const Surface<Real>& surface, const SurfacePoint<Real>& point,
                                        const Vec3<Real>& light, const Vec3<Double<Real>>& to_light,
                                        const Vec3<Double<Real>>& to_viewer, const Real& diffuse_share,
-                                       const Double<Real>& pdf, const Mask<Real>& follows) {
+                                       const Double<Real>& pdf, const FollowedLobes<Real>& followed) {
     using D = Double<Real>;
     const FacetView<Real> view = view_facets(surface, point, to_viewer);
     const Vec3<D> wi = to_frame(view.frame, to_light);
     Real glossy_share(1.0F);
-    if (any(follows)) {
-        const D other = view.lobes.specular.pdf(view.wo, wi);
-        glossy_share = select(follows, to_real<Real>(power_heuristic(pdf, other)), glossy_share);
+    if (any(followed.glossy)) {
+        const D other = view.lobes.specular.pdf(view.wo, wi) * widen(followed.glossy_chance);
+        glossy_share = select(followed.glossy, to_real<Real>(power_heuristic(pdf, other)), glossy_share);
     }
     const Vec3<Real> f =
         view.lobes.specular.f(view.wo, wi) * glossy_share + view.lobes.diffuse.f(view.wo, wi) * diffuse_share;

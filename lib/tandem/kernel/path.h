@@ -6,6 +6,7 @@
 #include "tandem/kernel/direct_light.h"
 #include "tandem/kernel/path_limits.h"
 #include "tandem/kernel/scatter.h"
+#include "tandem/kernel/shape.h"
 
 namespace tandem {
 
@@ -42,7 +43,8 @@ TANDEM_HD_STEP void step_to_vertex(const SceneView& scene, const Ray<Real>& ray,
 /// Method: both densities of the power heuristic belong to the point that the direction was sampled from, `drawn_at`.
 /// The ray starts a little above a face, and from there a near light is larger. So the light is scaled by the ratio of
 /// its projected solid angles, as seen from `drawn_at` and from the ray's origin. For microfacets,
-/// whose lobe is no longer known, the density is that with which the direction was sampled.
+/// whose lobe is no longer known, the density is that with which the direction was sampled, the choice of the lobe
+/// included.
 template <class Effects, class Real>
 TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real, true>& path, const Closest<Real>& hit,
                           const SurfacePoint<Real>& point, const Mask<Real>& glows) {
@@ -166,6 +168,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     Vec3<D> to_viewer;
     Mask<Real> holes(false);
     FollowedLobes<Real> followed;
+    Real glossy(0.0F);
     if (any(found)) {
         step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
         to_viewer = -normalize(widen(path.ray.direction));
@@ -185,7 +188,10 @@ requires(can_bounce<Effects>()) TANDEM_HD
         take_transmitted<Effects>(vertex.surface, meeting);
         followed.diffuse = meeting.is_front && path.scatterings < UInt<Real>(limits.diffuse);
         if (Effects::has(Effect::microfacets)) {
+            glossy = glossy_weight<Effects>(vertex.surface, vertex.point, meeting, found);
             followed.glossy = vertex.surface.has_microfacets && path.reflections < UInt<Real>(limits.reflection);
+            const Real total = lobe_weights<Effects>(scene, vertex.surface, meeting, glossy).total();
+            followed.glossy_chance = select(glossy > Real(0.0F), glossy / total, Real(1.0F));
         }
     }
 
@@ -201,7 +207,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     }
     path.alive = found;
     const Mask<Real> lost =
-        scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, meeting, path);
+        scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, meeting, glossy, path);
     tally.lost_media = tally.lost_media + select(lost, UInt<Real>(1U), UInt<Real>(0U));
     if (Effects::has(Effect::cutouts) && any(holes)) pass_through(hit, holes, path);
 }

@@ -115,9 +115,43 @@ TANDEM_HD_STEP LobeSample<Real> sample_facets(const Surface<Real>& surface, cons
     return drawn;
 }
 
+/// How much of the light each lobe of a vertex reflects or transmits, about: a path follows each with a chance in
+/// proportion.
+template <class Real>
+struct LobeWeights {
+    Real mirror, glass, glossy, matt;
+
+    /// A surface of one kind is chosen with the probability 1, exactly.
+    [[nodiscard]] TANDEM_HD Real total() const { return ((mirror + glass) + glossy) + matt; }
+};
+
+/// That of the microfacets, in the lanes of `active`.
+template <class Effects, class Real>
+TANDEM_HD Real glossy_weight(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                             const Meeting<Real>& meeting, const Mask<Real>& active) {
+    const Real zero(0.0F);
+    if (!Effects::has(Effect::microfacets) || !any(active && surface.has_microfacets)) return zero;
+    const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
+    return select(view.shows, scatter_detail::largest(view.lobes.specular.albedo(view.wo)), zero);
+}
+
+template <class Effects, class Real>
+TANDEM_HD LobeWeights<Real> lobe_weights(const SceneView& scene, const Surface<Real>& surface,
+                                         const Meeting<Real>& meeting, const Real& glossy) {
+    using scatter_detail::largest;
+    const Real zero(0.0F);
+    LobeWeights<Real> weights = {zero, zero, glossy, zero};
+    if (Effects::has(Effect::reflection)) weights.mirror = largest(surface.mirror);
+    if (Effects::has(Effect::refraction)) weights.glass = surface.transmission;
+    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
+        weights.matt = select(meeting.is_front, largest(surface.diffuse), zero);
+    }
+    return weights;
+}
+
 /// Chooses how a path continues: by mirror reflection, by a dielectric, by reflection from microfacets or, with
 /// indirect light, by diffuse scattering. The probability of each is proportional to its share of the light, so for a
-/// surface of one kind only the Fresnel reflectance is random. Lanes that do not continue leave path.alive; lanes not
+/// surface of one kind only the Fresnel reflectance is random. `glossy`: the glossy_weight(). Lanes that do not continue leave path.alive; lanes not
 /// in it stay as they are. Returns the lanes whose media are lost (Border).
 ///
 /// Paths carry L / n^2, which interfaces leave unchanged; a camera in air sees L.
@@ -125,7 +159,7 @@ TANDEM_HD_STEP LobeSample<Real> sample_facets(const Surface<Real>& surface, cons
 template <class Effects, class Real>
 TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
                                   const UInt<Real>& vertex, const Surface<Real>& surface,
-                                  const SurfacePoint<Real>& point, const Meeting<Real>& meeting,
+                                  const SurfacePoint<Real>& point, const Meeting<Real>& meeting, const Real& glossy,
                                   PathState<Effects, Real, true>& path) {
     using D = Double<Real>;
     using Word = UInt<Real>;
@@ -133,17 +167,8 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     const Real zero(0.0F);
     const Word one(1U);
     Mask<Real> lost(false);
-    const Real mirror = Effects::has(Effect::reflection) ? largest(surface.mirror) : zero;
-    const Real glass = Effects::has(Effect::refraction) ? surface.transmission : zero;
-    Real matt = zero;
-    if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
-        matt = select(meeting.is_front, largest(surface.diffuse), zero);
-    }
-    Real glossy = zero;
-    if (Effects::has(Effect::microfacets) && any(path.alive && surface.has_microfacets)) {
-        const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
-        glossy = select(view.shows, largest(view.lobes.specular.albedo(view.wo)), zero);
-    }
+    const LobeWeights<Real> weights = lobe_weights<Effects>(scene, surface, meeting, glossy);
+    const Real &mirror = weights.mirror, &glass = weights.glass, &matt = weights.matt;
     path.alive = path.alive && (mirror > zero || glass > zero || glossy > zero || matt > zero);
     const Mask<Real> active = path.alive;
     if (!any(active)) return lost;
@@ -152,8 +177,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     if (Effects::has_any(Effect::refraction | Effect::indirect | Effect::microfacets)) {
         random = sample.block_at_vertex(Dimension::scatter, vertex);
     }
-    // a surface of one kind is chosen with the probability 1, exactly
-    const Real total = ((mirror + glass) + glossy) + matt;
+    const Real total = weights.total();
     const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
     const Mask<Real> takes_mirror =
         path.alive && mirror > zero && (place < mirror || (glass == zero && glossy == zero && matt == zero));
@@ -197,7 +221,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     if (Effects::has(Effect::microfacets) && any(takes_glossy)) {
         const LobeSample<Real> drawn = sample_facets(surface, point, meeting, sample, vertex);
         direction = select(takes_glossy, drawn.wi, direction);
-        path.pdf = select(takes_glossy, -drawn.pdf, path.pdf);
+        path.pdf = select(takes_glossy, -(drawn.pdf * widen(chance)), path.pdf);
         const Vec3<Real> weight = {drawn.weight.x / chance, drawn.weight.y / chance, drawn.weight.z / chance};
         path.throughput = select(takes_glossy, path.throughput * weight, path.throughput);
         const Mask<Real> below = takes_glossy && !(drawn.valid && dot(direction, meeting.facing) > D(0.0));

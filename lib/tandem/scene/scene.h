@@ -180,10 +180,6 @@ struct Scene {
     std::optional<EnvironmentImage> environment_image{};  ///< takes the place of the gradient
     Display display{};                                    ///< of 8-bit pictures; no part of what is rendered
     double frames_per_second = 24;
-    bool area_lights = true;         ///< sample points of emissive surfaces; without it only paths find them
-    bool area_light_shadows = true;  ///< also of the background
-    bool roulette = true;            ///< play Russian roulette with long paths, where there is indirect light
-    bool bodies_lie_apart = false;   ///< take bodies of glass for apart, even if they touch or hold one another
 };
 
 /// For all cameras of the scene: at how many instants of its interval a shutter sees, at most.

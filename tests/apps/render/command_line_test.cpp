@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 
 #include "support/temporary_folder.h"
 #include "tandem/base/version.h"
+#include "tandem/base/whole_file.h"
 #include "tandem/images/image_io.h"
 
 namespace tandem {
@@ -103,6 +106,27 @@ TEST(CommandLine, LightsByAPicture) {
     EXPECT_EQ(run.printed.find("no light"), std::string::npos) << run.printed;
     const FloatImage film = read_image(out).image;
     for (const Vec3f& pixel : film.pixels) EXPECT_EQ(pixel, Vec3f(2, 4, 8));
+}
+
+// A file that asks for indirect light, and the same without that line.
+TEST(CommandLine, AsksForIndirectLight) {
+    const test::TemporaryFolder folder;
+    std::ifstream stored(std::string(TANDEM_SOURCE_DIR) + "/assets/scenes/metals.gltf");
+    std::string text((std::istreambuf_iterator<char>(stored)), std::istreambuf_iterator<char>());
+    const auto hash_of = [&](const char* name, const std::string& options) {
+        write_file(folder.file(name), text);
+        const Finished run =
+            tandem_render("'" + folder.file(name) + "' --size 8x7 --spp 1 -o '" + folder.file("a.pfm") + "'" + options);
+        EXPECT_EQ(run.status, 0) << run.printed;
+        const std::size_t at = run.printed.find("frame 0  ");
+        return at == std::string::npos ? run.printed : run.printed.substr(at + 9, 64);
+    };
+    const std::string with = hash_of("with.gltf", "");
+    const std::size_t at = text.find("\"indirect\": true");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 16, "\"indirect\": false");
+    EXPECT_NE(hash_of("without.gltf", " --force"), with);
+    EXPECT_EQ(hash_of("without.gltf", " --force --indirect"), with);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ const Vec3f white = {1, 1, 1};
 template <class Real>
 Real highlight(const Real& shininess, const Vec3<Double<Real>>& normal, const Vec3<Double<Real>>& to_light,
                const Vec3<Double<Real>>& to_viewer) {
-    return phong_light<Real>(broadcast<Real>(black), broadcast<Real>(white), shininess, white, normal, to_light,
-                             to_viewer)
+    return phong_light<Real>(broadcast<Real>(black), broadcast<Real>(white), shininess, broadcast<Real>(white), normal,
+                             to_light, to_viewer)
         .x;
 }
 
