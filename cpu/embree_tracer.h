@@ -88,7 +88,7 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, con
                                const UInt<Real>& id, const Mask<Real>& valid) {
     Mask<Real> culled(false);
     if ((scene.cutout_kinds & PrimitiveKinds::faces) == 0) return culled;
-    for_each_value(id, valid, [&](std::uint32_t number, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(id, valid, [&](std::uint32_t number, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         visit_primitive<PrimitiveKinds::faces>(scene, number, [&](const auto& face) TANDEM_INLINE_LAMBDA {
             if (face.attributes.sides != FaceSides::culled) return;
             culled = culled || (here && surface_point(face, ray, t, Mask<Real>(false), here).from_inside);
@@ -169,7 +169,7 @@ struct EmbreeTracer {
             if (geometry != RTC_INVALID_GEOMETRY_ID) {
                 const Real t = query.proposal.parameter(rayhit.ray.tfar);
                 const auto id = embree_detail::primitive_of<std::uint32_t>(view, geometry, rayhit.hit.primID);
-                offer<Real>(true, t, id, query.best);
+                keep_nearest<Real>(true, t, id, query.best);
             }
         }
         return query.best;
@@ -195,7 +195,7 @@ struct EmbreeTracer {
             const auto geometry = load<UInt<Real>>(rayhit.hit.geomID);
             const auto id =
                 embree_detail::primitive_of<UInt<Real>>(view, geometry, load<UInt<Real>>(rayhit.hit.primID));
-            offer<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)), id, query.best);
+            keep_nearest<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)), id, query.best);
         }
         return query.best;
     }
@@ -205,7 +205,7 @@ struct EmbreeTracer {
     [[nodiscard]] TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
                                           const QuerySource<Real>& source, bool active) const {
         QueryContext<Real> query;
-        query.best = before<Real>(t_max);
+        query.best = closest_starting_at<Real>(t_max);
         query.source = &source;
         if (!start(query, ray, active, false)) return false;
         const float limit = to_plain(query.proposal.limit(t_max));
@@ -222,7 +222,7 @@ struct EmbreeTracer {
         using Real = Lanes<T, Isa>;
         using F = Float<Real>;
         QueryContext<Real> query;
-        query.best = before<Real>(t_max);
+        query.best = closest_starting_at<Real>(t_max);
         query.source = &source;
         if (!start(query, ray, active, true)) return LaneMask<Isa>(false);
         const F limit = query.proposal.limit(t_max);

@@ -30,10 +30,10 @@ TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::ui
 
 }  // namespace query_detail
 
-/// decide() as a call: it has so many callers that the compiler would take minutes to inline it everywhere.
+/// test_primitive() as a call: it has so many callers that the compiler would take minutes to inline it everywhere.
 template <class Real, class Primitive>
-TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
-                           const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {
+TANDEM_HD_CALL void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
+                                   const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {
     const UInt<Real> number(id);
     const Mask<Real> active =
         candidate && source.light != number && can_meet<Real, Primitive>(source, id, Mask<Real>(false));
@@ -48,7 +48,7 @@ TANDEM_HD_CALL void decide(const Primitive& primitive, std::uint32_t id, const R
     } else {
         hit = first_from(NoSource{}, primitive, id, ray, active, best.t, t);
     }
-    offer<Real>(hit, t, number, best);
+    keep_nearest<Real>(hit, t, number, best);
 }
 
 }  // namespace tandem

@@ -10,7 +10,7 @@
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
-#include "tandem/kernel/traversal/few_tracer.h"
+#include "tandem/kernel/traversal/constant_memory_tracer.h"
 #include "tandem/kernel/view/scene_view.h"
 #include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
@@ -20,15 +20,15 @@ namespace tandem::cuda {
 /// A scene in device memory.
 struct DeviceSceneView {
     SceneView scene;
-    BvhView bvh;    ///< without nodes for a scene of few primitives, which are tested one by one
-    FewTracer few;  ///< filled for a scene that fits_few_tracer()
+    BvhView bvh;               ///< without nodes for a scene of few primitives, which are tested one by one
+    ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory()
 };
 
 /// How the primitives of a scene are found, by the tracers' names.
 enum class Structure { few, loop, bvh };
 [[nodiscard]] inline Structure structure_of(const DeviceSceneView& view) {
     if (view.bvh.nodes != nullptr) return Structure::bvh;
-    return fits_few_tracer(view.scene) ? Structure::few : Structure::loop;
+    return fits_constant_memory(view.scene) ? Structure::few : Structure::loop;
 }
 
 struct KernelFacts {

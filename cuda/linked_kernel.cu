@@ -2,8 +2,8 @@
 // way to find primitives (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go
 // through the code of the others.
 //
-// TANDEM_SHORT_PATHS is defined for paths of one vertex: without gathering_effects. Their code fits into the caches for
-// it, and TANDEM_HD_SHARED is inline.
+// TANDEM_SHORT_PATHS is defined for paths of one vertex: without synchronising_effects. Their code fits into the caches
+// for it, and TANDEM_HD_SHARED is inline.
 #include "cuda/linked_facts.h"
 
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
@@ -20,7 +20,7 @@ namespace tandem::cuda {
 /// What the facts say, in the place of an EffectSet.
 struct LinkedEffects {
 #if defined(TANDEM_SHORT_PATHS)
-    static constexpr EffectMask most = all_effects - gathering_effects;
+    static constexpr EffectMask most = all_effects - synchronising_effects;
 #else
     static constexpr EffectMask most = all_effects;
 #endif

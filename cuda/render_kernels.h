@@ -8,7 +8,7 @@
 namespace tandem::cuda {
 
 template <class Effects>
-inline constexpr bool has_queue = Effects::most.has_any(gathering_effects);
+inline constexpr bool has_queue = Effects::most.has_any(synchronising_effects);
 
 template <class Effects, class Real, class Tracer>
 __global__ void __launch_bounds__(has_queue<Effects> ? queue_threads : block_threads,

@@ -31,7 +31,7 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
-/// Pixels from a queue, for all others (gathering_effects): a thread that is done takes the next. The threads of a
+/// Pixels from a queue, for all others (synchronising_effects): a thread that is done takes the next. The threads of a
 /// block synchronise before each vertex, because the code of a vertex is larger than the instruction caches: so
 /// the instructions are fetched once for all warps (docs/performance.md). Which thread has which pixel changes no
 /// bit.

@@ -43,7 +43,7 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
 }
 
 /// Are they kernels for long paths? Their threads take pixels from a queue, a block together.
-bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(gathering_effects); }
+bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(synchronising_effects); }
 
 /// More lights than these are a loop whose length is no constant: it would not be unrolled.
 constexpr std::uint32_t most_linked_lights = 4;

@@ -16,7 +16,7 @@ namespace tandem::cuda {
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
-static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(gathering_effects),
+static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchronising_effects),
               "the kernels of long paths have files of their own");
 
 template <class Real>

@@ -6,9 +6,9 @@
 
 Needs a Python with the packages mitsuba, numpy and pillow. Materials become Mitsuba's `principled`. Its metals are
 ours: GGX with alpha = roughness^2 and Schlick's approximation. Its dielectrics are not: `principled` has Disney's
-diffuse lobe, ours is Lambert's under a border. `--metals` sets every metallic factor to 1 and takes the
-metallic-roughness textures away, so that the models are the same. Both follow light that surfaces reflect. The mean of
-each channel and their ratio are printed.
+diffuse lobe, ours is Lambert's under a dielectric boundary. `--metals` sets every metallic factor to 1 and takes the
+metallic-roughness textures away, so that the models are the same. Both follow light that surfaces reflect. Over the
+pixels that show the object, the mean of each channel and their ratio are printed.
 """
 
 import argparse
@@ -143,8 +143,7 @@ def shape_of(gltf, primitive, world, bsdf, emission):
         normals = attributes["NORMAL"] @ np.linalg.inv(world[:3, :3])
         parameters["vertex_normals"] = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).astype(np.float32).ravel()
     if "TEXCOORD_0" in attributes:
-        # Mitsuba counts rows from below
-        parameters["vertex_texcoords"] = (attributes["TEXCOORD_0"] * [1, -1] + [0, 1]).astype(np.float32).ravel()
+        parameters["vertex_texcoords"] = attributes["TEXCOORD_0"].astype(np.float32).ravel()
     parameters.update()
     return mesh, vertices
 
@@ -182,10 +181,10 @@ def write_with_camera(gltf, path, eye, target, yfov):
 
 def read_pfm(path):
     with open(path, "rb") as file:
-        assert file.readline() == b"PF\n"
+        channels = 3 if file.readline() == b"PF\n" else 1
         width, height = map(int, file.readline().split())
         file.readline()
-        return np.frombuffer(file.read(), "<f4").reshape(height, width, 3)[::-1]
+        return np.frombuffer(file.read(), "<f4").reshape(height, width, channels)[::-1]
 
 
 def to_srgb(linear):
@@ -240,12 +239,13 @@ def main():
         file, film = os.path.join(folder, "scene.gltf"), os.path.join(folder, "film.pfm")
         write_with_camera(gltf, file, eye, target, options.yfov)
         command = [options.render, file, "-o", film, "--size", options.size, "--spp", str(options.spp), "--indirect",
-                   "--light", "none", "--limits", "5,5,5"]
+                   "--light", "none", "--limits", "5,5,5", "--aov", "depth"]
         subprocess.run(command + (["--env", options.env] if options.env else []), check=True)
         ours = read_pfm(film)
+        is_hit = np.isfinite(read_pfm(os.path.join(folder, "film.depth.pfm"))[:, :, 0])
 
     for channel, name in enumerate(("red", "green", "blue")):
-        a, b = ours[:, :, channel].mean(), theirs[:, :, channel].mean()
+        a, b = ours[is_hit, channel].mean(), theirs[is_hit, channel].mean()
         print(f"{name}: Tandem {a:.5f}, Mitsuba {b:.5f}, ratio {a / b:.4f}")
     picture = to_srgb(np.concatenate([ours, theirs], axis=1))
     Image.fromarray((picture * 255 + 0.5).astype(np.uint8)).save(options.output)

@@ -186,7 +186,7 @@ void report_sequences(const PaperMeasurements& m, Report& report) {
         report.counters += sequence.times.counters;
         const bool enough = sequence.times.render_share() >= least_render_share;
         report.blocks.emplace_back(Callout{enough ? Callout::Kind::good : Callout::Kind::note,
-                                           fmt::format("{}: {}", sequence.label, what_holds_it_back(sequence.times))});
+                                           fmt::format("{}: {}", sequence.label, describe_bottleneck(sequence.times))});
         report.properties.emplace_back("render share, " + sequence.label,
                                        fmt::format("{}", sequence.times.render_share()));
     }

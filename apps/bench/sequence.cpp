@@ -143,7 +143,7 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
     return times;
 }
 
-std::string what_holds_it_back(const SequenceTimes& times) {
+std::string describe_bottleneck(const SequenceTimes& times) {
     struct Load {
         double seconds;
         const char* name;

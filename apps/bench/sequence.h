@@ -48,6 +48,6 @@ struct SequenceTimes {
                                             const SequenceOptions& options);
 
 /// The bottleneck of the sequence, in a sentence with the figures.
-[[nodiscard]] std::string what_holds_it_back(const SequenceTimes& times);
+[[nodiscard]] std::string describe_bottleneck(const SequenceTimes& times);
 
 }  // namespace tandem::bench

@@ -94,8 +94,8 @@ class TargetRun {
         result.measured = png.render_share();
         result.shown = format_share(result.measured);
         result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
-        report_.blocks.emplace_back(Paragraph{"PNG files: " + what_holds_it_back(png)});
-        report_.blocks.emplace_back(Paragraph{"PPM text instead: " + what_holds_it_back(text)});
+        report_.blocks.emplace_back(Paragraph{"PNG files: " + describe_bottleneck(png)});
+        report_.blocks.emplace_back(Paragraph{"PPM text instead: " + describe_bottleneck(text)});
     }
 
   private:

@@ -3,7 +3,7 @@
 
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
-#include "cpu/path_pool.h"
+#include "cpu/path_sorter.h"
 #include "cpu/tile_pixels.h"
 
 namespace tandem {
@@ -36,7 +36,7 @@ TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const Pixel
                        Vec3d* sums) {
     TileStats stats;
     TilePixels<Real> pixels(tile);
-    PathPool<Effects, Real> pool;
+    PathSorter<Effects, Real> pool;
     do {
         pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) TANDEM_INLINE_LAMBDA {
             const Mask<Real> taken = pixels.next(free, x, y);

@@ -12,7 +12,7 @@
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
-#include "tandem/kernel/traversal/few_tracer.h"
+#include "tandem/kernel/traversal/constant_memory_tracer.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -193,7 +193,7 @@ TEST(Bvh, HoldsOnePrimitive) {
     EXPECT_EQ(structure.tracer().closest(Ray<float>{{0, 3, -3}, {0, 0, 1}}, NoSource{}, true).primitive, no_primitive);
 }
 
-TEST(FewTracer, GivesTheBitsOfTheLoop) {
+TEST(ConstantMemoryTracer, GivesTheBitsOfTheLoop) {
     for (const std::uint32_t boxes : {0U, 1U, 4U}) {
         PreparedScene scene = test::make_scene({"few", 1, 0, 1, 32}, 7 + boxes);
         scene.spheres.resize(8 - boxes);
@@ -202,8 +202,8 @@ TEST(FewTracer, GivesTheBitsOfTheLoop) {
         scene.parallelepipeds.clear();
         scene.material_of.resize(scene.spheres.size() + scene.boxes.size());
         const SceneView scene_view = view(scene);
-        ASSERT_TRUE(fits_few_tracer(scene_view));
-        const FewTracer few = make_few_tracer(scene_view, scene_view);
+        ASSERT_TRUE(fits_constant_memory(scene_view));
+        const ConstantMemoryTracer few = make_constant_memory_tracer(scene_view, scene_view);
         const LoopTracer one_by_one = {scene_view};
         for (const Ray<float>& ray : test::make_rays(scene, 50'000, 8)) {
             if (!is_traceable(ray)) continue;
@@ -211,10 +211,10 @@ TEST(FewTracer, GivesTheBitsOfTheLoop) {
             if (HasFatalFailure()) return;
         }
     }
-    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("spheres/9")))));
-    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("mixed/4")))));
-    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("triangles/1")))));
-    EXPECT_FALSE(fits_few_tracer(view(prepare(named_scene("quads/1")))));
+    EXPECT_FALSE(fits_constant_memory(view(prepare(named_scene("spheres/9")))));
+    EXPECT_FALSE(fits_constant_memory(view(prepare(named_scene("mixed/4")))));
+    EXPECT_FALSE(fits_constant_memory(view(prepare(named_scene("triangles/1")))));
+    EXPECT_FALSE(fits_constant_memory(view(prepare(named_scene("quads/1")))));
 }
 
 TEST(BvhDefects, AreFound) {

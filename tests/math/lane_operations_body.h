@@ -88,8 +88,8 @@ TANDEM_HD UInt<Real> low_word(const UInt<Real>& a, const UInt<Real>& b) {
 }
 
 /// The bodies and the faces between them use most of what geometry does.
-template <class Real, class Meeting>
-TANDEM_HD Double<Real> first_parameter(const Meeting& meeting) {
+template <class Real, class ShadingFrame>
+TANDEM_HD Double<Real> first_parameter(const ShadingFrame& meeting) {
     Double<Real> t;
     const auto hit = first_in_front<Real>(meeting, t);
     return select(hit, t, Double<Real>(-1.0));

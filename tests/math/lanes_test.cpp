@@ -87,7 +87,7 @@ TEST(Lanes, ForEachValueVisitsEveryActiveLaneOnce) {
                             Word::from([&](int i) { return static_cast<std::uint32_t>(pattern >> i & 1); }) == Word(1U);
         int visits[4] = {};
         std::uint32_t seen = 0;
-        for_each_value(values, active, [&](std::uint32_t value, const LaneMask<Sse4>& here) {
+        for_each_unique_lane(values, active, [&](std::uint32_t value, const LaneMask<Sse4>& here) {
             ASSERT_EQ(seen >> value & 1U, 0U) << "value " << value << " came twice";
             seen |= 1U << value;
             for (int i = 0; i < 4; ++i) {

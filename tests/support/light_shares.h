@@ -1,8 +1,8 @@
-/// How often LightChoice takes a light, over all numbers that it may draw.
+/// How often LightReservoir takes a light, over all numbers that it may draw.
 #pragma once
 
 #include "support/sequence_start.h"
-#include "tandem/kernel/light_choice.h"
+#include "tandem/kernel/light_reservoir.h"
 
 namespace tandem::test {
 
@@ -20,7 +20,7 @@ template <class Real>
 double chance_of_second(Real first, Real second) {
     constexpr std::uint32_t most = (1U << 24) - 1;
     const auto is_taken = [&](std::uint32_t high, std::uint32_t middle, std::uint32_t low) {
-        LightChoice<Real> choice(sequence_start(high << 8, middle << 8, low << 8, 12345));
+        LightReservoir<Real> choice(sequence_start(high << 8, middle << 8, low << 8, 12345));
         choice.offer(light_of<Real>({first, Real(0), Real(0)}, 0));
         choice.offer(light_of<Real>({second, Real(0), Real(0)}, 1));
         return choice.chosen().primitive == 1;

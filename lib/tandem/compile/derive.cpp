@@ -229,7 +229,7 @@ Scene without_effects(Scene scene, EffectMask off) {
 }
 
 RenderSettings without_effects(RenderSettings settings, EffectMask off) {
-    if (off.has(Effect::nested_media)) settings.bodies_lie_apart = true;
+    if (off.has(Effect::nested_media)) settings.solids_are_disjoint = true;
     if (off.has(Effect::area_lights)) settings.area_lights = false;
     if (off.has(Effect::shadows)) settings.area_light_shadows = false;
     if (off.has(Effect::roulette)) settings.roulette = false;

@@ -1,10 +1,10 @@
 /// Direct light at a vertex of a path, and what the surface reflects of it.
 #pragma once
 
-#include "tandem/kernel/block.h"
+#include "tandem/kernel/area_light_sampling.h"
+#include "tandem/kernel/block_barrier.h"
 #include "tandem/kernel/bsdf/phong.h"
-#include "tandem/kernel/glow.h"
-#include "tandem/kernel/light_choice.h"
+#include "tandem/kernel/light_reservoir.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shadow.h"
 #include "tandem/kernel/surroundings.h"
@@ -36,8 +36,8 @@ TANDEM_HD IncidentLight<Real> punctual_light(const PunctualLight& light, const S
 
 /// The sum over all lights, with the ambient term, at `position` in the lanes of `found`. `point`: the same on the
 /// surface, for shadow rays. `followed`: the lobes that the path may follow here, and then hit lights by itself. With
-/// indirect light, each vertex samples one light (LightChoice). One loop covers all kinds of lights, so that a kernel
-/// starts shadow rays in one place. `rays` counts them.
+/// indirect light, each vertex samples one light (LightReservoir). One loop covers all kinds of lights, so that a
+/// kernel starts shadow rays in one place. `rays` counts them.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const Surface<Real>& surface,
                                      const Vec3<Double<Real>>& position, const Vec3<Double<Real>>& to_viewer,
@@ -58,7 +58,7 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     const std::uint32_t punctual = Effects::light_count(scene.light_count);
     const std::uint32_t count = punctual + (area ? 1U : 0U) + (sky ? 1U : 0U);
     const bool by_chance = indirect && count > 1;
-    LightChoice<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : PhiloxBlock<UInt<Real>>{});
+    LightReservoir<Real> choice(by_chance ? light_choice<Real>(sample, vertex) : PhiloxBlock<UInt<Real>>{});
     // one more iteration, for the chosen light: so shadow rays start in one place
     for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
         IncidentLight<Real> light = {black, black};

@@ -76,7 +76,7 @@ TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView&
             Vertex<Real> vertex;
             step_to_vertex<FirstHitEffects, Tracer::kinds>(scene, path.ray, path.source, hit, found, vertex);
             add(vertex.surface, hit, found && vertex.surface.opaque, sample == 0, hits);
-            pass_through(hit, found && !vertex.surface.opaque, path);
+            continue_through_mask(hit, found && !vertex.surface.opaque, path);
         }
     }
     return hits;

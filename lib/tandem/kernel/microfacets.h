@@ -38,10 +38,10 @@ TANDEM_HD FacetView<Real> view_facets(const Surface<Real>& surface, const Surfac
 /// bright as Phong's. `diffuse_share`: of the diffuse part that counts. The glossy part shares the light with paths
 /// that follow its lobe, in the lanes of `followed`: the direction was sampled with density `pdf`.
 template <class Real>
-TANDEM_HD_STEP Vec3<Real> facets_light(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                                       const Vec3<Real>& light, const Vec3<Double<Real>>& to_light,
-                                       const Vec3<Double<Real>>& to_viewer, const Real& diffuse_share,
-                                       const Double<Real>& pdf, const FollowedLobes<Real>& followed) {
+TANDEM_HD_STAGE Vec3<Real> facets_light(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                        const Vec3<Real>& light, const Vec3<Double<Real>>& to_light,
+                                        const Vec3<Double<Real>>& to_viewer, const Real& diffuse_share,
+                                        const Double<Real>& pdf, const FollowedLobes<Real>& followed) {
     using D = Double<Real>;
     const FacetView<Real> view = view_facets(surface, point, to_viewer);
     const Vec3<D> wi = to_frame(view.frame, to_light);
@@ -58,8 +58,8 @@ TANDEM_HD_STEP Vec3<Real> facets_light(const Surface<Real>& surface, const Surfa
 
 /// pi f of the diffuse lobe: its reflectance less what the border above it takes.
 template <class Real>
-TANDEM_HD_STEP Vec3<Real> coated_reflectance(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                                             const Vec3<Double<Real>>& to_light, const Vec3<Double<Real>>& to_viewer) {
+TANDEM_HD_STAGE Vec3<Real> coated_reflectance(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                              const Vec3<Double<Real>>& to_light, const Vec3<Double<Real>>& to_viewer) {
     const FacetView<Real> view = view_facets(surface, point, to_viewer);
     return view.lobes.diffuse.f(view.wo, to_frame(view.frame, to_light)) * constant<Real>(pi);
 }

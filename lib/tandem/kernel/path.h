@@ -2,7 +2,7 @@
 /// neither code nor state.
 #pragma once
 
-#include "tandem/kernel/block.h"
+#include "tandem/kernel/block_barrier.h"
 #include "tandem/kernel/direct_light.h"
 #include "tandem/kernel/path_limits.h"
 #include "tandem/kernel/scatter.h"
@@ -32,17 +32,17 @@ TANDEM_HD void find_vertex(const SceneView& scene, const Ray<Real>& ray, const F
 }
 /// The same as a step of a path that is long.
 template <class Effects, std::uint32_t kinds, class Real, class From>
-TANDEM_HD_STEP void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                   const Closest<Real>& hit, const Mask<Real>& found, Vertex<Real>& vertex) {
+TANDEM_HD_STAGE void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                    const Closest<Real>& hit, const Mask<Real>& found, Vertex<Real>& vertex) {
     find_vertex<Effects, kinds>(scene, ray, source, hit, found, vertex);
 }
 
 /// The weight of the emission that a path finds on a surface, in the lanes of `glows`: the rest was sampled from the
 /// lights at the vertex before. `point`: where the path has hit the surface.
 ///
-/// Method: both densities of the power heuristic belong to the point that the direction was sampled from, `drawn_at`.
-/// The ray starts a little above a face, and from there a near light is larger. So the light is scaled by the ratio of
-/// its projected solid angles, as seen from `drawn_at` and from the ray's origin. For microfacets,
+/// Method: both densities of the power heuristic belong to the point that the direction was sampled from,
+/// `sampled_from`. The ray starts a little above a face, and from there a near light is larger. So the light is scaled
+/// by the ratio of its projected solid angles, as seen from `sampled_from` and from the ray's origin. For microfacets,
 /// whose lobe is no longer known, the density is that with which the direction was sampled, the choice of the lobe
 /// included.
 template <class Effects, class Real>
@@ -56,8 +56,8 @@ TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real,
     if (scene.area_light_count == 0 || !any(shared)) return whole;
     const D zero(0.0);
     const D one(1.0);
-    const Vec3<D> drawn_at = widen(path.drawn_at);
-    const Vec3<D> raised = widen(path.ray.origin) - drawn_at;  // along the normal, if at all
+    const Vec3<D> sampled_from = widen(path.sampled_from);
+    const Vec3<D> raised = widen(path.ray.origin) - sampled_from;  // along the normal, if at all
     const Vec3<D> along = widen(path.ray.direction);
     const Vec3<D> way = {raised.x + hit.t * along.x, raised.y + hit.t * along.y, raised.z + hit.t * along.z};
     const D inverse = inverse_square_root(dot(way, way));
@@ -73,7 +73,7 @@ TANDEM_HD Real seen_share(const SceneView& scene, const PathState<Effects, Real,
     const D brighter = select(glossy, one, seen_cosine / cosine);
     const D growth = (brighter * turned) * (shorter * shorter);
     const D bounded = select(growth < D(2.0), greater(growth, zero), D(2.0));
-    const D other = area_light_pdf<Real>(scene, hit.primitive, drawn_at, direction, shared);
+    const D other = area_light_pdf<Real>(scene, hit.primitive, sampled_from, direction, shared);
     const D pdf = select(glossy, -path.pdf, cosine_hemisphere_pdf(seen_cosine));
     const D share = power_heuristic(pdf, other) * bounded;
     return select(shared, to_real<Real>(share), whole);
@@ -148,7 +148,7 @@ requires(!can_bounce<Effects>()) TANDEM_HD
 /// what they contribute is added to `radiance`. Paths that end are no longer alive. `Effects`: what is simulated
 /// (effects/effects.h); what the scene needs beyond it is left out, and what it does not need changes no bit in strict
 /// and precise. `Tracer` is a LoopTracer (kernel/traversal/intersect.h) or has its functions, and `kinds`, the
-/// PrimitiveKinds that it finds. On a GPU all threads of a block call this together (kernel/block.h).
+/// PrimitiveKinds that it finds. On a GPU all threads of a block call this together (kernel/block_barrier.h).
 template <class Effects, class Real, class Tracer>
 requires(can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
@@ -164,7 +164,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     gather_block<Effects>();
     if (!any(found) && !keeps_together<Effects>()) return;
     Vertex<Real> vertex;
-    Meeting<Real> meeting;
+    ShadingFrame<Real> shading;
     Vec3<D> to_viewer;
     Mask<Real> holes(false);
     FollowedLobes<Real> followed;
@@ -172,8 +172,8 @@ requires(can_bounce<Effects>()) TANDEM_HD
     if (any(found)) {
         step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
         to_viewer = -normalize(widen(path.ray.direction));
-        meeting = meet(vertex.surface, vertex.point, to_viewer);
-        const Mask<Real> in_glass = meeting.from_inside && vertex.surface.transmission > Real(0.0F);
+        shading = make_shading_frame(vertex.surface, vertex.point, to_viewer);
+        const Mask<Real> in_glass = shading.from_inside && vertex.surface.transmission > Real(0.0F);
         path.absorb(scene, hit.t, select(in_glass, vertex.surface.material, UInt<Real>(no_medium)), found);
         holes = found && !vertex.surface.opaque;
         if (Effects::has(Effect::cutouts)) found = found && !holes;
@@ -185,12 +185,12 @@ requires(can_bounce<Effects>()) TANDEM_HD
                 Mask<Real>(Effects::has(Effect::indirect)) && vertex.surface.unlit && path.pdf > D(0.0);
             radiance = select(found && !dark, radiance + path.throughput * (vertex.surface.emission * share), radiance);
         }
-        take_transmitted<Effects>(vertex.surface, meeting);
-        followed.diffuse = meeting.is_front && path.scatterings < UInt<Real>(limits.diffuse);
+        reduce_by_transmission<Effects>(vertex.surface, shading);
+        followed.diffuse = shading.is_front && path.scatterings < UInt<Real>(limits.diffuse);
         if (Effects::has(Effect::microfacets)) {
-            glossy = glossy_weight<Effects>(vertex.surface, vertex.point, meeting, found);
+            glossy = glossy_weight<Effects>(vertex.surface, vertex.point, shading, found);
             followed.glossy = vertex.surface.has_microfacets && path.reflections < UInt<Real>(limits.reflection);
-            const Real total = lobe_weights<Effects>(scene, vertex.surface, meeting, glossy).total();
+            const Real total = lobe_weights<Effects>(scene, vertex.surface, shading, glossy).total();
             followed.glossy_chance = select(glossy > Real(0.0F), glossy / total, Real(1.0F));
         }
     }
@@ -207,9 +207,9 @@ requires(can_bounce<Effects>()) TANDEM_HD
     }
     path.alive = found;
     const Mask<Real> lost =
-        scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, meeting, glossy, path);
+        scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, shading, glossy, path);
     tally.lost_media = tally.lost_media + select(lost, UInt<Real>(1U), UInt<Real>(0U));
-    if (Effects::has(Effect::cutouts) && any(holes)) pass_through(hit, holes, path);
+    if (Effects::has(Effect::cutouts) && any(holes)) continue_through_mask(hit, holes, path);
 }
 
 }  // namespace tandem

@@ -37,7 +37,7 @@ struct PathState<Effects, Real, true> {
     UInt<Real> holes = UInt<Real>(0U);
     /// Of `ray`'s direction, 1/sr, if a diffuse surface sampled it; negative, if microfacets did; else 0.
     Double<Real> pdf = Double<Real>(0.0);
-    Vec3<Real> drawn_at{};  ///< the point for which they did; `ray` may start a little above it
+    Vec3<Real> sampled_from{};  ///< the point for which they did; `ray` may start a little above it
     Media media;
 
     /// Of no path yet.
@@ -80,7 +80,7 @@ struct PathState<Effects, Real, true> {
     }
     /// Those of scenes with cutouts, and of scenes that combine paths and area lights.
     TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
-    TANDEM_HD auto per_lane_of_lights() { return std::tie(drawn_at.x, drawn_at.y, drawn_at.z); }
+    TANDEM_HD auto per_lane_of_lights() { return std::tie(sampled_from.x, sampled_from.y, sampled_from.z); }
 
     /// Over the segment of `ray` from the last masked hit to t, in the lanes of `active`. `own`: the medium that the
     /// path is in if solids are disjoint.

@@ -14,7 +14,7 @@ namespace tandem {
 
 /// The shading frame at a hit.
 template <class Real>
-struct Meeting {
+struct ShadingFrame {
     Vec3<Double<Real>> direction;  ///< of the ray, unit
     Vec3<Double<Real>> normal;     ///< shading normal, on the ray's side
     Vec3<Double<Real>> facing;     ///< geometric normal, on the ray's side
@@ -31,30 +31,30 @@ TANDEM_HD constexpr bool has_choice() {
 }
 
 template <class Real>
-TANDEM_HD Meeting<Real> meet(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                             const Vec3<Double<Real>>& to_viewer) {
+TANDEM_HD ShadingFrame<Real> make_shading_frame(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                                const Vec3<Double<Real>>& to_viewer) {
     using D = Double<Real>;
-    Meeting<Real> meeting;
-    meeting.direction = -to_viewer;
-    meeting.from_inside = point.from_inside;
-    meeting.facing = select(meeting.from_inside, -point.normal, point.normal);
-    const Mask<Real> away = dot(meeting.direction, surface.normal) > D(0.0);
-    meeting.normal = select(away, -surface.normal, surface.normal);
-    meeting.is_front = !away;
-    return meeting;
+    ShadingFrame<Real> shading;
+    shading.direction = -to_viewer;
+    shading.from_inside = point.from_inside;
+    shading.facing = select(shading.from_inside, -point.normal, point.normal);
+    const Mask<Real> away = dot(shading.direction, surface.normal) > D(0.0);
+    shading.normal = select(away, -surface.normal, surface.normal);
+    shading.is_front = !away;
+    return shading;
 }
 
 /// Reduces Phong's terms by the fraction that the dielectric takes of the light, and removes highlights on the inside
 /// of solids.
 template <class Effects, class Real>
-TANDEM_HD void take_transmitted(Surface<Real>& surface, const Meeting<Real>& meeting) {
+TANDEM_HD void reduce_by_transmission(Surface<Real>& surface, const ShadingFrame<Real>& shading) {
     if (!Effects::has(Effect::refraction)) return;
     const Real zero(0.0F);
     if (!any(surface.transmission > zero)) return;
     const Real scattered = Real(1.0F) - surface.transmission;
     surface.ambient = surface.ambient * scattered;
     surface.diffuse = surface.diffuse * scattered;
-    const Mask<Real> within = meeting.from_inside && surface.transmission > zero;
+    const Mask<Real> within = shading.from_inside && surface.transmission > zero;
     surface.specular = select(within, Vec3<Real>{zero, zero, zero}, surface.specular);
 }
 
@@ -67,20 +67,20 @@ TANDEM_HD Real largest(const Vec3<Real>& a) {
 
 /// Mirrored at the shading normal; at the geometric one where that would lead through the surface.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> mirrored(const Meeting<Real>& meeting) {
-    const Vec3<Double<Real>> direction = reflect(meeting.direction, meeting.normal);
-    const Mask<Real> through = !(dot(direction, meeting.facing) > Double<Real>(0.0));
+TANDEM_HD Vec3<Double<Real>> mirrored(const ShadingFrame<Real>& shading) {
+    const Vec3<Double<Real>> direction = reflect(shading.direction, shading.normal);
+    const Mask<Real> through = !(dot(direction, shading.facing) > Double<Real>(0.0));
     if (!any(through)) return direction;
-    return select(through, reflect(meeting.direction, meeting.facing), direction);
+    return select(through, reflect(shading.direction, shading.facing), direction);
 }
 
 /// As refract(), at the shading normal; at the geometric one where that would not lead through the surface.
 template <class Real>
-TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<Real>& eta) {
-    Refraction<Real> result = refract<Real>(meeting.direction, meeting.normal, eta);
-    const Mask<Real> back = result.transmits && !(dot(result.direction, meeting.facing) < Double<Real>(0.0));
+TANDEM_HD Refraction<Real> refracted(const ShadingFrame<Real>& shading, const Double<Real>& eta) {
+    Refraction<Real> result = refract<Real>(shading.direction, shading.normal, eta);
+    const Mask<Real> back = result.transmits && !(dot(result.direction, shading.facing) < Double<Real>(0.0));
     if (!any(back)) return result;
-    const Refraction<Real> other = refract<Real>(meeting.direction, meeting.facing, eta);
+    const Refraction<Real> other = refract<Real>(shading.direction, shading.facing, eta);
     result.transmits = select(back, other.transmits, result.transmits);
     result.direction = select(back, other.direction, result.direction);
     result.cosine_in = select(back, other.cosine_in, result.cosine_in);
@@ -92,7 +92,8 @@ TANDEM_HD Refraction<Real> refracted(const Meeting<Real>& meeting, const Double<
 
 /// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `holes`.
 template <class Effects, class Real>
-TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, PathState<Effects, Real, true>& path) {
+TANDEM_HD void continue_through_mask(const Closest<Real>& hole, const Mask<Real>& holes,
+                                     PathState<Effects, Real, true>& path) {
     using Word = UInt<Real>;
     path.source.passed.t = select(holes, hole.t, path.source.passed.t);
     path.source.passed.primitive = select(holes, hole.primitive, path.source.passed.primitive);
@@ -102,11 +103,11 @@ TANDEM_HD void pass_through(const Closest<Real>& hole, const Mask<Real>& holes, 
 
 /// A direction in which microfacets reflect a path, world space.
 template <class Real>
-TANDEM_HD_STEP LobeSample<Real> sample_facets(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                                              const Meeting<Real>& meeting, const SampleId<Real>& sample,
-                                              const UInt<Real>& vertex) {
+TANDEM_HD_STAGE LobeSample<Real> sample_facets(const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                               const ShadingFrame<Real>& shading, const SampleId<Real>& sample,
+                                               const UInt<Real>& vertex) {
     using D = Double<Real>;
-    const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
+    const FacetView<Real> view = view_facets(surface, point, -shading.direction);
     const auto random = sample.block_at_vertex(Dimension::microfacets, vertex);
     LobeSample<Real> drawn = view.lobes.specular.sample(
         view.wo,
@@ -119,57 +120,57 @@ TANDEM_HD_STEP LobeSample<Real> sample_facets(const Surface<Real>& surface, cons
 /// proportion.
 template <class Real>
 struct LobeWeights {
-    Real mirror, glass, glossy, matt;
+    Real mirror, glass, glossy, diffuse;
 
     /// A surface of one kind is chosen with the probability 1, exactly.
-    [[nodiscard]] TANDEM_HD Real total() const { return ((mirror + glass) + glossy) + matt; }
+    [[nodiscard]] TANDEM_HD Real total() const { return ((mirror + glass) + glossy) + diffuse; }
 };
 
 /// That of the microfacets, in the lanes of `active`.
 template <class Effects, class Real>
 TANDEM_HD Real glossy_weight(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                             const Meeting<Real>& meeting, const Mask<Real>& active) {
+                             const ShadingFrame<Real>& shading, const Mask<Real>& active) {
     const Real zero(0.0F);
     if (!Effects::has(Effect::microfacets) || !any(active && surface.has_microfacets)) return zero;
-    const FacetView<Real> view = view_facets(surface, point, -meeting.direction);
+    const FacetView<Real> view = view_facets(surface, point, -shading.direction);
     return select(view.shows, scatter_detail::largest(view.lobes.specular.albedo(view.wo)), zero);
 }
 
 template <class Effects, class Real>
 TANDEM_HD LobeWeights<Real> lobe_weights(const SceneView& scene, const Surface<Real>& surface,
-                                         const Meeting<Real>& meeting, const Real& glossy) {
+                                         const ShadingFrame<Real>& shading, const Real& glossy) {
     using scatter_detail::largest;
     const Real zero(0.0F);
     LobeWeights<Real> weights = {zero, zero, glossy, zero};
     if (Effects::has(Effect::reflection)) weights.mirror = largest(surface.mirror);
     if (Effects::has(Effect::refraction)) weights.glass = surface.transmission;
     if (Effects::has(Effect::indirect) && scene.environment.indirect != 0) {
-        weights.matt = select(meeting.is_front, largest(surface.diffuse), zero);
+        weights.diffuse = select(shading.is_front, largest(surface.diffuse), zero);
     }
     return weights;
 }
 
 /// Chooses how a path continues: by mirror reflection, by a dielectric, by reflection from microfacets or, with
 /// indirect light, by diffuse scattering. The probability of each is proportional to its share of the light, so for a
-/// surface of one kind only the Fresnel reflectance is random. `glossy`: the glossy_weight(). Lanes that do not continue leave path.alive; lanes not
-/// in it stay as they are. Returns the lanes whose media are lost (Border).
+/// surface of one kind only the Fresnel reflectance is random. `glossy`: the glossy_weight(). Lanes that do not
+/// continue leave path.alive; lanes not in it stay as they are. Returns the lanes whose media are lost (Interface).
 ///
 /// Paths carry L / n^2, which interfaces leave unchanged; a camera in air sees L.
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
 template <class Effects, class Real>
-TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
-                                  const UInt<Real>& vertex, const Surface<Real>& surface,
-                                  const SurfacePoint<Real>& point, const Meeting<Real>& meeting, const Real& glossy,
-                                  PathState<Effects, Real, true>& path) {
+TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                                   const UInt<Real>& vertex, const Surface<Real>& surface,
+                                   const SurfacePoint<Real>& point, const ShadingFrame<Real>& shading,
+                                   const Real& glossy, PathState<Effects, Real, true>& path) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     using namespace scatter_detail;
     const Real zero(0.0F);
     const Word one(1U);
     Mask<Real> lost(false);
-    const LobeWeights<Real> weights = lobe_weights<Effects>(scene, surface, meeting, glossy);
-    const Real &mirror = weights.mirror, &glass = weights.glass, &matt = weights.matt;
-    path.alive = path.alive && (mirror > zero || glass > zero || glossy > zero || matt > zero);
+    const LobeWeights<Real> weights = lobe_weights<Effects>(scene, surface, shading, glossy);
+    const Real &mirror = weights.mirror, &glass = weights.glass, &diffuse = weights.diffuse;
+    path.alive = path.alive && (mirror > zero || glass > zero || glossy > zero || diffuse > zero);
     const Mask<Real> active = path.alive;
     if (!any(active)) return lost;
 
@@ -180,24 +181,24 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     const Real total = weights.total();
     const Real place = has_choice<Effects>() ? to_unit_interval<Real>(random.word[0]) * total : zero;
     const Mask<Real> takes_mirror =
-        path.alive && mirror > zero && (place < mirror || (glass == zero && glossy == zero && matt == zero));
+        path.alive && mirror > zero && (place < mirror || (glass == zero && glossy == zero && diffuse == zero));
     const Mask<Real> takes_glass =
-        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || (glossy == zero && matt == zero));
+        path.alive && !takes_mirror && glass > zero && (place < mirror + glass || (glossy == zero && diffuse == zero));
     const Mask<Real> takes_glossy = path.alive && !takes_mirror && !takes_glass && glossy > zero &&
-                                    (place < (mirror + glass) + glossy || matt == zero);
-    const Mask<Real> takes_matt = path.alive && !takes_mirror && !takes_glass && !takes_glossy;
-    const Real share = select(takes_glass, glass, select(takes_glossy, glossy, matt));
+                                    (place < (mirror + glass) + glossy || diffuse == zero);
+    const Mask<Real> takes_diffuse = path.alive && !takes_mirror && !takes_glass && !takes_glossy;
+    const Real share = select(takes_glass, glass, select(takes_glossy, glossy, diffuse));
     const Real chance = select(takes_mirror, mirror, share) / total;
     Mask<Real> goes_through(false);
-    Vec3<D> direction = meeting.direction;
+    Vec3<D> direction = shading.direction;
     if (Effects::has(Effect::refraction) && any(takes_glass)) {
         auto media = path.media;
-        const Border<Real> border =
-            cross_border<Effects>(scene, media, surface.material, meeting.from_inside, takes_glass);
+        const Interface<Real> border =
+            cross_interface<Effects>(scene, media, surface.material, shading.from_inside, takes_glass);
         lost = border.lost;
         const D eta = refractive_index<Real>(scene, border.before, takes_glass) /
                       refractive_index<Real>(scene, border.behind, takes_glass);
-        const Refraction<Real> refraction = refracted(meeting, eta);
+        const Refraction<Real> refraction = refracted(shading, eta);
         const D reflectance = fresnel_dielectric(refraction, eta);
         goes_through = takes_glass && !(widen(to_unit_interval<Real>(random.word[1])) < reflectance);
         path.media = select(goes_through, media, path.media);
@@ -205,9 +206,9 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
         path.throughput = select(takes_glass, path.throughput * (glass / chance), path.throughput);
         path.refractions = path.refractions + select(goes_through, one, Word(0U));
     }
-    const Mask<Real> bounces_off = path.alive && !goes_through && !takes_matt;
+    const Mask<Real> bounces_off = path.alive && !goes_through && !takes_diffuse;
     const Mask<Real> is_mirrored = bounces_off && !takes_glossy;
-    if (any(is_mirrored)) direction = select(is_mirrored, mirrored(meeting), direction);
+    if (any(is_mirrored)) direction = select(is_mirrored, mirrored(shading), direction);
     if (Effects::has(Effect::reflection) && any(takes_mirror)) {
         const Vec3<Real> weight = {surface.mirror.x / chance, surface.mirror.y / chance, surface.mirror.z / chance};
         path.throughput = select(takes_mirror, path.throughput * weight, path.throughput);
@@ -215,36 +216,36 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
     if (Effects::has_any(Effect::indirect | Effect::microfacets)) {
         path.pdf = select(active, D(0.0), path.pdf);
         if (Effects::has(Effect::area_lights) && scene.area_light_count > 0) {
-            path.drawn_at = select(active, point.position, path.drawn_at);
+            path.sampled_from = select(active, point.position, path.sampled_from);
         }
     }
     if (Effects::has(Effect::microfacets) && any(takes_glossy)) {
-        const LobeSample<Real> drawn = sample_facets(surface, point, meeting, sample, vertex);
+        const LobeSample<Real> drawn = sample_facets(surface, point, shading, sample, vertex);
         direction = select(takes_glossy, drawn.wi, direction);
         path.pdf = select(takes_glossy, -(drawn.pdf * widen(chance)), path.pdf);
         const Vec3<Real> weight = {drawn.weight.x / chance, drawn.weight.y / chance, drawn.weight.z / chance};
         path.throughput = select(takes_glossy, path.throughput * weight, path.throughput);
-        const Mask<Real> below = takes_glossy && !(drawn.valid && dot(direction, meeting.facing) > D(0.0));
+        const Mask<Real> below = takes_glossy && !(drawn.valid && dot(direction, shading.facing) > D(0.0));
         path.alive = path.alive && !below;
     }
     if (Effects::has(Effect::indirect)) {
-        if (any(takes_matt)) {
+        if (any(takes_diffuse)) {
             const auto at = sample.block_at_vertex(Dimension::hemisphere, vertex);
-            const auto drawn = sample_cosine_hemisphere<Real>(meeting.normal, widen(to_unit_interval<Real>(at.word[0])),
+            const auto drawn = sample_cosine_hemisphere<Real>(shading.normal, widen(to_unit_interval<Real>(at.word[0])),
                                                               widen(to_unit_interval<Real>(at.word[1])));
-            direction = select(takes_matt, drawn.direction, direction);
-            path.pdf = select(takes_matt, drawn.pdf, path.pdf);
+            direction = select(takes_diffuse, drawn.direction, direction);
+            path.pdf = select(takes_diffuse, drawn.pdf, path.pdf);
             // the cosine and Lambert's 1 / pi cancel with the density
             Vec3<Real> reflectance = surface.diffuse;
-            if (Effects::has(Effect::microfacets) && any(takes_matt && surface.has_microfacets)) {
-                const auto coated = coated_reflectance(surface, point, drawn.direction, -meeting.direction);
+            if (Effects::has(Effect::microfacets) && any(takes_diffuse && surface.has_microfacets)) {
+                const auto coated = coated_reflectance(surface, point, drawn.direction, -shading.direction);
                 reflectance = select(surface.has_microfacets, coated, reflectance);
             }
             const Vec3<Real> weight = {reflectance.x / chance, reflectance.y / chance, reflectance.z / chance};
-            path.throughput = select(takes_matt, path.throughput * weight, path.throughput);
-            path.scatterings = path.scatterings + select(takes_matt, one, Word(0U));
+            path.throughput = select(takes_diffuse, path.throughput * weight, path.throughput);
+            path.scatterings = path.scatterings + select(takes_diffuse, one, Word(0U));
             // where the shading normal leads through the surface there is no light
-            const Mask<Real> below = takes_matt && !(dot(direction, meeting.facing) > D(0.0));
+            const Mask<Real> below = takes_diffuse && !(dot(direction, shading.facing) > D(0.0));
             path.alive = path.alive && !below && path.scatterings <= Word(limits.diffuse);
         }
     }
@@ -260,7 +261,7 @@ TANDEM_HD_STEP Mask<Real> scatter(const SceneView& scene, const PathLimits& limi
                            path.throughput.z / chance_to_live};
     }
     // The side follows from the choice: rounding could decide that of a direction close to the surface.
-    const Mask<Real> inside = select(goes_through, !meeting.from_inside, meeting.from_inside);
+    const Mask<Real> inside = select(goes_through, !shading.from_inside, shading.from_inside);
     path.ray.origin = select(active, departure(point, inside), path.ray.origin);
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
     path.source.primitive = select(active, point.primitive, path.source.primitive);

@@ -72,8 +72,8 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
 
 /// Is `light` blocked at `point`, in the lanes of `active`? A light exactly at the point contributes nothing.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD_STEP Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
-                                     const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
+TANDEM_HD_STAGE Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
+                                      const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
     ShadowRay<Real> shadow = spawn_shadow_ray(point, light.to, light.primitive, light.is_far);
     shadow.active = shadow.active && active;
     return (active && !shadow.active) || is_stopped_by_opaque<Effects>(tracer, scene, light, shadow, rays);

@@ -4,7 +4,7 @@
 
 #include <concepts>
 
-#include "tandem/kernel/glow.h"
+#include "tandem/kernel/area_light_sampling.h"
 #include "tandem/kernel/surface.h"
 #include "tandem/kernel/traversal/intersect.h"
 
@@ -19,24 +19,23 @@ namespace tandem {
 /// - parametrisation(): texture coordinates and how they grow;
 /// - where glow_detail::is_light says so, view_light() and shines(): the light that leaves it, to be sampled.
 template <class Primitive, class Real>
-concept KernelShape =
-    std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
+concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
              const Vec2f* texcoords, Double<Real> t, const Mask<Real>& mask, const Vec3<Double<Real>>& v) {
-        { bounds(primitive) } -> std::same_as<Aabb>;
-        { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
-        { first_in_front(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
-        requires is_face<Primitive> || requires {
-            { first_or_far(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
-        };
-        { surface_point(primitive, ray, t, mask, mask) } -> std::same_as<SurfacePoint<Real>>;
-        { normal_at<Real>(scene, primitive, ray, t, mask, mask) } -> std::same_as<Vec3<Double<Real>>>;
-        { parametrisation(primitive, texcoords, ray, t, mask, mask) } -> std::same_as<Parametrisation<Real>>;
-        requires !glow_detail::is_light<Primitive> || requires {
-            glow_detail::view_light<Real>(primitive, v);
-            { glow_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
-        };
+    { bounds(primitive) } -> std::same_as<Aabb>;
+    { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
+    { first_in_front(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
+    requires is_face<Primitive> || requires {
+        { first_or_far(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
     };
+    { surface_point(primitive, ray, t, mask, mask) } -> std::same_as<SurfacePoint<Real>>;
+    { normal_at<Real>(scene, primitive, ray, t, mask, mask) } -> std::same_as<Vec3<Double<Real>>>;
+    { parametrisation(primitive, texcoords, ray, t, mask, mask) } -> std::same_as<Parametrisation<Real>>;
+    requires !glow_detail::is_light<Primitive> || requires {
+        glow_detail::view_light<Real>(primitive, v);
+        { glow_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
+    };
+};
 
 #define TANDEM_PRIMITIVE(Type, name, names) static_assert(KernelShape<Type, float> && KernelShape<Type, double>);
 #include "tandem/kernel/view/primitives.def"

@@ -1,7 +1,7 @@
 /// What surrounds a scene: the background that rays see if they leave it, and its picture as a light.
 #pragma once
 
-#include "tandem/kernel/glow.h"
+#include "tandem/kernel/area_light_sampling.h"
 #include "tandem/kernel/path_state.h"
 
 namespace tandem {
@@ -23,11 +23,11 @@ TANDEM_HD bool samples_environment_picture(const SceneView& scene) {
 /// together with what a path finds that follows a lobe, in the lanes of `followed`. Phong highlights do not show it, as
 /// they do not show the gradient. Source: E. Veach, L. Guibas, 1995 (kernel/sampler/mis.h).
 template <class Effects, class Real>
-TANDEM_HD_STEP IncidentLight<Real> environment_picture_light(const SceneView& scene, const Surface<Real>& surface,
-                                                             const SurfacePoint<Real>& point,
-                                                             const Vec3<Double<Real>>& to_viewer,
-                                                             const SampleId<Real>& sample, const UInt<Real>& vertex,
-                                                             const FollowedLobes<Real>& followed) {
+TANDEM_HD_STAGE IncidentLight<Real> environment_picture_light(const SceneView& scene, const Surface<Real>& surface,
+                                                              const SurfacePoint<Real>& point,
+                                                              const Vec3<Double<Real>>& to_viewer,
+                                                              const SampleId<Real>& sample, const UInt<Real>& vertex,
+                                                              const FollowedLobes<Real>& followed) {
     using D = Double<Real>;
     const D zero(0.0);
     const auto drawn =
@@ -54,8 +54,8 @@ TANDEM_HD_STEP IncidentLight<Real> environment_picture_light(const SceneView& sc
 
 /// What a path sees that leaves the scene, less what the vertex before has sampled of it.
 template <class Effects, class Real, bool bounces>
-TANDEM_HD_STEP Vec3<Real> seen_environment_picture(const SceneView& scene,
-                                                   const PathState<Effects, Real, bounces>& path) {
+TANDEM_HD_STAGE Vec3<Real> seen_environment_picture(const SceneView& scene,
+                                                    const PathState<Effects, Real, bounces>& path) {
     using D = Double<Real>;
     const auto sight = see_environment<Real>(environment_picture(scene), widen(path.ray.direction));
     if constexpr (bounces) {

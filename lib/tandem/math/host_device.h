@@ -6,14 +6,14 @@
 ///                         compiles kernels once per instruction set: an out-of-line copy built with AVX-512 could
 ///                         be the one that the linker keeps for a machine without it. Not forced in a build for one
 ///                         instruction set (TANDEM_ONE_INSTRUCTION_SET).
-/// TANDEM_HD_RARE          host and device, never inline: for what one ray in many needs, so that it takes no registers
+/// TANDEM_HD_COLD          host and device, never inline: for what one ray in many needs, so that it takes no registers
 ///                         from the common way. Pass arguments by value.
 /// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
 ///                         a copy of its own, for the reason above. Pass arguments by value.
 /// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: where the code is
 ///                         larger than the caches for it, warps wait (docs/performance.md). Inline on the host, and
 ///                         in kernels that fit there (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
-/// TANDEM_HD_STEP          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
+/// TANDEM_HD_STAGE          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
 ///                         grows with the code and no faster; inline on the device, where a call costs a stack.
 /// TANDEM_KEEP_LOOP        before a loop that few threads ever come to: on the device it stays a loop, to be short
 /// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason given with TANDEM_HD
@@ -47,9 +47,9 @@
 
 #if TANDEM_COMPILING_CUDA
 #define TANDEM_HD __host__ __device__ __forceinline__
-#define TANDEM_HD_RARE __host__ __device__ __noinline__
+#define TANDEM_HD_COLD __host__ __device__ __noinline__
 #define TANDEM_HD_CALL static __host__ __device__ __noinline__
-#define TANDEM_HD_STEP static __host__ __device__ __forceinline__
+#define TANDEM_HD_STAGE static __host__ __device__ __forceinline__
 #if defined(TANDEM_SHORT_PATHS)
 #define TANDEM_HD_SHARED TANDEM_HD
 #else
@@ -58,16 +58,16 @@
 #define TANDEM_INLINE_LAMBDA
 #elif defined(TANDEM_ONE_INSTRUCTION_SET)
 #define TANDEM_HD inline
-#define TANDEM_HD_RARE TANDEM_HD_CALL
+#define TANDEM_HD_COLD TANDEM_HD_CALL
 #define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
-#define TANDEM_HD_STEP TANDEM_HD_CALL
+#define TANDEM_HD_STAGE TANDEM_HD_CALL
 #define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD [[gnu::always_inline]] inline
-#define TANDEM_HD_RARE TANDEM_HD_CALL
+#define TANDEM_HD_COLD TANDEM_HD_CALL
 #define TANDEM_HD_SHARED TANDEM_HD
 #define TANDEM_HD_CALL [[gnu::noinline]] static
-#define TANDEM_HD_STEP TANDEM_HD_CALL
+#define TANDEM_HD_STAGE TANDEM_HD_CALL
 #define TANDEM_INLINE_LAMBDA __attribute__((always_inline))
 #endif

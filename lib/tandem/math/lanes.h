@@ -310,7 +310,7 @@ TANDEM_HD void set_lane(Lanes<T, I>& value, int i, T lane_value) {
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class I, class F>
-TANDEM_HD void for_each_value(const Lanes<std::uint32_t, I>& values, LaneMask<I> active, F f) {
+TANDEM_HD void for_each_unique_lane(const Lanes<std::uint32_t, I>& values, LaneMask<I> active, F f) {
     while (any(active)) {
         const std::uint32_t value = values[lowest_bit(active.bits())];
         const LaneMask<I> here = active && values == Lanes<std::uint32_t, I>(value);

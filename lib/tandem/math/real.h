@@ -178,7 +178,7 @@ TANDEM_HD void set_lane(T& value, int, const T& lane_value) {
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class F>
-TANDEM_HD void for_each_value(std::uint32_t value, bool active, F f) {
+TANDEM_HD void for_each_unique_lane(std::uint32_t value, bool active, F f) {
     if (active) f(value, true);
 }
 

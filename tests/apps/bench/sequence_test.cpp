@@ -68,12 +68,12 @@ TEST(SequenceText, NamesWhatHoldsItBack) {
     times.render = 4;
     times.download = 1;
     times.encode = 18;
-    EXPECT_NE(what_holds_it_back(times).find("The bottleneck is encoding"), std::string::npos)
-        << what_holds_it_back(times);
+    EXPECT_NE(describe_bottleneck(times).find("The bottleneck is encoding"), std::string::npos)
+        << describe_bottleneck(times);
     times.download = 9.5;
-    EXPECT_NE(what_holds_it_back(times).find("The bottleneck is copying"), std::string::npos)
-        << what_holds_it_back(times);
-    EXPECT_NE(what_holds_it_back(times).find("40 %"), std::string::npos);
+    EXPECT_NE(describe_bottleneck(times).find("The bottleneck is copying"), std::string::npos)
+        << describe_bottleneck(times);
+    EXPECT_NE(describe_bottleneck(times).find("40 %"), std::string::npos);
 }
 
 }  // namespace

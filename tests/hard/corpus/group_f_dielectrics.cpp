@@ -57,16 +57,16 @@ Incidence with_cosine(double cosine, Random& random) {
     return any_incidence(std::sqrt((1 - cosine) * (1 + cosine)), cosine, random);
 }
 
-struct Border {
+struct Interface {
     bool transmits;
     Vec3d direction;
     double cosine_out, reflectance;
 };
 
 /// Of one ray; a packet that differs counts as wrong.
-Border cross_border(Score& score, const Incidence& in, double eta) {
+Interface cross_interface(Score& score, const Incidence& in, double eta) {
     const auto one = refract<float>(in.direction, in.normal, eta);
-    const Border border = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
+    const Interface border = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
     const auto many = refract<Packet>(broadcast<Wide>(in.direction), broadcast<Wide>(in.normal), Wide(eta));
     const Wide reflectance = fresnel_dielectric<Packet>(many, Wide(eta));
     const auto differs = [](double a, double b) { return bits_of(a) != bits_of(b); };
@@ -87,7 +87,7 @@ Score next_to_total(Random& random, std::size_t calls) {
         const double eta = random.uniform(1.05, 2.5);
         const Incidence in = with_sine((1 + gap) / eta, random);
         const Big sine2 = Big(eta) * Big(eta) * in.sine2();
-        const Border border = cross_border(score, in, eta);
+        const Interface border = cross_interface(score, in, eta);
         if (abs(Big(sine2 - 1)) > Big(0x1p-39)) {
             score.decide(border.transmits != (sine2 < 1), [&] { return in.text(eta); });
         } else {
@@ -106,7 +106,7 @@ Score near_the_normal(Random& random, std::size_t calls) {
     for (std::size_t i = 0; i < calls; ++i) {
         const double eta = random.uniform(0.4, 2.5);
         const Incidence in = with_sine(std::pow(10.0, random.uniform(-6.0, -0.5)), random);
-        const Border border = cross_border(score, in, eta);
+        const Interface border = cross_interface(score, in, eta);
         score.decide(!border.transmits, [&] { return in.text(eta); });
         const Incidence behind = {border.direction, in.normal};
         const Big right = sqrt(Big(Big(eta) * Big(eta) * in.sine2()));
@@ -121,7 +121,7 @@ Score equal_indices(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
         const Incidence in = with_cosine(i % 3 == 0 ? 0 : std::exp2(random.uniform(-60.0, 0.0)), random);
-        const Border border = cross_border(score, in, 1);
+        const Interface border = cross_interface(score, in, 1);
         const bool wrong = !border.transmits || border.direction != in.direction || border.reflectance != 0;
         score.decide(wrong, [&] { return in.text(1); });
     }
@@ -137,7 +137,7 @@ Score grazing(Random& random, std::size_t calls) {
         const Vec3d normal = {0, 0, 1};
         const Incidence in =
             along ? Incidence{{1, 0, 0}, normal} : with_cosine(std::exp2(random.uniform(-60.0, -2.0)), random);
-        const Border border = cross_border(score, in, eta);
+        const Interface border = cross_interface(score, in, eta);
         const double r = border.reflectance;
         score.decide(!(r >= 0 && r <= 1) || (along && r != 1), [&] { return fmt::format("{}: {}", r, in.text(eta)); });
         score.nans += std::isnan(r);
@@ -151,7 +151,7 @@ Score energy(Random& random, std::size_t calls) {
     for (std::size_t i = 0; i < calls; ++i) {
         const double eta = random.uniform(0.3, 3.0);
         const Incidence in = with_cosine(random.uniform(0.01, 1.0), random);
-        const Border border = cross_border(score, in, eta);
+        const Interface border = cross_interface(score, in, eta);
         const double r = border.reflectance, t = 1 - r;
         score.decide(!(std::abs(r + t - 1) <= 2 * unit), [&] { return in.text(eta); });
         const Big left = 1 - Big(eta) * Big(eta) * in.sine2();

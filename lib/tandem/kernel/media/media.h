@@ -14,9 +14,9 @@ template <class Real>
 TANDEM_HD Double<Real> refractive_index(const SceneView& scene, const UInt<Real>& medium, const Mask<Real>& active) {
     using D = Double<Real>;
     D result(1.0);
-    for_each_value(medium, active && medium != UInt<Real>(no_medium),
-                   [&](std::uint32_t material, const Mask<Real>& here)
-                       TANDEM_INLINE_LAMBDA { result = select(here, D(scene.optics[material].ior), result); });
+    for_each_unique_lane(medium, active && medium != UInt<Real>(no_medium),
+                         [&](std::uint32_t material, const Mask<Real>& here)
+                             TANDEM_INLINE_LAMBDA { result = select(here, D(scene.optics[material].ior), result); });
     return result;
 }
 
@@ -34,16 +34,16 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
     using D = Double<Real>;
     const Real one(1.0F);
     Vec3<Real> result = {one, one, one};
-    for_each_value(medium, active && medium != UInt<Real>(no_medium),
-                   [&](std::uint32_t material, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-                       const Vec3f& absorption = scene.optics[material].absorption;
-                       const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
-                           if (!(a > 0.0F)) return before;  // also over an infinite distance
-                           return select(here, attenuation<Real>(D(a) * distance), before);
-                       };
-                       result = {channel(absorption.x, result.x), channel(absorption.y, result.y),
-                                 channel(absorption.z, result.z)};
-                   });
+    for_each_unique_lane(medium, active && medium != UInt<Real>(no_medium),
+                         [&](std::uint32_t material, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+                             const Vec3f& absorption = scene.optics[material].absorption;
+                             const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
+                                 if (!(a > 0.0F)) return before;  // also over an infinite distance
+                                 return select(here, attenuation<Real>(D(a) * distance), before);
+                             };
+                             result = {channel(absorption.x, result.x), channel(absorption.y, result.y),
+                                       channel(absorption.z, result.z)};
+                         });
     return result;
 }
 
@@ -88,7 +88,7 @@ TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Re
 
 /// The media on both sides of an interface.
 template <class Real>
-struct Border {
+struct Interface {
     UInt<Real> before, behind;
     Mask<Real> lost = Mask<Real>(false);  ///< no room in the stack, or a medium was left that was not entered
 };
@@ -96,23 +96,23 @@ struct Border {
 // The interface of the solid of `material`, hit from inside or from outside in the lanes of `active`. `stack` becomes
 // what it is behind the interface.
 template <class Effects, class Real>
-TANDEM_HD Border<Real> cross_border(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
-                                    const Mask<Real>& from_inside, const Mask<Real>&) {
+TANDEM_HD Interface<Real> cross_interface(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
+                                          const Mask<Real>& from_inside, const Mask<Real>&) {
     const UInt<Real> none(no_medium);
     return {select(from_inside, material, none), select(from_inside, none, material)};
 }
 template <class Effects, class Real>
-TANDEM_HD Border<Real> cross_border(const SceneView& scene, MediumStack<Real>& stack, const UInt<Real>& material,
-                                    const Mask<Real>& from_inside, const Mask<Real>& active) {
+TANDEM_HD Interface<Real> cross_interface(const SceneView& scene, MediumStack<Real>& stack, const UInt<Real>& material,
+                                          const Mask<Real>& from_inside, const Mask<Real>& active) {
     using Word = UInt<Real>;
     if (!has_stack<Effects>(scene)) {
         NoMediumStack<Real> none;
-        return cross_border<Effects>(scene, none, material, from_inside, active);
+        return cross_interface<Effects>(scene, none, material, from_inside, active);
     }
-    Border<Real> border;
+    Interface<Real> border;
     border.before = stack.current();
     Word priority(0U);
-    for_each_value(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         priority = select(here, Word(scene.optics[value].priority), priority);
     });
     const Mask<Real> no_room = stack.enter(material, priority, active && !from_inside);

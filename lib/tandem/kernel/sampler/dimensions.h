@@ -14,7 +14,7 @@ enum class Dimension : std::uint32_t {
     area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: the point on it
     hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a diffuse surface
     environment = 5,  ///< numbers 0 and 1: direction to the background; all four: to its picture
-    light = 6,        ///< all four: which of the lights has a shadow ray (light_choice.h)
+    light = 6,        ///< all four: which of the lights has a shadow ray (light_reservoir.h)
     microfacets = 7,  ///< numbers 0 and 1: direction of a path from a surface of microfacets
 };
 

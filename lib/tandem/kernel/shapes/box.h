@@ -30,7 +30,7 @@ namespace box_detail {
 /// Whether the line enters every slab before it leaves any, by exact comparison of the quotients: (face - origin) as
 /// a pair of doubles, quotients multiplied out. Axes along which the line does not move do not matter.
 template <class Real>
-TANDEM_HD_RARE Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
+TANDEM_HD_COLD Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
                                             Vec3<Double<Real>> origin, Vec3<Double<Real>> direction) {
     using D = Double<Real>;
     const D zero(0.0);

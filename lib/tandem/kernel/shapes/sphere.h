@@ -32,7 +32,7 @@ struct Quadratic {
 /// In pairs of doubles, to 2^-100: for a nearly tangent line and an origin nearly on the sphere. The discriminant is a
 /// r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
 template <class Real>
-TANDEM_HD_RARE Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
+TANDEM_HD_COLD Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
                                                           Vec3<Double<Real>> direction, Double<Real> radius) {
     using D = Double<Real>;
     using P = Pair<D>;
@@ -201,7 +201,7 @@ namespace sphere_detail {
 
 /// first_in_front() of the exact roots, infinite for a miss.
 template <class Real>
-TANDEM_HD_RARE Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
+TANDEM_HD_COLD Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
     Double<Real> t;
     const Mask<Real> hit = first_in_front(sphere_roots(sphere, ray), t);
     return select(hit, t, Double<Real>(__builtin_huge_val()));

@@ -81,7 +81,7 @@ struct BvhTracerFor {
     template <class Real>
     TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
                             bool active) const {
-        Closest<Real> best = before<Real>(t_max);
+        Closest<Real> best = closest_starting_at<Real>(t_max);
         if (active) find<Search::any>(ray, source, best);
         return best.t < t_max;
     }
@@ -157,7 +157,7 @@ struct BvhTracerFor {
             const Double<Real> t_before = best.t;
             if (may_have(PrimitiveKinds::sphere) &&
                 (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
-                decide(around, id, filter.ray, source, true, best);
+                test_primitive(around, id, filter.ray, source, true, best);
             } else {
                 intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
             }

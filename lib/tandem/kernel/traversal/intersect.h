@@ -10,7 +10,8 @@ namespace tandem {
 
 /// Keeps the nearer of `best` and a point at t, in the lanes of `hit`.
 template <class Real>
-TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive, Closest<Real>& best) {
+TANDEM_HD void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive,
+                            Closest<Real>& best) {
     const Mask<Real> closer = hit && is_closer(t, primitive, best);
     best.t = select(closer, t, best.t);
     best.primitive = select(closer, primitive, best.primitive);
@@ -19,8 +20,8 @@ TANDEM_HD void offer(const Mask<Real>& hit, const Double<Real>& t, const UInt<Re
 /// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
 /// `candidate`, which passed the filter. `From` is NoSource, Source<Real> or ShadowSource<Real>.
 template <class Real, class From, class Primitive>
-TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
-                      const Mask<Real>& candidate, Closest<Real>& best) {
+TANDEM_HD void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
+                              const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
     Mask<Real> hit;
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
@@ -34,7 +35,7 @@ TANDEM_HD void decide(const Primitive& primitive, std::uint32_t id, const Ray<Re
     } else {
         hit = first_from(source, primitive, id, ray, candidate, best.t, t);
     }
-    offer<Real>(hit, t, UInt<Real>(id), best);
+    keep_nearest<Real>(hit, t, UInt<Real>(id), best);
 }
 
 // The filter of each kind. A ray that leaves a surface passes that of its own primitive: the error of its origin is
@@ -83,10 +84,10 @@ template <class Real, class From, class Primitive>
 TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
                          const Mask<Real>& active, Closest<Real>& best) {
     if constexpr (!has_filter<Real, Primitive>) {
-        decide(primitive, id, f.ray, source, active, best);
+        test_primitive(primitive, id, f.ray, source, active, best);
     } else {
         const Mask<Real> candidate = active && may_touch(f, primitive);
-        if (any(candidate)) decide(primitive, id, f.ray, source, candidate, best);
+        if (any(candidate)) test_primitive(primitive, id, f.ray, source, candidate, best);
     }
 }
 
@@ -104,7 +105,7 @@ enum class Search { nearest, any };
 
 /// Where a search for any hit with t < t_max starts: nothing at t_max counts, whatever its id.
 template <class Real>
-TANDEM_HD Closest<Real> before(const Double<Real>& t_max) {
+TANDEM_HD Closest<Real> closest_starting_at(const Double<Real>& t_max) {
     return {t_max, UInt<Real>(0U)};
 }
 
@@ -130,7 +131,7 @@ struct LoopTracerFor {
     template <class Real, class From>
     TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
                                   const Mask<Real>& active) const {
-        Closest<Real> best = before<Real>(t_max);
+        Closest<Real> best = closest_starting_at<Real>(t_max);
         find<Search::any>(ray, source, active, best);
         return active && best.t < t_max;
     }
@@ -159,7 +160,7 @@ struct LoopTracerFor {
                     }
                     for (; candidates != 0; candidates &= candidates - 1) {
                         const std::uint32_t i = first + static_cast<std::uint32_t>(lowest_bit(candidates));
-                        decide(primitives[i], id + i, ray, source, true, best);
+                        test_primitive(primitives[i], id + i, ray, source, true, best);
                         if constexpr (search == Search::any) {
                             if (best.t < t_max) return;
                         }
@@ -173,7 +174,7 @@ struct LoopTracerFor {
                         if (!any(candidate)) return;
                     }
                     if constexpr (has_filter<Real, Primitive>) candidate = candidate && is_candidate(i);
-                    if (any(candidate)) decide(primitives[i], id + i, ray, source, candidate, best);
+                    if (any(candidate)) test_primitive(primitives[i], id + i, ray, source, candidate, best);
                 }
             }
             id += count;

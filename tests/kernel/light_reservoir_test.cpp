@@ -1,5 +1,5 @@
 // One light stands for all: on average it brings what they bring together, each of them its share.
-#include "tandem/kernel/light_choice.h"
+#include "tandem/kernel/light_reservoir.h"
 
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@ namespace {
 using test::light_of;
 
 IncidentLight<float> choose(const std::vector<IncidentLight<float>>& lights, std::uint32_t number) {
-    LightChoice<float> choice(philox4x32<std::uint32_t>({{number, 0, 0, 0}}, 3, 4));
+    LightReservoir<float> choice(philox4x32<std::uint32_t>({{number, 0, 0, 0}}, 3, 4));
     for (const auto& one : lights) choice.offer(one);
     return choice.chosen();
 }
 
-TEST(LightChoice, BringsWhatAllBringOnAverage) {
+TEST(LightReservoir, BringsWhatAllBringOnAverage) {
     const std::vector<IncidentLight<float>> lights = {light_of({1, 0, 0}, 0), light_of({0, 0, 0}, 1),
                                                       light_of({0.5F, 2, 0.5F}, 2), light_of({0, 0, 6}, 3)};
     Vec3d sum = {0, 0, 0};
@@ -42,7 +42,7 @@ TEST(LightChoice, BringsWhatAllBringOnAverage) {
 }
 
 // The chance of the later of two lights, over all numbers: counted at every place where the decision may turn.
-TEST(LightChoice, GivesTheWeakTheirShare) {
+TEST(LightReservoir, GivesTheWeakTheirShare) {
     for (const float ratio : {1e-12F, 3e-11F, 1e-9F, 2e-8F, 1e-7F, 1e-6F, 1e-3F, 0.3F, 1.0F, 7.0F, 1e6F, 1e12F}) {
         const double chance = test::chance_of_second<float>(1.0F, ratio);
         const double right = double{ratio} / (1 + double{ratio});
@@ -53,7 +53,7 @@ TEST(LightChoice, GivesTheWeakTheirShare) {
 }
 
 // Of equal lights each is chosen as often: chi-square with count - 1 degrees of freedom.
-TEST(LightChoice, TreatsEqualLightsAlike) {
+TEST(LightReservoir, TreatsEqualLightsAlike) {
     for (const std::uint32_t count : {3U, 40U, 300U}) {
         std::vector<IncidentLight<float>> lights;
         for (std::uint32_t i = 0; i < count; ++i) lights.push_back(light_of({1, 1, 1}, i));
@@ -71,7 +71,7 @@ TEST(LightChoice, TreatsEqualLightsAlike) {
     }
 }
 
-TEST(LightChoice, IsNotChangedByLightsThatBringNothing) {
+TEST(LightReservoir, IsNotChangedByLightsThatBringNothing) {
     const std::vector<IncidentLight<float>> lights = {light_of({1, 0, 0}, 0), light_of({0.2F, 0.3F, 0.1F}, 1),
                                                       light_of({0, 0, 2}, 2)};
     std::vector<IncidentLight<float>> more;
@@ -86,7 +86,7 @@ TEST(LightChoice, IsNotChangedByLightsThatBringNothing) {
     }
 }
 
-TEST(LightChoice, LeavesASingleLightAsItIs) {
+TEST(LightReservoir, LeavesASingleLightAsItIs) {
     for (std::uint32_t i = 0; i < 100; ++i) {
         const auto chosen =
             choose({light_of({0, 0, 0}, 1), light_of({0.1F, 0.7F, 0.3F}, 2), light_of({0, 0, 0}, 3)}, i);
@@ -95,12 +95,12 @@ TEST(LightChoice, LeavesASingleLightAsItIs) {
     }
 }
 
-TEST(LightChoice, OfNothingIsBlack) {
+TEST(LightReservoir, OfNothingIsBlack) {
     EXPECT_EQ(choose({}, 5).reflected, Vec3f(0, 0, 0));
     EXPECT_EQ(choose({light_of({0, 0, 0}, 1)}, 5).reflected, Vec3f(0, 0, 0));
 }
 
-TEST(LightChoice, DoesNotHideWhatIsNotANumber) {
+TEST(LightReservoir, DoesNotHideWhatIsNotANumber) {
     for (const float bad : {INFINITY, NAN}) {
         const auto broken = light_of({bad, 0, 0}, 1);
         for (std::uint32_t i = 0; i < 100; ++i) {

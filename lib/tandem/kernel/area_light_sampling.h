@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
-#include "tandem/kernel/light_picture.h"
+#include "tandem/kernel/light_texture.h"
 #include "tandem/kernel/lights/quad_light.h"
 #include "tandem/kernel/lights/sphere_light.h"
 #include "tandem/kernel/microfacets.h"
@@ -70,12 +70,12 @@ TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<D
 /// The density, per solid angle, with which area_light() would have sampled `direction` from `point` for the light
 /// `primitive` that is hit there: 0 if it is no light.
 template <class Real>
-TANDEM_HD_STEP Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
-                                           const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
-                                           const Mask<Real>& active) {
+TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
+                                            const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
+                                            const Mask<Real>& active) {
     using D = Double<Real>;
     D result(0.0);
-    for_each_value(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
         if (!(chance > 0.0)) return;
         visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
@@ -118,10 +118,10 @@ TANDEM_HD Vec3<Real> light_by_sample(const SceneView& scene, const Surface<Real>
 /// path hits by itself that follows a lobe, in the lanes of `followed`. Source: E. Veach, L. Guibas, 1995
 /// (kernel/sampler/mis.h); P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
-TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
-                                              const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
-                                              const SampleId<Real>& sample, const UInt<Real>& vertex,
-                                              const FollowedLobes<Real>& followed, const Mask<Real>& found) {
+TANDEM_HD_STAGE IncidentLight<Real> area_light(const SceneView& scene, const Surface<Real>& surface,
+                                               const SurfacePoint<Real>& point, const Vec3<Double<Real>>& to_viewer,
+                                               const SampleId<Real>& sample, const UInt<Real>& vertex,
+                                               const FollowedLobes<Real>& followed, const Mask<Real>& found) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const D zero(0.0);
@@ -138,7 +138,7 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
     LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
     Vec3<Real> radiance = {nothing, nothing, nothing};
     Word primitive(no_primitive);
-    for_each_value(light, found, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(light, found, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         const AreaLight& chosen = scene.area_lights[index];
         const std::uint32_t material = scene.material_of[chosen.primitive];
         LightSample<Real> of_light = drawn;
@@ -179,10 +179,10 @@ TANDEM_HD_STEP IncidentLight<Real> area_light(const SceneView& scene, const Surf
 /// the walls of a closed solid are not black from inside. For scenes without indirect light; with it, the continued
 /// path adds the background. Reflections from microfacets find it by the continued path.
 template <class Effects, class Real>
-TANDEM_HD_STEP IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
-                                                     const SurfacePoint<Real>& point,
-                                                     const Vec3<Double<Real>>& to_viewer, const SampleId<Real>& sample,
-                                                     const UInt<Real>& vertex) {
+TANDEM_HD_STAGE IncidentLight<Real> environment_light(const SceneView& scene, const Surface<Real>& surface,
+                                                      const SurfacePoint<Real>& point,
+                                                      const Vec3<Double<Real>>& to_viewer, const SampleId<Real>& sample,
+                                                      const UInt<Real>& vertex) {
     const auto random = sample.block_at_vertex(Dimension::environment, vertex);
     const auto drawn = sample_cosine_hemisphere<Real>(surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));

@@ -7,7 +7,7 @@
 namespace tandem {
 
 /// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
-struct FewTracer {
+struct ConstantMemoryTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
     static constexpr bool has_hierarchy = false;
     static constexpr std::uint32_t max_spheres = 8;
@@ -29,7 +29,7 @@ struct FewTracer {
     template <class Real>
     TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
                             bool active) const {
-        Closest<Real> best = before<Real>(t_max);
+        Closest<Real> best = closest_starting_at<Real>(t_max);
         if (active) find<Search::any>(ray, source, best);
         return best.t < t_max;
     }
@@ -46,7 +46,7 @@ struct FewTracer {
         for (std::uint32_t i = 0; i < max_spheres; ++i) {
             if (i == scene.sphere_count) break;
             if constexpr (is_fast<Real>) {
-                decide(spheres[i], i, ray, source, true, best);
+                test_primitive(spheres[i], i, ray, source, true, best);
                 continue;
             }
             if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
@@ -61,10 +61,10 @@ struct FewTracer {
         for (; candidates != 0; candidates &= candidates - 1) {
             const auto slot = static_cast<std::uint32_t>(lowest_bit(candidates));
             if (slot < max_spheres) {
-                decide(scene.spheres[slot], slot, ray, source, true, best);
+                test_primitive(scene.spheres[slot], slot, ray, source, true, best);
             } else {
                 const std::uint32_t box = slot - max_spheres;
-                decide(scene.boxes[box], scene.sphere_count + box, ray, source, true, best);
+                test_primitive(scene.boxes[box], scene.sphere_count + box, ray, source, true, best);
             }
             if constexpr (search == Search::any) {
                 if (best.t < t_max) return;
@@ -74,14 +74,16 @@ struct FewTracer {
 };
 
 /// Has the scene so few primitives, and of such kinds?
-TANDEM_HD bool fits_few_tracer(const SceneView& scene) {
-    return scene.sphere_count <= FewTracer::max_spheres && scene.box_count <= FewTracer::max_boxes &&
+TANDEM_HD bool fits_constant_memory(const SceneView& scene) {
+    return scene.sphere_count <= ConstantMemoryTracer::max_spheres &&
+           scene.box_count <= ConstantMemoryTracer::max_boxes &&
            primitive_count(scene) == scene.sphere_count + scene.box_count;
 }
 
 /// `on_host`: the scene in host memory, to copy from; `scene`: where the tracer will read it.
-[[nodiscard]] inline FewTracer make_few_tracer(const SceneView& on_host, const SceneView& scene) {
-    FewTracer tracer{};
+[[nodiscard]] inline ConstantMemoryTracer make_constant_memory_tracer(const SceneView& on_host,
+                                                                      const SceneView& scene) {
+    ConstantMemoryTracer tracer{};
     tracer.scene = scene;
     for (std::uint32_t i = 0; i < on_host.sphere_count; ++i) tracer.spheres[i] = on_host.spheres[i];
     for (std::uint32_t i = 0; i < on_host.box_count; ++i) {

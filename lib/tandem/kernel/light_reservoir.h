@@ -17,13 +17,13 @@ namespace tandem {
 ///         bits, and 48 more where these do not decide.
 /// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
 ///         1996; for weights that come one after the other, M. T. Chao, "A general purpose unequal probability sampling
-///         plan", Biometrika 69(3), 1982. Tested by tests/kernel/light_choice_test.cpp.
+///         plan", Biometrika 69(3), 1982. Tested by tests/kernel/light_reservoir_test.cpp.
 template <class Real>
-class LightChoice {
+class LightReservoir {
   public:
     using D = Double<Real>;
 
-    TANDEM_HD explicit LightChoice(const PhiloxBlock<UInt<Real>>& random) : numbers_(random) {}
+    TANDEM_HD explicit LightReservoir(const PhiloxBlock<UInt<Real>>& random) : numbers_(random) {}
 
     TANDEM_HD void offer(const IncidentLight<Real>& light) {
         const D zero(0.0);
@@ -70,7 +70,7 @@ class LightChoice {
     IncidentLight<Real> chosen_ = {{Real(0.0F), Real(0.0F), Real(0.0F)}, {Real(0.0F), Real(0.0F), Real(1.0F)}};
 };
 
-/// The numbers for LightChoice.
+/// The numbers for LightReservoir.
 template <class Real>
 TANDEM_HD PhiloxBlock<UInt<Real>> light_choice(const SampleId<Real>& sample, const UInt<Real>& vertex) {
     return sample.block_at_vertex(Dimension::light, vertex);

@@ -33,7 +33,7 @@ struct LanePlaces {
 /// bit: tested by tests/agree/effects_test.cpp, with packets of 4, 8 and 16 and the GPU.
 /// Source: after S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
 template <class Effects, class Real>
-class PathPool {
+class PathSorter {
   public:
     /// Fills lanes that have no pixel: take(free, x, y) sets x and y in lanes of `free` and returns which it has set.
     template <class Take>

@@ -6,13 +6,13 @@
 namespace tandem {
 
 /// The effects that make the code of a vertex larger than the instruction caches.
-inline constexpr EffectMask gathering_effects = bouncing_effects | Effect::area_lights;
+inline constexpr EffectMask synchronising_effects = bouncing_effects | Effect::area_lights;
 
 /// Do the threads of a block synchronise? Then a thread runs a stage of a vertex with the others even if it has nothing
 /// to do there.
 template <class Effects>
 TANDEM_HD bool keeps_together() {
-    return TANDEM_ON_DEVICE && Effects::has_any(gathering_effects);
+    return TANDEM_ON_DEVICE && Effects::has_any(synchronising_effects);
 }
 
 /// A barrier for the threads of a block, in kernels with such effects. Warps that run a stage together fetch its code
