@@ -120,7 +120,7 @@ std::optional<CubinFacts> cubin_facts(std::span<const std::byte> cubin, std::str
     return facts;
 }
 
-std::string_view undefined_variable(std::span<const std::byte> cubin) {
+std::string_view variable_of_zeros(std::span<const std::byte> cubin) {
     const Elf elf(cubin);
     const auto symbols = elf.section(".symtab");
     if (!symbols) return {};

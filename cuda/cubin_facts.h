@@ -19,8 +19,8 @@ struct CubinFacts {
 /// Empty if the bytes are not a complete cubin, or contain no such kernel. `code` points into `cubin`.
 [[nodiscard]] std::optional<CubinFacts> cubin_facts(std::span<const std::byte> cubin, std::string_view kernel);
 
-/// The name of a variable without a value: the linker makes it of one that is declared, and that nothing defines. Empty
-/// if there is none. It points into `cubin`.
-[[nodiscard]] std::string_view undefined_variable(std::span<const std::byte> cubin);
+/// The name of a variable that is zero at first, in `cubin`; empty if there is none. The linker makes one of a variable
+/// that is declared, and that nothing defines.
+[[nodiscard]] std::string_view variable_of_zeros(std::span<const std::byte> cubin);
 
 }  // namespace tandem::cuda

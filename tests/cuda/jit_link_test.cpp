@@ -130,7 +130,7 @@ TEST_F(JitLink, AnUnknownKernelIsAnError) {
 }
 
 TEST_F(JitLink, FactsUnderAnotherNameAreAnError) {
-    JitInput input = toy_input({});
+    JitInput input = toy_input({4, 3});
     input.facts_name = "other_facts";
     EXPECT_NE(complaint(input).find("toy_facts"), std::string::npos) << complaint(input);
 }

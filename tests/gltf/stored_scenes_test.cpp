@@ -48,7 +48,7 @@ const StoredScene stored_scenes[] = {
     {"soft-shadows", glow},
     {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
     {"motion", Effect::shadows | Effect::motion_blur},
-    {"whitted", all_effects - (Effect::motion_blur | Effect::microfacets)},
+    {"whitted", all_effects - (Effect::motion_blur | Effect::microfacets | Effect::environment_picture)},
     {"metals", glow | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
                    Effect::indirect | Effect::roulette},
 };

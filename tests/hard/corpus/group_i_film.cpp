@@ -101,7 +101,6 @@ Score enormous_fireflies(const Subject& subject, Random&, std::size_t rays) {
 /// sky around it stays as it is.
 Score not_finite(const Subject& subject, Random&, std::size_t) {
     Scene scene = scene_of({{{0, 0, -5}, 1}});
-    // without shadows the kernel is that of the empty scene, so that the tier fast draws the same sky
     scene.nodes.push_back({.name = "lamp", .light = LightSource{.casts_shadows = false}});
     PreparedScene prepared = prepare(scene);
     prepared.lights.at(0).intensity = Vec3f{1, 1, 1} * HUGE_VALF;  // which prepare() refuses
@@ -112,11 +111,14 @@ Score not_finite(const Subject& subject, Random&, std::size_t) {
     Score score;
     const Film without = picture_of(subject.backend, empty, job, score);
     std::size_t lost = 0;
+    // kernels of two scenes may contract the sky's interpolation in two ways in the tier fast
+    const double most = subject.tier == Tier::fast ? 1 + 1e-6 : 1;
     for (std::size_t i = 0; i < without.pixel_count(); ++i) {
         const Vec3d& sum = with.film.sums()[i];
         const bool finite = std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
-        score.decide(!finite || sum.x > without.sums()[i].x, [&] { return fmt::format("pixel {} is {}", i, sum.x); });
-        lost += sum.x < without.sums()[i].x;
+        score.decide(!finite || sum.x > without.sums()[i].x * most,
+                     [&] { return fmt::format("pixel {} is {}", i, sum.x); });
+        lost += sum.x * most < without.sums()[i].x;
     }
     const std::uint64_t counted = with.stats.counters.invalid_samples;
     score.decide(!(counted >= lost && lost > 0), fmt::format("{} pixels lost samples, {} were counted", lost, counted));
