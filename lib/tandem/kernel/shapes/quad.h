@@ -22,18 +22,17 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
 }
 
 /// The nearer of a line's hits on the two triangles, which share the diagonal, of those that count: as watertight there
-/// as two triangles of a mesh. A hit on the diagonal is one of the first triangle. `counts` takes t and the last two
-/// corners of the triangle that is hit. Everything else as first_in_front() of a triangle. Tested by
-/// tests/kernel/shapes/quad_test.cpp.
+/// as two triangles of a mesh. A hit on the diagonal is one of the first triangle. `counts` takes the lanes that
+/// hit a triangle, t, and the triangle's last two corners; it says which of these lanes count. Everything else as
+/// first_in_front() of a triangle. Tested by tests/kernel/shapes/quad_test.cpp.
 template <class Real, class Counts>
 TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
                                        const Mask<Real>& active, const Double<Real>& farthest, const Counts& counts) {
     Double<Real> t_second(0.0);
     const Mask<Real> on_first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
     const Mask<Real> on_second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
-    const Mask<Real> first = on_first && counts(t, quad.v1, quad.v2);
-    const Mask<Real> second =
-        on_second && !(on_first && t == t_second) && counts(t_second, quad.v2, quad.v3);
+    const Mask<Real> first = counts(on_first, t, quad.v1, quad.v2);
+    const Mask<Real> second = counts(on_second && !(on_first && t == t_second), t_second, quad.v2, quad.v3);
     t = select(second && !(first && t < t_second), t_second, t);
     return first || second;
 }
@@ -41,8 +40,8 @@ template <class Real>
 TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
                                     const Mask<Real>& active = Mask<Real>(true),
                                     const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
-    const auto all = [](const Double<Real>&, const Vec3f&, const Vec3f&)
-                         TANDEM_INLINE_LAMBDA { return Mask<Real>(true); };
+    const auto all = [](const Mask<Real>& hit, const Double<Real>&, const Vec3f&, const Vec3f&)
+                         TANDEM_INLINE_LAMBDA { return hit; };
     return first_that_counts(quad, ray, t, active, farthest, all);
 }
 

@@ -210,9 +210,10 @@ TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive&
     const Source<Real>& surface = source;
     if constexpr (is_face<Primitive>) {
         culls = culls && primitive.attributes.sides == FaceSides::culled;
-        const auto counts = [&](const Double<Real>& at, const Vec3f& b, const Vec3f& c) TANDEM_INLINE_LAMBDA {
-            Mask<Real> hit = is_beyond<Real>(source.passed, at, number);
-            if (culls) hit = hit && !comes_from_behind(ray, geometric_normal<Real>(primitive.v0, b, c));
+        const auto counts = [&](Mask<Real> hit, const Double<Real>& at, const Vec3f& b,
+                                const Vec3f& c) TANDEM_INLINE_LAMBDA {
+            hit = hit && is_beyond<Real>(source.passed, at, number);
+            if (culls && any(hit)) hit = hit && !comes_from_behind(ray, geometric_normal<Real>(primitive.v0, b, c));
             return hit;
         };
         if constexpr (std::is_same_v<Primitive, Quad>) {
@@ -221,7 +222,7 @@ TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive&
             const Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
             if (!culls && !any(source.passed.t > Double<Real>(0.0))) [[likely]]
                 return hit;
-            return hit && counts(t, primitive.v1, primitive.v2);
+            return counts(hit, t, primitive.v1, primitive.v2);
         }
     } else {
         Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
