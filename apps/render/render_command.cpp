@@ -49,9 +49,11 @@ void say_work(const FrameRecord& first) {
     if (first.bounds_per_ray == 0) return;
     const std::string paths = fmt::format(", and --limits longer paths than {}", first.metadata.limits);
     const std::string sentence =
-        fmt::format("samples per pixel: {}, because large primitives overlap and a ray crosses the bounds of {:.0f} of "
-                    "them; --spp takes another number{}",
-                    first.metadata.samples, first.bounds_per_ray, first.has_short_paths ? paths : "");
+        fmt::format(
+            "samples per pixel: {}, because large primitives overlap and a ray crosses the bounds of {:.0f} of "
+            "them; --spp takes another number{}",
+            first.metadata.samples, first.bounds_per_ray, first.has_short_paths ? paths : "") +
+        (first.has_opaque_masks ? ". Masked surfaces are opaque" : "");
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 

@@ -14,6 +14,7 @@
 #include "render/frame_pattern.h"
 #include "tandem/base/error.h"
 #include "tandem/base/version.h"
+#include "tandem/compile/cutout_kinds.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
 #include "tandem/render/foreground.h"
@@ -105,6 +106,7 @@ class Sequence {
           write_(options.write),
           samples_(options.job.samples),
           limits_(options.job.limits),
+          effects_(options.effects),
           work_is_open_(options.fewer_samples || options.shorter_paths),
           exposure_is_open_(options.exposure && options.exposure->automatic && !holds_floats(format_)),
           exposure_rule_(exposure_is_open_ ? automatic_exposure : ""),
@@ -150,10 +152,14 @@ class Sequence {
         while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame has to decide
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
-        const PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = options_.effects};
+        PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = effects_};
         Stopwatch watch;
         std::optional<PreparedScene> prepared;
-        if (std::exchange(work_is_open_, false)) prepared = choose_work(prepare_options);
+        if (std::exchange(work_is_open_, false)) {
+            prepared = choose_work(prepare_options);
+            if (effects_ != options_.effects) prepared.reset();
+            prepare_options.effects = effects_;
+        }
         job.samples = samples_;
         job.limits = limits_;
         const FramePlan plan = plan_frame(scene_, prepare_options, job);
@@ -161,6 +167,7 @@ class Sequence {
         record.file = pattern_.path(job.frame);
         record.bounds_per_ray = bounds_per_ray_;
         record.has_short_paths = limits_ != options_.job.limits;
+        record.has_opaque_masks = effects_ != options_.effects;
         if (is_blurred(plan)) {
             start_blurred(plan, job, std::move(record));
         } else {
@@ -177,6 +184,10 @@ class Sequence {
         if (options_.fewer_samples) samples_ = affordable_samples(job.samples, bounds);
         if (options_.shorter_paths) limits_ = affordable_limits(job.limits, job.samples, bounds);
         if (samples_ < job.samples || limits_ != job.limits) bounds_per_ray_ = bounds;
+        // a ray may pass hundreds of masked hits, each by a search of its own
+        if (limits_ != job.limits && kinds_cut_out_by_alpha(view(prepared)) != 0) {
+            effects_.off = effects_.off | Effect::cutouts;
+        }
         return prepared;
     }
 
@@ -319,6 +330,7 @@ class Sequence {
     WriteOptions write_;
     int samples_;
     PathLimits limits_;
+    ForcedEffects effects_;
     bool work_is_open_;  ///< until the first frame is prepared
     double bounds_per_ray_ = 0;
     bool exposure_is_open_;  ///< until the first frame is there

@@ -49,6 +49,7 @@ struct FrameRecord {
     std::size_t nan_values = 0;  ///< EncodedImage
     double bounds_per_ray = 0;   ///< where fewer samples were taken for it, or paths shortened, else 0
     bool has_short_paths = false;
+    bool has_opaque_masks = false;  ///< alpha masks were left out for the same reason
     // of RenderStats
     std::string variant{};
     EffectMask effects{}, carried{};

@@ -75,6 +75,29 @@ TEST_F(RenderSequence, TakesFewerSamplesWhereRaysAreVeryMuchWork) {
     EXPECT_EQ(records.back().bounds_per_ray, 0);
 }
 
+TEST_F(RenderSequence, FollowsShortPathsWhereEvenOneSampleIsTooMuch) {
+    scene = crowded_scene(5'000);
+    scene.images = {{"net", 2, 1, {0xFFFFFFFFU, 0x00FFFFFFU}}};
+    scene.textures = {{0, Wrap::repeat, Wrap::repeat, Filter::nearest}};
+    scene.materials[0].diffuse_texture = TextureReference{};
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    options.frames = {0, 0};
+    options.fewer_samples = true;
+    options.shorter_paths = true;
+    render();
+    ASSERT_EQ(records.size(), 1U);
+    EXPECT_EQ(records[0].metadata.samples, 1);
+    EXPECT_EQ(records[0].metadata.limits, "1,1,0");
+    EXPECT_TRUE(records[0].has_short_paths);
+    EXPECT_TRUE(records[0].has_opaque_masks);
+    EXPECT_EQ(records[0].metadata.scene_hash, scene_hash(prepare(scene, {.effects = {{}, Effect::cutouts}})));
+    options.shorter_paths = false;
+    options.force = true;
+    render();
+    EXPECT_EQ(records.back().metadata.limits, to_string(PathLimits{}));
+    EXPECT_FALSE(records.back().has_opaque_masks);
+}
+
 TEST_F(RenderSequence, WritesEveryFrameAndReportsInOrder) {
     EXPECT_EQ(render(), 6U);
     ASSERT_EQ(records.size(), 6U);
