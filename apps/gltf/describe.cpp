@@ -273,7 +273,8 @@ std::string to_text(const Json& description) {
         }
         text += fmt::format("primitives: {} ({})\n", total, kinds);
         if (const auto dropped = description["dropped_primitives"].get<std::size_t>(); dropped > 0) {
-            text += fmt::format("dropped: {} primitives that no ray hits: without extent, or masked out by their alpha\n", dropped);
+            text += fmt::format(
+                "dropped: {} primitives that no ray hits: without extent, or masked out by their alpha\n", dropped);
         }
         if (const auto dropped = description["dropped_lights"].get<std::size_t>(); dropped > 0) {
             text += fmt::format("dropped: {} lights without direction (scale 0)\n", dropped);

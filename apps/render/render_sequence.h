@@ -22,7 +22,7 @@ struct SequenceOptions {
     /// The job's samples are nobody's wish: scenes whose rays are very much work get fewer (render/ray_cost.h).
     bool fewer_samples = false;
     bool shorter_paths = false;  ///< the same of the job's limits
-    std::string camera;  ///< empty: the first of the scene
+    std::string camera;          ///< empty: the first of the scene
     ForcedEffects effects{};
     WriteOptions write;  ///< its display is the scene's, but for these two:
     std::optional<TransferFunction> transfer;

@@ -51,8 +51,8 @@ struct PreparedScene {
     Environment environment;
     EnvironmentPicture environment_picture{};
     EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
-    /// Of the Scene, because no ray hits them: faces without area, bodies that their transforms hide (scale 0), and what
-    /// an alpha mask leaves nothing of.
+    /// Of the Scene, because no ray hits them: faces without area, bodies that their transforms hide (scale 0), and
+    /// what an alpha mask leaves nothing of.
     std::uint64_t dropped_primitives = 0;
     std::uint64_t dropped_lights = 0;  ///< spot and directional lights that a scale of 0 leaves without direction
 
