@@ -17,6 +17,7 @@
 #include "tandem/compile/cutout_kinds.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
+#include "tandem/kernel/surface.h"
 #include "tandem/render/foreground.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/render/ray_cost.h"
@@ -181,13 +182,17 @@ class Sequence {
         PreparedScene prepared = prepare(scene_, options);
         const RenderJob& job = options_.job;
         const double bounds = bounds_per_ray(prepared, job.width, job.height);
-        if (options_.fewer_samples) samples_ = affordable_samples(job.samples, bounds);
-        if (options_.shorter_paths) limits_ = affordable_limits(job.limits, job.samples, bounds);
-        if (samples_ < job.samples || limits_ != job.limits) bounds_per_ray_ = bounds;
-        // a ray may pass hundreds of masked hits, each by a search of its own
-        if (limits_ != job.limits && kinds_cut_out_by_alpha(view(prepared)) != 0) {
-            effects_.off = effects_.off | Effect::cutouts;
+        double work = bounds;
+        if (kinds_cut_out_by_alpha(view(prepared)) != 0) {
+            work *= 1 + std::min(bounds, double{most_holes});  // a masked hit is passed by a search of its own
+            if (options_.shorter_paths && affordable_limits(job.limits, job.samples, work) != job.limits) {
+                effects_.off = effects_.off | Effect::cutouts;
+                work = bounds;
+            }
         }
+        if (options_.fewer_samples) samples_ = affordable_samples(job.samples, work);
+        if (options_.shorter_paths) limits_ = affordable_limits(job.limits, job.samples, work);
+        if (samples_ < job.samples || limits_ != job.limits || effects_ != options_.effects) bounds_per_ray_ = bounds;
         return prepared;
     }
 
