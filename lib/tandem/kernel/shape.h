@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-/// A plain struct with, for single rays and for packets:
+/// A plain struct with what follows. It is checked for single rays; packets call the same templates.
 /// - its bounds;
 /// - may_touch(): the filter in float, which rejects no hit;
 /// - first_in_front(): the nearest hit in front of a ray, decided in the type of decisions; of a solid also
