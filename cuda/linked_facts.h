@@ -13,6 +13,7 @@ struct LinkedFacts {
     std::uint32_t effects = 0;                                  ///< EffectMask::bits()
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
     std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the area lights
+    std::uint32_t one_area_light = 0;                           ///< 1: there is exactly one
     std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds that are cut out by alpha, or culled
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cuda/block_shape.h"
+#include "cuda/block_threads.h"
 #include "cuda/kernels.h"
 #include "tandem/kernel/path_walk.h"
 
@@ -27,7 +28,8 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     const std::uint32_t y =
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
     if (x >= job.width || y >= height) return;
-    const PixelSum<Real> pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true);
+    const PixelSum<Real> pixel =
+        render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
@@ -55,7 +57,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
         }
         if (__syncthreads_or(walk.working()) == 0) return;
         const Closest<Real> hit = walk.find(tracer, tracer.scene, job, pixel.tally);
-        if (!walk.leave(tracer, tracer.scene, job, hit, pixel.tally)) continue;
+        if (!walk.leave(tracer, tracer.scene, job, hit, pixel.tally, BlockThreads<Effects>())) continue;
         add(walk.radiance(), pixel);
         if (walk.working()) continue;
         keep<Effects>(pixel, walk.pixel(job), sums, counters);

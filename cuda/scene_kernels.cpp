@@ -57,7 +57,10 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
     if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;
 #include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
-    if (effects.has(Effect::area_lights)) facts.light_kinds = scene.area_light_kinds;
+    if (effects.has(Effect::area_lights)) {
+        facts.light_kinds = scene.area_light_kinds;
+        facts.one_area_light = scene.area_light_count == 1 ? 1 : 0;
+    }
     if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
     if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts)) {
         facts.several_slots = scene.several_slots;

@@ -184,7 +184,7 @@ class Sequence {
         const double bounds = bounds_per_ray(prepared, job.width, job.height);
         double work = bounds;
         if (kinds_cut_out_by_alpha(view(prepared)) != 0) {
-            work *= 1 + std::min(bounds, double{most_holes});  // a masked hit is passed by a search of its own
+            work *= 1 + std::min(bounds, double{max_masked_hits});  // a masked hit is passed by a search of its own
             if (options_.shorter_paths && affordable_limits(job.limits, job.samples, work) != job.limits) {
                 effects_.off = effects_.off | Effect::cutouts;
                 work = bounds;

@@ -120,6 +120,10 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.area_light_kinds = PrimitiveKinds::quad;
     EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).light_kinds, PrimitiveKinds::quad);
     EXPECT_EQ(linked_facts(scene, Effect::emission, limits).light_kinds, 0U);
+    for (const std::uint32_t count : {0U, 1U, 2U}) {
+        scene.area_light_count = count;
+        EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).one_area_light, count == 1 ? 1U : 0U);
+    }
     scene.several_slots = 1;
     EXPECT_EQ(linked_facts(scene, Effect::textures, limits).several_slots, 1U);
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).several_slots, 0U);

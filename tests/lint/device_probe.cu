@@ -37,7 +37,7 @@ __global__ void lobes(MetallicRoughness<float> material, float shininess, double
     ask(made.specular, wo, wi, out);
     ask(made.diffuse, wo, wi, out + 3);
     ask(PhongLobe<float>{material.base_colour, shininess}, wo, wi, out + 6);
-    ask(Dielectric<float>{eta}, wo, wi, out + 9);
+    ask(Dielectric<float>{1.0F, eta}, wo, wi, out + 9);
     ask(Mirror<float>{material.base_colour}, wo, wi, out + 12);
 }
 

@@ -68,6 +68,22 @@ struct EffectSet {
     }
 };
 
+// What tables of lobes and of lights say in place of effects.
+inline constexpr EffectMask always = EffectMask::from_bits(~0U);
+inline constexpr EffectMask never;
+
+/// Can a kernel simulate one of these effects? For types.
+template <class Effects>
+TANDEM_HD constexpr bool can_simulate(EffectMask any_of) {
+    return Effects::most.has_any(any_of) || any_of.bits() == always.bits();
+}
+
+/// Does it?
+template <class Effects>
+TANDEM_HD constexpr bool simulates(EffectMask any_of) {
+    return Effects::has_any(any_of) || any_of.bits() == always.bits();
+}
+
 /// The effects that continue a path beyond its first vertex.
 inline constexpr EffectMask bouncing_effects =
     Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect | Effect::microfacets;

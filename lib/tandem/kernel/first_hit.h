@@ -28,18 +28,14 @@ struct FirstHits {
     UInt<Real> material = UInt<Real>(no_primitive);
 };
 
-/// What a surface reflects and transmits, at most 1. A share that is transmitted is not scattered.
+/// What a surface reflects and transmits, at most 1: the sum of the colours of its lobes.
 template <class Real>
 TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
+    LobeSum<Vec3<Real>> sum(black<Real>());
+    for_each_lobe<FirstHitEffects>(surface.reflectance.lobes,
+                                   [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA { sum.add(lobe.colour()); });
     const Real one(1.0F);
-    const Real kept = one - surface.transmission;
-    const auto sum = [&](const Real& diffuse, const Real& specular, const Real& mirror) TANDEM_INLINE_LAMBDA {
-        const Real albedo = ((diffuse * kept + specular) + mirror) + surface.transmission;
-        return select(albedo < one, albedo, one);
-    };
-    const Vec3<Real> specular = select(surface.has_microfacets, surface.f0, surface.specular);
-    return {sum(surface.diffuse.x, specular.x, surface.mirror.x), sum(surface.diffuse.y, specular.y, surface.mirror.y),
-            sum(surface.diffuse.z, specular.z, surface.mirror.z)};
+    return {lesser(sum.value().x, one), lesser(sum.value().y, one), lesser(sum.value().z, one)};
 }
 
 /// Adds a surface that samples have hit first at `hit`, in the lanes of `drawn`. `is_first`: it is the first sample.

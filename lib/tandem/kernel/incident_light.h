@@ -1,7 +1,7 @@
 /// One light as a vertex of a path receives it.
 #pragma once
 
-#include "tandem/kernel/surface.h"
+#include "tandem/kernel/lit_vertex.h"
 
 namespace tandem {
 
@@ -21,27 +21,18 @@ struct IncidentLight {
     }
 };
 
-/// The lanes whose path may follow a lobe of the vertex, and then hit lights by itself.
-template <class Real>
-struct FollowedLobes {
-    Mask<Real> diffuse = Mask<Real>(false);
-    Mask<Real> glossy = Mask<Real>(false);
-    Real glossy_chance = Real(1.0F);  ///< with which it follows that of microfacets
-};
-
 /// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface
 /// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
 /// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For
 /// lights that cast shadows. `to_light`: the direction that the light was shaded with.
 template <class Real>
-TANDEM_HD void keep_in_front(const Surface<Real>& surface, const SurfacePoint<Real>& point,
-                             const Vec3<Double<Real>>& to_light, IncidentLight<Real>& light) {
+TANDEM_HD void keep_in_front(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light,
+                             IncidentLight<Real>& light) {
     const Double<Real> zero(0.0);
-    const Double<Real> height = dot(to_light, point.normal);
-    const Mask<Real> across = !(select(point.from_inside, -height, height) > zero);
-    const Mask<Real> behind = across || !(dot(to_light, surface.normal) > zero);
-    const Real none(0.0F);
-    light.reflected = select(behind, Vec3<Real>{none, none, none}, light.reflected);
+    const Double<Real> height = dot(to_light, at.point.normal);
+    const Mask<Real> across = !(select(at.point.from_inside, -height, height) > zero);
+    const Mask<Real> behind = across || !(dot(to_light, at.surface.normal) > zero);
+    light.reflected = select(behind, black<Real>(), light.reflected);
 }
 
 }  // namespace tandem

@@ -38,12 +38,14 @@ class PathWalk {
         return next_hit<Effects, Real>(tracer, path_, tally);
     }
 
-    /// The second half: on from the vertex at `hit`. Returns which paths have ended.
-    template <class Tracer>
+    /// The second half: on from the vertex at `hit`. Returns which paths have ended. `threads`: how they wait for each
+    /// other (threads.h).
+    template <class Tracer, class Threads = IndependentThreads>
     TANDEM_HD Mask<Real> leave(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
-                               const Closest<Real>& hit, PathTally<Real>& tally) {
+                               const Closest<Real>& hit, PathTally<Real>& tally, const Threads& threads = {}) {
         using Word = UInt<Real>;
-        advance<Effects>(tracer, scene, Effects::limits(job.limits), id(job), vertex_, hit, path_, radiance_, tally);
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id(job), vertex_, hit, threads, path_, radiance_,
+                         tally);
         vertex_ = vertex_ + Word(1U);
         const Mask<Real> ended = working_ && !path_.alive;
         sample_ = sample_ + select(ended, Word(1U), Word(0U));

@@ -56,10 +56,11 @@ TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
 
 /// The sum over the samples of pixel (x, y), for paths that end at their first vertex: in double, in the order of the
 /// samples, by one owner; this order is what makes films equal. A Real of many lanes renders one pixel per lane, in the
-/// lanes of `active`.
-template <class Effects, class Real, class Tracer>
+/// lanes of `active`. `threads`: how they wait for each other (threads.h).
+template <class Effects, class Real, class Tracer, class Threads = IndependentThreads>
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
-                                      const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
+                                      const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active,
+                                      const Threads& threads = {}) {
     const Real zero(0.0F);
     SampleId<Real> id = {job.seed, job.frame, y * UInt<Real>(job.width) + x, UInt<Real>(job.first_sample)};
     PixelSum<Real> result;
@@ -69,7 +70,7 @@ TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& sce
         path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
         Vec3<Real> radiance = {zero, zero, zero};
         const Closest<Real> hit = next_hit<Effects, Real>(tracer, path, result.tally);
-        advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, path, radiance,
+        advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, threads, path, radiance,
                          result.tally);
         add(radiance, result);
     }

@@ -54,7 +54,7 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
     PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;
     Mask<Real> stopped(false);
-    for (std::uint32_t holes = 0; holes < most_holes; ++holes) {
+    for (std::uint32_t holes = 0; holes < max_masked_hits; ++holes) {
         const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open);
         const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
         if (!any(met)) return stopped;

@@ -4,7 +4,7 @@
 
 #include <concepts>
 
-#include "tandem/kernel/area_light_sampling.h"
+#include "tandem/kernel/area_lights.h"
 #include "tandem/kernel/surface.h"
 #include "tandem/kernel/traversal/intersect.h"
 
@@ -17,7 +17,7 @@ namespace tandem {
 ///   first_or_far(), the hit of a ray that has left it;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
 /// - parametrisation(): texture coordinates and how they grow;
-/// - where glow_detail::is_light says so, view_light() and shines(): the light that leaves it, to be sampled.
+/// - where area_lights_detail::is_light says so, view_light() and shines(): the light that leaves it, to be sampled.
 template <class Primitive, class Real>
 concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
@@ -31,9 +31,9 @@ concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standar
     { surface_point(primitive, ray, t, mask, mask) } -> std::same_as<SurfacePoint<Real>>;
     { normal_at<Real>(scene, primitive, ray, t, mask, mask) } -> std::same_as<Vec3<Double<Real>>>;
     { parametrisation(primitive, texcoords, ray, t, mask, mask) } -> std::same_as<Parametrisation<Real>>;
-    requires !glow_detail::is_light<Primitive> || requires {
-        glow_detail::view_light<Real>(primitive, v);
-        { glow_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
+    requires !area_lights_detail::is_light<Primitive> || requires {
+        area_lights_detail::view_light<Real>(primitive, v);
+        { area_lights_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
     };
 };
 

@@ -1,9 +1,9 @@
-/// The surface at a hit: normal and material, by kind of primitive.
+/// The surface at a hit: its normal by kind of primitive, its reflectance by material.
 #pragma once
 
 #include "tandem/effects/effects.h"
-#include "tandem/kernel/bsdf/metallic_roughness.h"
 #include "tandem/kernel/corner_values.h"
+#include "tandem/kernel/material.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/shapes/ray_source.h"
 #include "tandem/kernel/shapes/shading_normal.h"
@@ -16,25 +16,18 @@ namespace tandem {
 
 template <class Real>
 struct Surface {
-    Vec3<Double<Real>> normal;  ///< shading normal: unit, outward, world space
-    Vec3<Real> ambient, diffuse, specular;
-    Real shininess;
+    Vec3<Double<Real>> normal = {Double<Real>(0.0), Double<Real>(0.0), Double<Real>(1.0)};  ///< for shading: unit,
+                                                                                            ///< outward, world space
+    Reflectance<Real> reflectance;
     // only where the effects need them
-    UInt<Real> material;
-    Vec3<Real> mirror;
-    Real transmission;
-    Vec3<Real> emission;  ///< on the side that the ray comes from
+    UInt<Real> material = UInt<Real>(0U);
+    Vec3<Real> emission = black<Real>();  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
-    /// Then `specular` is black, and `diffuse` lies under the border of the microfacets (kernel/microfacets.h).
-    Mask<Real> has_microfacets = Mask<Real>(false);
-    Vec3<Real> f0{};       ///< reflectance of the microfacets at normal incidence
-    Double<Real> alpha{};  ///< their roughness
-    Real border{};         ///< reflectance of the border at normal incidence
 };
 
 /// How many alpha-masked hits a ray passes before it counts as blocked.
-inline constexpr std::uint32_t most_holes = 255;
+inline constexpr std::uint32_t max_masked_hits = 255;
 
 // The normal of each kind at parameter t of a ray that hits the primitive there, in the lanes of `here`: of a sphere of
 // any length, else unit. `exits`: where the ray leaves the same solid that it left inward.
@@ -130,18 +123,12 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     const bool needs_point = Effects::has_any(effects_on_surfaces);
     if (needs_point) point = {ray.origin, widen(ray.direction)};
     Mask<Real> on_sphere(false);
-    const Vec3<Real> black = {Real(0.0F), Real(0.0F), Real(0.0F)};
-    Surface<Real> surface = {{D(0.0), D(0.0), D(1.0)}, black, black,      black, Real(1.0F),
-                             UInt<Real>(0U),           black, Real(0.0F), black};
+    Surface<Real> surface;
     for_each_unique_lane(
         hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+            // Normals
             Vec3<D> normal = surface.normal;
             const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
-            const std::uint32_t number = scene.material_of[primitive];
-            const Real one(1.0F);
-            Rgba<Real> picture = {one, one, one, one};
-            Vec3<Real> glow = {one, one, one};
-            Rgba<Real> rough_metal = {one, one, one, one};
             bool on_face = false;
             FaceSides sides = FaceSides::single_sided;
             SurfacePoint<Real> own;
@@ -163,13 +150,17 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                 own.primitive = UInt<Real>(primitive);
                 keep(here, own, point);
             }
-            const bool both_sides = sides == FaceSides::double_sided;
+
+            // Textures
+            const std::uint32_t number = scene.material_of[primitive];
             const Optics& optics = scene.optics[number];
+            const bool both_sides = sides == FaceSides::double_sided;
+            MaterialTexels<Real> texels;
             if (has_pictures<Effects>() && has_textures(scene.textures)) {
                 const MaterialTextures& textures = scene.textures.materials[number];
                 CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
                 if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
-                    picture = base_colour(textures, on_face, values);
+                    texels.base_colour = base_colour(textures, on_face, values);
                 }
                 if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
                     const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
@@ -178,61 +169,29 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                 }
                 if (Effects::has(Effect::emission) && Effects::has(Effect::textures)) {
                     const bool lit = textures.emission.texture != no_texture;
-                    const Rgba<Real> at = lit ? values.texture(textures.emission) : picture;
-                    if (lit || optics.unlit != 0) glow = {at.r, at.g, at.b};
+                    const Rgba<Real> at = lit ? values.texture(textures.emission) : texels.base_colour;
+                    if (lit || optics.unlit != 0) texels.emission = {at.r, at.g, at.b};
                 }
                 if (Effects::has(Effect::cutouts)) {
-                    surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, picture.a));
+                    surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, texels.base_colour.a));
                 }
                 if (Effects::has(Effect::microfacets) && Effects::has(Effect::textures) &&
                     textures.metallic_roughness.texture != no_texture) {
-                    rough_metal = values.texture(textures.metallic_roughness);
+                    texels.metallic_roughness = values.texture(textures.metallic_roughness);
                 }
             }
-            const PhongMaterial& material = scene.materials[number];
-            Vec3<Real> ambient = broadcast<Real>(material.ambient);
-            Vec3<Real> diffuse = broadcast<Real>(material.diffuse);
-            if (Effects::has(Effect::textures) && has_textures(scene.textures)) {
-                const Vec3<Real> factor = {picture.r, picture.g, picture.b};
-                ambient = ambient * factor;
-                diffuse = diffuse * factor;
-            }
-            Vec3<Real> specular = broadcast<Real>(material.specular);
-            if (Effects::has(Effect::microfacets) && scene.microfacet_count > 0 &&
-                scene.microfacets[number].is_there != 0) {
-                const Microfacets& facets = scene.microfacets[number];
-                const Real metallic = Real(facets.metallic) * rough_metal.b;
-                const MetallicRoughnessLobes<Real> lobes =
-                    lobes_of<Real>({diffuse, metallic, Real(facets.roughness) * rough_metal.g, Real(optics.ior)});
-                ambient = ambient * (one - metallic);
-                diffuse = lobes.diffuse.base.reflectance;
-                specular = black;
-                surface.has_microfacets = surface.has_microfacets || here;
-                surface.f0 = select(here, lobes.specular.f0, surface.f0);
-                surface.alpha = select(here, lobes.specular.facets.alpha_x, surface.alpha);
-                surface.border = select(here, lobes.diffuse.f0, surface.border);
-            }
+
+            // Reflectance and emission
             surface.normal = select(here, normal, surface.normal);
-            surface.ambient = select(here, ambient, surface.ambient);
-            surface.diffuse = select(here, diffuse, surface.diffuse);
-            surface.specular = select(here, specular, surface.specular);
-            surface.shininess = select(here, Real(material.shininess), surface.shininess);
-            if (has_bounces<Effects>()) {
-                surface.material = select(here, UInt<Real>(number), surface.material);
-                if (Effects::has(Effect::reflection)) {
-                    surface.mirror = select(here, broadcast<Real>(optics.mirror), surface.mirror);
-                }
-                if (Effects::has(Effect::refraction)) {
-                    surface.transmission = select(here, Real(optics.transmission), surface.transmission);
-                }
-            }
-            if (Effects::has(Effect::emission)) {
-                if (norm1(optics.emission) > 0.0F) {
-                    const bool unlit = optics.unlit != 0;
-                    const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
-                    surface.emission = select(shines, broadcast<Real>(optics.emission) * glow, surface.emission);
-                    surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
-                }
+            const auto reflectance = reflectance_of<Effects>(scene, number, texels, own.from_inside);
+            surface.reflectance.ambient = select(here, reflectance.ambient, surface.reflectance.ambient);
+            keep<Effects>(here, reflectance.lobes, surface.reflectance.lobes);
+            if (has_bounces<Effects>()) surface.material = select(here, UInt<Real>(number), surface.material);
+            if (Effects::has(Effect::emission) && norm1(optics.emission) > 0.0F) {
+                const bool unlit = optics.unlit != 0;
+                const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
+                surface.emission = select(shines, broadcast<Real>(optics.emission) * texels.emission, surface.emission);
+                surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
             }
         });
     // once for all lanes: the rays of a packet hit up to as many spheres as it has lanes

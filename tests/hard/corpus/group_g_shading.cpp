@@ -8,22 +8,20 @@
 #include "hard/corpus/lots.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
-#include "tandem/kernel/bsdf/phong.h"
+#include "tandem/kernel/bsdf/phong_lobe.h"
 
 namespace tandem::hard {
 
 namespace {
 
-const Vec3f black = {0, 0, 0};
 const Vec3f white = {1, 1, 1};
 
 /// The highlight alone: no diffuse reflection, a white light.
 template <class Real>
 Real highlight(const Real& shininess, const Vec3<Double<Real>>& normal, const Vec3<Double<Real>>& to_light,
                const Vec3<Double<Real>>& to_viewer) {
-    return phong_light<Real>(broadcast<Real>(black), broadcast<Real>(white), shininess, broadcast<Real>(white), normal,
-                             to_light, to_viewer)
-        .x;
+    const PhongLobe<Real> lobe = {broadcast<Real>(white), shininess};
+    return lobe.reflected_about(Real(1.0F), normal, to_light, to_viewer).x;
 }
 
 template <class Real>

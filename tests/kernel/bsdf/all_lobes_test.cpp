@@ -33,7 +33,8 @@ void add_lobes(std::vector<AnyLobe>& lobes) {
                                {1, 0.1}}) {
         const Ggx<Real> facets(x, y);
         lobes.push_back(any_lobe<Real>("GGX " + std::to_string(x) + ", " + std::to_string(y),
-                                       slope_chart(facets.alpha_x, facets.alpha_y), GgxReflection<Real>{tint, facets}));
+                                       slope_chart(facets.alpha_x, facets.alpha_y),
+                                       GgxReflection<Real>{tint, Real(1), facets}));
     }
 }
 

@@ -33,7 +33,7 @@ TEST(CoatedDiffuse, SharesTheLightWithTheBorder) {
     for (const double alpha : {0.0, 0.1, 0.5, 1.0}) {
         for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
             const CoatedDiffuse<double> base{{{1, 1, 1}}, 0.04};
-            const GgxReflection<double> border{{0.04, 0.04, 0.04}, {alpha, alpha}};
+            const GgxReflection<double> border{{0.04, 0.04, 0.04}, 1, {alpha, alpha}};
             const Vec3d wo = direction(cosine, 0.4);
             const double from_base = integrate(polar_chart(1e3), wo, 0, 1, 0, 1, 100'000,
                                                [&](const Vec3d& wi) { return base.f(wo, wi).x * wi.z; });

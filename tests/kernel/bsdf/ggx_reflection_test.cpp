@@ -25,7 +25,7 @@ Case random_case(std::uint64_t number) {
     if (random.coin()) c.alpha_y = c.alpha_x;
     for (;;) {
         c.wo = direction(std::exp2(random.uniform(-12.0, 0.0)), random.uniform(0.0, 1.0));
-        const GgxReflection<double> lobe{{1, 1, 1}, {c.alpha_x, c.alpha_y}};
+        const GgxReflection<double> lobe{{1, 1, 1}, 1, {c.alpha_x, c.alpha_y}};
         c.wi = random.below(4) == 0 ? direction(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0))
                                     : lobe.sample(c.wo, random_numbers(random)).wi;
         if (c.wi.z > 0x1p-20) return c;
@@ -43,8 +43,8 @@ TEST(GgxReflection, IsThatOfTheTextbooks) {
         const TextbookGgx textbook{c.alpha_x, c.alpha_y};
         const long double f = textbook.reflection(long_vector(c.wo), long_vector(c.wi));
         const long double pdf = textbook.pdf(long_vector(c.wo), long_vector(c.wi));
-        const GgxReflection<double> precise{{1, 0.04, 0}, {c.alpha_x, c.alpha_y}};
-        const GgxReflection<float> strict{{1, 0.04F, 0}, {c.alpha_x, c.alpha_y}};
+        const GgxReflection<double> precise{{1, 0.04, 0}, 1, {c.alpha_x, c.alpha_y}};
+        const GgxReflection<float> strict{{1, 0.04F, 0}, 1, {c.alpha_x, c.alpha_y}};
         const double f0[] = {1, 0.04, 0};
         for (int k = 0; k < 3; ++k) {
             const long double expected = f * textbook_fresnel(f0[k], c);
@@ -65,8 +65,8 @@ TEST(GgxReflection, TheFastTierIsNear) {
     for (std::uint64_t number = 0; number < 100'000; ++number) {
         const Case c = random_case(number);
         if (c.alpha_x < 0.01 || c.alpha_y < 0.01 || c.wo.z < 0.01 || c.wi.z < 0.01) continue;
-        const GgxReflection<double> precise{{1, 0.5, 0.04}, {c.alpha_x, c.alpha_y}};
-        const GgxReflection<FastFloat> fast{{1, 0.5F, 0.04F}, {FastFloat(c.alpha_x), FastFloat(c.alpha_y)}};
+        const GgxReflection<double> precise{{1, 0.5, 0.04}, 1, {c.alpha_x, c.alpha_y}};
+        const GgxReflection<FastFloat> fast{{1, 0.5F, 0.04F}, 1, {FastFloat(c.alpha_x), FastFloat(c.alpha_y)}};
         const Vec3<FastFloat> wo = {c.wo.x, c.wo.y, c.wo.z}, wi = {c.wi.x, c.wi.y, c.wi.z};
         for (int k = 0; k < 3; ++k) {
             const double expected = precise.f(c.wo, c.wi)[k];
@@ -79,7 +79,7 @@ TEST(GgxReflection, TheFastTierIsNear) {
 
 // Head-on and with alpha = 1 the density of wi is that of the whole sphere, and the weight 2 cos / (1 + cos).
 TEST(GgxReflection, LosesHeadOnWhatAClosedFormSays) {
-    const GgxReflection<double> lobe{{1, 1, 1}, {1.0, 1.0}};
+    const GgxReflection<double> lobe{{1, 1, 1}, 1, {1.0, 1.0}};
     const Vec3d up = {0, 0, 1};
     for (const double cosine : {1.0, 0.7, 0.1}) {
         EXPECT_NEAR(lobe.pdf(up, direction(cosine, 0.3)), 1 / (4 * pi), 1e-15);
@@ -100,7 +100,7 @@ TEST(GgxReflection, LosesHeadOnWhatAClosedFormSays) {
 TEST(GgxReflection, AlbedoIsNearTheWhiteFurnace) {
     for (const double alpha : {0.0, 0.05, 0.1, 0.2, 0.5, 0.7, 1.0}) {
         for (const double cosine : {0.02, 0.1, 0.3, 0.7, 1.0}) {
-            const GgxReflection<double> lobe{{1, 0.5, 0.04}, {alpha, alpha}};
+            const GgxReflection<double> lobe{{1, 0.5, 0.04}, 1, {alpha, alpha}};
             const Vec3d wo = direction(cosine, 0.6);
             const Vec3d furnace = integrate(slope_chart(lobe.facets.alpha_x, lobe.facets.alpha_y), wo, 0, 1, 0, 1,
                                             100'000, [&](const Vec3d& wi) { return lobe.f(wo, wi) * wi.z; });
@@ -118,7 +118,7 @@ TEST(GgxReflection, AlbedoIsNearTheWhiteFurnace) {
 }
 
 TEST(GgxReflection, TheSmoothestIsAMirrorToTheEye) {
-    const GgxReflection<float> lobe{{1, 1, 1}, {0.0, 0.0}};
+    const GgxReflection<float> lobe{{1, 1, 1}, 1, {0.0, 0.0}};
     Random random(3);
     int far = 0;
     for (int i = 0; i < 10'000; ++i) {

@@ -16,7 +16,7 @@ struct LobeInput {
 /// f, pdf and albedo, then the sample: wi, pdf, weight, valid and transmits.
 inline constexpr int numbers_of_a_lobe = 16;
 inline constexpr int lobe_count = 0
-#define TANDEM_LOBE(type, is) +1
+#define TANDEM_LOBE(type, ...) +1
 #include "tandem/kernel/bsdf/lobes.def"
 #undef TANDEM_LOBE
     ;

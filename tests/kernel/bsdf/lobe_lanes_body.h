@@ -58,7 +58,7 @@ TANDEM_HD void make(const LobeNumbers<Real>& n, Lambert<Real>& lobe) {
 }
 template <class Real>
 TANDEM_HD void make(const LobeNumbers<Real>& n, Dielectric<Real>& lobe) {
-    lobe = {n.eta};
+    lobe = {n.colour.x, n.eta};
 }
 template <class Real>
 TANDEM_HD void make(const LobeNumbers<Real>& n, CoatedDiffuse<Real>& lobe) {
@@ -70,7 +70,7 @@ TANDEM_HD void make(const LobeNumbers<Real>& n, PhongLobe<Real>& lobe) {
 }
 template <class Real>
 TANDEM_HD void make(const LobeNumbers<Real>& n, GgxReflection<Real>& lobe) {
-    lobe = {n.colour, Ggx<Real>(n.roughness[0], n.roughness[1])};
+    lobe = {n.colour, Real(1.0F), Ggx<Real>(n.roughness[0], n.roughness[1])};
 }
 
 TANDEM_HD std::uint64_t bits_of_number(float v) { return bits_of(v); }
@@ -118,7 +118,7 @@ template <class Real>
 TANDEM_HD void run_lobes(const LobeInput* in, LobeBits* out) {
     const LobeNumbers<Real> numbers = load<Real>(in);
     int at = 0;
-#define TANDEM_LOBE(type, is) run_lobe<Real, type<Real>>(numbers, out, at++);
+#define TANDEM_LOBE(type, ...) run_lobe<Real, type<Real>>(numbers, out, at++);
 #include "tandem/kernel/bsdf/lobes.def"
 #undef TANDEM_LOBE
 }

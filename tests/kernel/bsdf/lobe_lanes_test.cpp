@@ -11,7 +11,7 @@ namespace tandem::test {
 namespace {
 
 constexpr const char* lobe_names[] = {
-#define TANDEM_LOBE(type, is) #type,
+#define TANDEM_LOBE(type, ...) #type,
 #include "tandem/kernel/bsdf/lobes.def"
 #undef TANDEM_LOBE
 };

@@ -47,10 +47,26 @@ TEST(Mirror, GivesTheBitsOfReflectInWorldSpace) {
         Random random(number);
         const Vec3d normal = direction(random.uniform(-1.0, 1.0), random.uniform(0.0, 1.0));
         const Vec3d wo = direction(random.uniform(-1.0, 1.0), random.uniform(0.0, 1.0));
-        const auto drawn = lobe.sample_about(normal, wo, {0, 0, 0});
+        const auto drawn = lobe.sample_about({normal, normal}, wo, {0, 0, 0});
         ASSERT_EQ(drawn.wi, reflect(-wo, normal)) << "case " << number;
-        ASSERT_EQ(drawn.valid, dot(wo, normal) >= 0) << "case " << number;
     }
+}
+
+// A shading normal may be far from the geometric one.
+TEST(Mirror, NeverLeadsThroughTheSurface) {
+    const Mirror<float> lobe{{1, 1, 1}};
+    int bent = 0;
+    for (std::uint64_t number = 0; number < 10'000; ++number) {
+        Random random(number);
+        const Vec3d geometric = direction(random.uniform(-1.0, 1.0), random.uniform(0.0, 1.0));
+        const Vec3d shading = direction(random.uniform(-1.0, 1.0), random.uniform(0.0, 1.0));
+        const Vec3d wo = direction(random.uniform(-1.0, 1.0), random.uniform(0.0, 1.0));
+        if (dot(wo, geometric) <= 0) continue;
+        const auto drawn = lobe.sample_about({shading, geometric}, wo, {0, 0, 0});
+        ASSERT_GT(dot(drawn.wi, geometric), 0) << "case " << number;
+        if (drawn.wi != reflect(-wo, shading)) ++bent;
+    }
+    EXPECT_GT(bent, 1000);
 }
 
 /// From n1 to n2 under an angle; nothing for total reflection.
@@ -68,7 +84,7 @@ TEST(Dielectric, ChoosesByFresnelAndBendsBySnell) {
     const double glass = 1.5;
     for (const bool leaves : {false, true}) {
         const double n1 = leaves ? glass : 1, n2 = leaves ? 1 : glass;
-        const Dielectric<float> lobe{n1 / n2};
+        const Dielectric<float> lobe{1, n1 / n2};
         expect_no_density(lobe);
         for (const double degrees : {0.0, 20.0, 41.0, 42.0, 60.0, 85.0}) {
             const double angle = degrees * pi / 180;
@@ -91,7 +107,7 @@ TEST(Dielectric, ChoosesByFresnelAndBendsBySnell) {
 }
 
 TEST(Dielectric, EqualIndicesAreNotThere) {
-    const Dielectric<float> lobe{1.0};
+    const Dielectric<float> lobe{1, 1.0};
     for (std::uint64_t number = 0; number < 1000; ++number) {
         Random random(number);
         const Vec3d wo = direction(random.uniform(0.0, 1.0), random.uniform(0.0, 1.0));

@@ -23,6 +23,9 @@ struct CoatedDiffuse {
     Lambert<Real> base;
     Real f0;  ///< reflectance of the border at normal incidence, in [0, 1]
 
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return base.colour(); }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return base.scatters(); }
+
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return base.f(wo, wi) * enters(wo, wi);
     }
@@ -37,6 +40,10 @@ struct CoatedDiffuse {
 
     /// As if no light grazed.
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const { return base.albedo(wo) * (Real(1.0F) - f0); }
+
+    TANDEM_HD friend CoatedDiffuse select(const Mask<Real>& mask, const CoatedDiffuse& a, const CoatedDiffuse& b) {
+        return {select(mask, a.base, b.base), select(mask, a.f0, b.f0)};
+    }
 
   private:
     [[nodiscard]] TANDEM_HD Real enters(const Vec3<D>& wo, const Vec3<D>& wi) const {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "tandem/kernel/bsdf/fresnel.h"
-#include "tandem/kernel/bsdf/lobe.h"
-#include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/bsdf/specular_directions.h"
 
 namespace tandem {
 
-/// Reflects or refracts: each is chosen with its share of the light, Fresnel's reflectance, so that the weight is 1.
+/// Reflects or refracts: each is chosen with its share of the light, Fresnel's reflectance, so that the weight is the
+/// `share`.
 /// Radiance is followed as L / n^2, which borders leave as it is. Total internal reflection always reflects.
 /// Source: E. Veach's thesis, 1997, 5.2. Held by tests/kernel/bsdf/specular_lobes_test.cpp.
 template <class Real>
@@ -16,27 +16,33 @@ struct Dielectric {
     static constexpr LobeFlags flags = LobeFlags::reflection | LobeFlags::transmission | LobeFlags::specular;
     static constexpr int numbers = 1;
 
-    D eta;  ///< refractive index on the side of wo over that of the other side, > 0
+    Real share;  ///< of the light, in [0, 1]; the rest meets the other lobes of the surface
+    D eta;       ///< refractive index on the side of wo over that of the other side, > 0
+
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return {share, share, share}; }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return share > Real(0.0F); }
 
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>&, const Vec3<D>&) const { return black<Real>(); }
     [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>&, const Vec3<D>&) const { return D(0.0F); }
 
     [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
-        return sample_about(local_normal<Real>(), wo, u);
+        return sample_about({local_normal<Real>(), local_normal<Real>()}, wo, u).only_where(wo.z >= D(0.0F));
     }
 
-    /// The same in any frame, as Mirror::sample_about().
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const Vec3<D>& normal, const Vec3<D>& wo,
+    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const { return {share, share, share}; }
+
+    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const LobeNormals<Real>& normals, const Vec3<D>& wo,
                                                           const Vec3<D>& u) const {
-        const Refraction<Real> refraction = refract<Real>(-wo, normal, eta);
+        const Refraction<Real> refraction = refracted<Real>(normals, wo, eta);
         const Mask<Real> transmits = !(u.x < fresnel_dielectric(refraction, eta));
-        const Vec3<D> wi = select(transmits, refraction.direction, reflect(-wo, normal));
-        const Mask<Real> valid = dot(wo, normal) >= D(0.0F);
-        return {wi, select(valid, constant<D>(infinite_density), D(0.0F)), select(valid, white<Real>(), black<Real>()),
-                valid, transmits && valid};
+        Vec3<D> wi = refraction.direction;
+        if (any(!transmits)) wi = select(transmits, wi, mirrored<Real>(normals, wo));
+        return {wi, constant<D>(infinite_density), {share, share, share}, Mask<Real>(true), transmits};
     }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const { return white<Real>(); }
+    TANDEM_HD friend Dielectric select(const Mask<Real>& mask, const Dielectric& a, const Dielectric& b) {
+        return {select(mask, a.share, b.share), select(mask, a.eta, b.eta)};
+    }
 };
 
 }  // namespace tandem

@@ -21,7 +21,7 @@ inline constexpr float least_ggx_alpha = 0x1p-13F;
 template <class Real>
 struct Ggx {
     using D = Double<Real>;
-    D alpha_x, alpha_y;
+    D alpha_x = D(1.0F), alpha_y = D(1.0F);
 
     Ggx() = default;
     /// Alphas outside of [least_ggx_alpha, 1] count as the nearer end, NaN as the lower one.

@@ -24,8 +24,12 @@ struct GgxReflection {
     static constexpr LobeFlags flags = LobeFlags::reflection | LobeFlags::glossy;
     static constexpr int numbers = 2;
 
-    Vec3<Real> f0;  ///< reflectance at normal incidence, RGB, each in [0, 1]; at grazing incidence it is 1
+    Vec3<Real> f0;  ///< reflectance at normal incidence, RGB, each in [0, 1]
+    Real f90;       ///< at grazing incidence: 1, or 0 for no lobe
     Ggx<Real> facets;
+
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return f0; }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return f90 > Real(0.0F); }
 
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D divisor = bounded_divisor<Real>(facets.mutual_extent(wo, wi));
@@ -55,12 +59,19 @@ struct GgxReflection {
             to_real<Real>(square_root(greater(wo.z, D(0.0F)))) * alpha2 * Real(1.3F) / (one + alpha2 * Real(0.9F));
         const Real grazing =
             schlick_weight<Real>(wo.z) / (one + square_root(alpha2) * Real(8.0F) + alpha2 * Real(15.0F));
-        return f0 * (one - lost) + (white<Real>() - f0) * grazing;
+        return f0 * (one - lost) + (Vec3<Real>{f90, f90, f90} - f0) * grazing;
+    }
+
+    TANDEM_HD friend GgxReflection select(const Mask<Real>& mask, const GgxReflection& a, const GgxReflection& b) {
+        GgxReflection result = {select(mask, a.f0, b.f0), select(mask, a.f90, b.f90), a.facets};
+        result.facets.alpha_x = select(mask, a.facets.alpha_x, b.facets.alpha_x);
+        result.facets.alpha_y = select(mask, a.facets.alpha_y, b.facets.alpha_y);
+        return result;
     }
 
   private:
     [[nodiscard]] TANDEM_HD Vec3<Real> fresnel(const Vec3<D>& wo, const Vec3<D>& wi) const {
-        return schlick(f0, schlick_weight_between<Real>(wo, wi));
+        return schlick(f0, f90, schlick_weight_between<Real>(wo, wi));
     }
 };
 

@@ -16,6 +16,9 @@ struct Lambert {
 
     Vec3<Real> reflectance;  ///< RGB, each in [0, 1]
 
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return reflectance; }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return norm1(reflectance) > Real(0.0F); }
+
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return select(both_above<Real>(wo, wi), reflectance * constant<Real>(inverse_pi), black<Real>());
     }
@@ -25,13 +28,30 @@ struct Lambert {
     }
 
     [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
-        const DirectionSample<Real> drawn = sample_cosine_hemisphere<Real>(local_normal<Real>(), u.x, u.y);
-        const Mask<Real> valid = wo.z > D(0.0F);
-        return {drawn.direction, select(valid, drawn.pdf, D(0.0F)), select(valid, reflectance, black<Real>()), valid,
-                Mask<Real>(false)};
+        return sample_about({local_normal<Real>(), local_normal<Real>()}, wo, u).only_where(wo.z > D(0.0F));
     }
 
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const { return reflectance; }
+
+    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const LobeNormals<Real>& normals, const Vec3<D>&,
+                                                          const Vec3<D>& u) const {
+        const DirectionSample<Real> drawn = sample_cosine_hemisphere<Real>(normals.shading, u.x, u.y);
+        return {drawn.direction, drawn.pdf, reflectance, Mask<Real>(true), Mask<Real>(false)};
+    }
+
+    [[nodiscard]] TANDEM_HD D pdf_about(const Vec3<D>& normal, const Vec3<D>& wi) const {
+        return cosine_hemisphere_pdf(dot(wi, normal));
+    }
+
+    [[nodiscard]] TANDEM_HD Vec3<Real> reflected_about(const Real& share, const Vec3<D>& normal, const Vec3<D>& wi,
+                                                       const Vec3<D>&) const {
+        const D cosine = dot(wi, normal);
+        return reflectance * share * to_real<Real>(select(cosine > D(0.0), cosine, D(0.0)));
+    }
+
+    TANDEM_HD friend Lambert select(const Mask<Real>& mask, const Lambert& a, const Lambert& b) {
+        return {select(mask, a.reflectance, b.reflectance)};
+    }
 };
 
 }  // namespace tandem

@@ -38,6 +38,13 @@ struct LobeSample {
     Vec3<Real> weight;      ///< f |cos| / pdf, RGB; for a specular lobe the share of the light. 0 where not `valid`
     Mask<Real> valid;       ///< Else nothing was drawn: the light is lost, and pdf is 0.
     Mask<Real> transmits;   ///< wi goes through the surface. Rounding may decide the sign of wi.z next to it.
+
+    /// Nothing is drawn in the other lanes.
+    [[nodiscard]] TANDEM_HD LobeSample only_where(const Mask<Real>& mask) const {
+        const Real none(0.0F);
+        return {wi, select(mask, pdf, Double<Real>(0.0F)), select(mask, weight, Vec3<Real>{none, none, none}),
+                valid && mask, transmits && mask};
+    }
 };
 
 /// Is a kind of light path said once, and at least one side?
@@ -59,6 +66,9 @@ TANDEM_HD constexpr bool is_complete(LobeFlags flags) {
 ///
 /// f and pdf are 0, and nothing is drawn, where wo is below the surface; of a lobe that only reflects also where wi is.
 /// A specular lobe takes wo.z = 0, any other does not. albedo() is asked above the surface alone.
+/// colour()       what a viewer would call its colour, RGB: for the plane of albedos (kernel/first_hit.h)
+/// L{} is a lobe of no light; scatters() says in which lanes there may be some.
+/// select(mask, a, b) is `a` in the lanes of `mask`, else `b`.
 template <class L, class Real>
 concept Lobe = requires(const L& lobe, const Vec3<Double<Real>>& w) {
     requires std::same_as<decltype(L::flags), const LobeFlags>;
@@ -69,6 +79,34 @@ concept Lobe = requires(const L& lobe, const Vec3<Double<Real>>& w) {
     { lobe.pdf(w, w) } -> std::same_as<Double<Real>>;
     { lobe.sample(w, w) } -> std::same_as<LobeSample<Real>>;
     { lobe.albedo(w) } -> std::same_as<Vec3<Real>>;
+    { lobe.colour() } -> std::same_as<Vec3<Real>>;
+    { lobe.scatters() } -> std::same_as<Mask<Real>>;
+    { select(Mask<Real>(true), lobe, L{}) } -> std::same_as<L>;
+};
+
+/// The normals of a surface in the path loop: unit vectors in world space, on the side of the viewer.
+template <class Real>
+struct LobeNormals {
+    Vec3<Double<Real>> shading;
+    Vec3<Double<Real>> geometric;
+};
+
+/// A lobe that needs no tangent may have forms in world space. They save the way to the local frame and back, and its
+/// rounding; the path loop then uses these alone. The directions are unit vectors.
+///
+/// sample_about(normals, wo, u)   as sample(). Where the shading normal leads to the wrong side of the surface, a
+///                                specular lobe uses the geometric one.
+template <class L, class Real>
+concept SampledInWorld = requires(const L& lobe, const Vec3<Double<Real>>& w, const LobeNormals<Real>& normals) {
+    { lobe.sample_about(normals, w, w) } -> std::same_as<LobeSample<Real>>;
+};
+
+/// reflected_about(share, normal, wi, wo)   pi f |cos| share, RGB. The normal is the outward one, and no direction need
+///                                be above the surface: the formula alone decides.
+/// pdf_about(normal, wi)          of one that paths follow: as pdf(), of a viewer above the surface
+template <class L, class Real>
+concept ReflectsInWorld = requires(const L& lobe, const Vec3<Double<Real>>& w, Real share) {
+    { lobe.reflected_about(share, w, w, w) } -> std::same_as<Vec3<Real>>;
 };
 
 /// Are both directions above the surface? Only then does a lobe that reflects, and is not specular, scatter.

@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-#define TANDEM_LOBE(type, is)                  \
+#define TANDEM_LOBE(type, ...)                 \
     static_assert(Lobe<type<float>, float>);   \
     static_assert(Lobe<type<double>, double>); \
     static_assert(Lobe<type<FastFloat>, FastFloat>);

@@ -40,7 +40,7 @@ TANDEM_HD MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<Real>& m
     const D strength = widen(material.anisotropy);
     const D alpha = roughness * roughness;
     const D along = alpha + (D(1.0F) - alpha) * (strength * strength);
-    return {{mixed, Ggx<Real>(along, alpha)}, {{material.base_colour * dielectric}, f0}};
+    return {{mixed, one, Ggx<Real>(along, alpha)}, {{material.base_colour * dielectric}, f0}};
 }
 
 }  // namespace tandem

@@ -1,8 +1,7 @@
 /// A perfect mirror.
 #pragma once
 
-#include "tandem/kernel/bsdf/lobe.h"
-#include "tandem/kernel/bsdf/reflect.h"
+#include "tandem/kernel/bsdf/specular_directions.h"
 
 namespace tandem {
 
@@ -15,23 +14,27 @@ struct Mirror {
 
     Vec3<Real> reflectance;  ///< RGB, each in [0, 1]
 
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return reflectance; }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return norm1(reflectance) > Real(0.0F); }
+
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>&, const Vec3<D>&) const { return black<Real>(); }
     [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>&, const Vec3<D>&) const { return D(0.0F); }
 
     [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
-        return sample_about(local_normal<Real>(), wo, u);
-    }
-
-    /// The same in any frame: `normal` is a unit vector in that of `wo`. A caller that has the directions in world
-    /// space saves the way to the local frame and back, and its rounding.
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const Vec3<D>& normal, const Vec3<D>& wo,
-                                                          const Vec3<D>&) const {
-        const Mask<Real> valid = dot(wo, normal) >= D(0.0F);
-        return {reflect(-wo, normal), select(valid, constant<D>(infinite_density), D(0.0F)),
-                select(valid, reflectance, black<Real>()), valid, Mask<Real>(false)};
+        return sample_about({local_normal<Real>(), local_normal<Real>()}, wo, u).only_where(wo.z >= D(0.0F));
     }
 
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const { return reflectance; }
+
+    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const LobeNormals<Real>& normals, const Vec3<D>& wo,
+                                                          const Vec3<D>&) const {
+        return {mirrored<Real>(normals, wo), constant<D>(infinite_density), reflectance, Mask<Real>(true),
+                Mask<Real>(false)};
+    }
+
+    TANDEM_HD friend Mirror select(const Mask<Real>& mask, const Mirror& a, const Mirror& b) {
+        return {select(mask, a.reflectance, b.reflectance)};
+    }
 };
 
 }  // namespace tandem

@@ -8,9 +8,8 @@
 
 namespace tandem {
 
-/// f |cos| = specular (R.V)^shininess / pi, with R the mirror direction. This is the highlight of phong_light()
-/// (kernel/bsdf/phong.h), in the units of a BSDF: there, as for light of an area, Lambert's 1 / pi is part of the
-/// intensity. So a light brings the same whether its direction is drawn by the light or by the lobe.
+/// f |cos| = specular (R.V)^shininess / pi, with R the mirror direction. This is reflected_about(), the highlight of the
+/// paper, in the units of a BSDF: there, as for light of an area, Lambert's 1 / pi is part of the intensity. So a light brings the same whether its direction is drawn by the light or by the lobe.
 ///
 /// Phong's f has the cosine of the light in its divisor, so it is not reciprocal; f |cos| is. What it reflects head-on
 /// is 2 specular / (shininess + 1), and less elsewhere: with a shininess below 1 it may win energy.
@@ -30,6 +29,9 @@ struct PhongLobe {
 
     Vec3<Real> specular;  ///< RGB, each in [0, 1]
     Real shininess;       ///< >= 0
+
+    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return specular; }
+    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return norm1(specular) > Real(0.0F); }
 
     [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D divisor = bounded_divisor<Real>(wi.z) * constant<D>(pi);
@@ -58,6 +60,25 @@ struct PhongLobe {
 
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const {
         return specular * (Real(2.0F) / (shininess + Real(1.0F)));
+    }
+
+    /// Phong's highlight as in the paper: ks (R.V)^shininess, with R = 2 (L.N) N - L, wherever R.V > 0.
+    [[nodiscard]] TANDEM_HD Vec3<Real> reflected_about(const Real& share, const Vec3<D>& normal, const Vec3<D>& wi,
+                                                       const Vec3<D>& wo) const {
+        const D cosine = dot(wi, normal);
+        const D twice = cosine + cosine;
+        const Vec3<D> along = {twice * normal.x - wi.x, twice * normal.y - wi.y, twice * normal.z - wi.z};
+        const D highlight = dot(along, wo);
+        const Mask<Real> counts = highlight > D(0.0);
+        Real weight(0.0F);
+        if (any(counts && scatters())) {
+            weight = select(counts, specular_lobe<Real>(select(counts, highlight, D(1.0)), shininess), weight);
+        }
+        return specular * share * weight;
+    }
+
+    TANDEM_HD friend PhongLobe select(const Mask<Real>& mask, const PhongLobe& a, const PhongLobe& b) {
+        return {select(mask, a.specular, b.specular), select(mask, a.shininess, b.shininess)};
     }
 
   private:

@@ -1,4 +1,5 @@
-/// Schlick's approximation of Fresnel's formulas for microfacets: from the reflectance at normal incidence to 1.
+/// Schlick's approximation of Fresnel's formulas for microfacets: from the reflectance at normal incidence
+/// to that at grazing incidence.
 ///
 /// Source: C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994, as glTF 2.0 has
 ///         it in appendix B. Held by tests/kernel/bsdf/ggx_reflection_test.cpp.
@@ -25,10 +26,10 @@ TANDEM_HD Real schlick_weight_between(const Vec3<Double<Real>>& wo, const Vec3<D
     return schlick_weight<Real>(Double<Real>(0.5F) * square_root(dot(both, both)));
 }
 
-/// Reflectance with the weight given; `f0`: at normal incidence.
+/// Reflectance with the weight given; `f0`: at normal incidence, `f90`: at grazing incidence.
 template <class Real>
-TANDEM_HD Vec3<Real> schlick(const Vec3<Real>& f0, const Real& weight) {
-    return f0 + (white<Real>() - f0) * weight;
+TANDEM_HD Vec3<Real> schlick(const Vec3<Real>& f0, const Real& f90, const Real& weight) {
+    return f0 + (Vec3<Real>{f90, f90, f90} - f0) * weight;
 }
 
 /// 1 - reflectance.

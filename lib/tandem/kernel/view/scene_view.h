@@ -126,6 +126,15 @@ TANDEM_HD bool may_glow(std::uint32_t kinds) {
 #endif
 }
 
+/// Is it certain, when the kernel is compiled, that there is one area light?
+TANDEM_HD bool must_have_one_area_light() {
+#if defined(TANDEM_LINKED_ONE_AREA_LIGHT) && TANDEM_ON_DEVICE
+    return TANDEM_LINKED_ONE_AREA_LIGHT != 0;
+#else
+    return false;
+#endif
+}
+
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {

@@ -1,0 +1,159 @@
+/// Emissive spheres and faces as lights of a vertex.
+#pragma once
+
+#include "tandem/kernel/incident_light.h"
+#include "tandem/kernel/light_texture.h"
+#include "tandem/kernel/lights/quad_light.h"
+#include "tandem/kernel/lights/sphere_light.h"
+
+namespace tandem {
+
+namespace area_lights_detail {
+
+/// Can points of such a primitive be sampled as a light, or do only paths find it?
+template <class Body>
+inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
+
+template <class Real>
+TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_sphere_light<Real>(point, broadcast<D>(sphere.centre), D(sphere.radius));
+}
+template <class Real>
+TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
+}
+/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
+/// diagonal lies within it.
+template <class Real>
+TANDEM_HD bool overlaps(const Quad& quad) {
+    using S = Scalar<Double<Real>>;
+    const Vec3<S> to1 = Vec3<S>(quad.v1) - Vec3<S>(quad.v0);
+    const Vec3<S> to2 = Vec3<S>(quad.v2) - Vec3<S>(quad.v0);
+    const Vec3<S> to3 = Vec3<S>(quad.v3) - Vec3<S>(quad.v0);
+    const Vec3<S> normal = cross(to1, to2);
+    const bool is_flat = absolute(dot(to3, normal)) <= S(0x1p-20) * (norm1(to3) * norm1(normal));
+    return !is_flat || !(dot(normal, cross(to2, to3)) > S(0));
+}
+template <class Real>
+TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point) {
+    using D = Double<Real>;
+    return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
+                                 broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
+}
+
+/// Whether light leaves in `direction`, unit, towards the lit point: a sphere emits from its outside, a face from its
+/// front, or from both sides if it is double-sided. The halves of a quad decide this themselves.
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
+    using D = Double<Real>;
+    const Vec3<D> offset = point - broadcast<D>(sphere.centre);
+    return dot(offset, offset) > D(sphere.radius) * D(sphere.radius);
+}
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Triangle& face, const Vec3<Double<Real>>&, const Vec3<Double<Real>>& direction) {
+    if (is_double_sided(face.attributes)) return Mask<Real>(true);
+    return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
+}
+template <class Real>
+TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<Double<Real>>&) {
+    return Mask<Real>(true);
+}
+
+}  // namespace area_lights_detail
+
+/// What a vertex receives of one emissive primitive, chosen in proportion to their power, in the lanes of `active`.
+/// Source: P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
+template <class Effects, class Real>
+TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, const LitVertex<Real>& at,
+                                                      const Mask<Real>& active) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const D zero(0.0);
+    const Real nothing(0.0F);
+    const auto random = at.sample.block_at_vertex(Dimension::area_light, at.number);
+    const D u = widen(to_unit_interval<Real>(random.word[1]));
+    const D v = widen(to_unit_interval<Real>(random.word[2]));
+    Word light(0U);
+    for (int i = 0; i < RealTraits<Real>::lanes && !must_have_one_area_light(); ++i) {
+        const std::uint64_t number = std::uint64_t{lane(random.word[0], i)} << 32 | lane(random.word[3], i);
+        set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, number));
+    }
+    const Vec3<D> position = widen(at.point.position);
+    LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
+    Vec3<Real> radiance = black<Real>();
+    Word primitive(no_primitive);
+    for_each_unique_lane(light, active, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const AreaLight& chosen = scene.area_lights[index];
+        const std::uint32_t material = scene.material_of[chosen.primitive];
+        LightSample<Real> of_light = drawn;
+        Vec3<Real> emitted = broadcast<Real>(scene.optics[material].emission);
+        Mask<Real> lights = here && at.point.primitive != Word(chosen.primitive);
+        visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (area_lights_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
+                of_light = sample_light(area_lights_detail::view_light<Real>(body, position), u, v);
+                lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
+                if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
+                const MaterialTextures& textures = scene.textures.materials[material];
+                if (textures.emission.texture == no_texture) return;
+                emitted = emitted * light_picture<Real>(scene, textures, body, of_light);
+            }
+        });
+        D pdf = select(lights, of_light.pdf, zero);
+        if (!must_have_one_area_light()) pdf = pdf * constant<D>(chosen.chance);
+        drawn.direction = select(here, of_light.direction, drawn.direction);
+        drawn.point = select(here, of_light.point, drawn.point);
+        drawn.pdf = select(here, pdf, drawn.pdf);
+        radiance = select(here, emitted, radiance);
+        primitive = select(here, Word(chosen.primitive), primitive);
+    });
+    IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
+    result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
+    const Mask<Real> seen = active && drawn.pdf > zero;
+    if (!any(seen)) return result;
+    const D pdf = select(seen, drawn.pdf, D(1.0));
+    const Vec3<Real> value = reflect_light<Effects>(scene, at, radiance * light_scale<Real>(pdf), drawn.direction, pdf);
+    result.reflected = select(seen, value, result.reflected);
+    if (scene.area_lights_cast_shadows != 0) keep_in_front(at, drawn.direction, result);
+    return result;
+}
+
+/// The density, per solid angle, with which sample_area_light() would have drawn `direction` from `point` for the light
+/// `primitive` that is hit there: 0 if it is no light.
+template <class Real>
+TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
+                                            const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
+                                            const Mask<Real>& active) {
+    using D = Double<Real>;
+    D result(0.0);
+    for_each_unique_lane(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+        const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
+        if (!(chance > 0.0)) return;
+        visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+            using Body = std::decay_t<decltype(body)>;
+            if constexpr (area_lights_detail::is_light<Body>) {
+                if (!may_glow(kind_of<Body>)) return;
+                const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point), direction);
+                result = select(here, of_light * constant<D>(chance), result);
+            }
+        });
+    });
+    return result;
+}
+
+struct AreaLights {
+    template <class Effects>
+    TANDEM_HD static std::uint32_t count(const SceneView& scene) {
+        return scene.area_light_count > 0 ? 1 : 0;
+    }
+    template <class Effects, class Real>
+    TANDEM_HD static IncidentLight<Real> sample(const SceneView& scene, std::uint32_t, const LitVertex<Real>& at,
+                                                const Mask<Real>& active) {
+        return sample_area_light<Effects>(scene, at, active);
+    }
+};
+
+}  // namespace tandem

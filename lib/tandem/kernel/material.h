@@ -1,0 +1,71 @@
+/// From a material, and what its textures say at a point, to the lobes of a surface.
+#pragma once
+
+#include "tandem/kernel/bsdf/metallic_roughness.h"
+#include "tandem/kernel/surface_lobes.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem {
+
+/// What the textures of a material say at a point; 1 where it has none.
+template <class Real>
+struct MaterialTexels {
+    Rgba<Real> base_colour = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
+    Rgba<Real> metallic_roughness = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
+    Vec3<Real> emission = {Real(1.0F), Real(1.0F), Real(1.0F)};
+};
+
+/// How a surface reflects: its BSDF, and the reflectance of ambient light, ka of Phong's model.
+template <class Real>
+struct Reflectance {
+    SurfaceLobes<Real> lobes;
+    Vec3<Real> ambient = black<Real>();
+};
+
+/// That of a material. A new kind of material is read here.
+/// `from_inside`: where the ray is inside the solid.
+template <class Effects, class Real>
+TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t number,
+                                           const MaterialTexels<Real>& texels, const Mask<Real>& from_inside) {
+    const PhongMaterial& material = scene.materials[number];
+    const Optics& optics = scene.optics[number];
+    Reflectance<Real> result;
+    SurfaceLobes<Real>& lobes = result.lobes;
+    result.ambient = broadcast<Real>(material.ambient);
+    lobes.diffuse.reflectance = broadcast<Real>(material.diffuse);
+    lobes.phong = {broadcast<Real>(material.specular), Real(material.shininess)};
+    if (Effects::has(Effect::textures) && has_textures(scene.textures)) {
+        const Vec3<Real> factor = {texels.base_colour.r, texels.base_colour.g, texels.base_colour.b};
+        result.ambient = result.ambient * factor;
+        lobes.diffuse.reflectance = lobes.diffuse.reflectance * factor;
+    }
+
+    // Metals and polished surfaces
+    if (Effects::has(Effect::microfacets) && scene.microfacet_count > 0 && scene.microfacets[number].is_there != 0) {
+        const Microfacets& facets = scene.microfacets[number];
+        const Real metallic = Real(facets.metallic) * texels.metallic_roughness.b;
+        const Real roughness = Real(facets.roughness) * texels.metallic_roughness.g;
+        const MetallicRoughnessLobes<Real> both =
+            lobes_of<Real>({lobes.diffuse.reflectance, metallic, roughness, Real(optics.ior)});
+        result.ambient = result.ambient * (Real(1.0F) - metallic);
+        lobes.microfacets = both.specular;
+        lobes.coated = both.diffuse;
+        lobes.diffuse = {};
+        lobes.phong.specular = black<Real>();
+    }
+
+    // Mirrors and clear solids: a dielectric takes its share of the light from the diffuse lobes, and there are no
+    // highlights on the inside
+    if (Effects::has(Effect::reflection)) lobes.mirror.reflectance = broadcast<Real>(optics.mirror);
+    if (Effects::has(Effect::refraction) && optics.transmission > 0.0F) {
+        lobes.dielectric.share = Real(optics.transmission);
+        const Real scattered = Real(1.0F) - lobes.dielectric.share;
+        result.ambient = result.ambient * scattered;
+        lobes.diffuse.reflectance = lobes.diffuse.reflectance * scattered;
+        lobes.coated.base.reflectance = lobes.coated.base.reflectance * scattered;
+        lobes.phong.specular = select(from_inside, black<Real>(), lobes.phong.specular);
+    }
+    return result;
+}
+
+}  // namespace tandem

@@ -1,0 +1,203 @@
+/// The BSDF of a surface: the sum of the lobes of bsdf/lobes.def. Those that a surface lacks are black; those that a
+/// kernel does not simulate leave neither code nor state.
+#pragma once
+
+#include <type_traits>
+
+#include "tandem/effects/effects.h"
+#include "tandem/kernel/bsdf/lobes.h"
+
+namespace tandem {
+
+template <class Real>
+struct SurfaceLobes {
+#define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name{};
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+};
+
+/// The place of each lobe in lobes.def.
+struct LobePlace {
+    enum Place : int {
+#define TANDEM_LOBE(Type, name, needs, follows, is) name,
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+        count
+    };
+};
+
+namespace lobes_detail {
+
+struct LobeUse {
+    EffectMask needs, follows;
+};
+template <int place>
+inline constexpr LobeUse use_of;
+#define TANDEM_LOBE(Type, name, needs, follows, is) \
+    template <>                                     \
+    inline constexpr LobeUse use_of<LobePlace::name> = {needs, follows};
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+
+}  // namespace lobes_detail
+
+/// Does the path loop take a lobe to its local frame?
+template <class Lobe, class Real>
+inline constexpr bool is_local = !has(Lobe::flags, LobeFlags::specular) && !ReflectsInWorld<Lobe, Real>;
+
+namespace lobes_detail {
+
+struct LobeKind {
+    LobeFlags flags;
+    int numbers;
+    bool local;
+};
+
+/// The effects that lobes.def has for some kinds of lobes, in one of its columns.
+constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(LobeKind)) {
+    EffectMask mask;
+#define TANDEM_LOBE(Type, name, needs, follows, is)                                           \
+    if (is_meant({Type<float>::flags, Type<float>::numbers, is_local<Type<float>, float>})) { \
+        mask |= use_of<LobePlace::name>.*column;                                              \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+    return mask;
+}
+
+}  // namespace lobes_detail
+
+/// The effects that call for lobes of the local frame.
+inline constexpr EffectMask effects_of_local_lobes =
+    lobes_detail::effects_of(&lobes_detail::LobeUse::needs, [](lobes_detail::LobeKind kind) { return kind.local; });
+
+// The effects for which paths follow glossy lobes, lobes that are not specular, and specular lobes that draw random
+// numbers.
+inline constexpr EffectMask effects_of_glossy_lobes = lobes_detail::effects_of(
+    &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return has(kind.flags, LobeFlags::glossy); });
+inline constexpr EffectMask effects_of_scattering_lobes = lobes_detail::effects_of(
+    &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return !has(kind.flags, LobeFlags::specular); });
+inline constexpr EffectMask effects_of_random_specular_lobes = lobes_detail::effects_of(
+    &lobes_detail::LobeUse::follows,
+    [](lobes_detail::LobeKind kind) { return has(kind.flags, LobeFlags::specular) && kind.numbers > 0; });
+
+namespace lobes_detail {
+
+/// The number of glossy lobes before `end`.
+constexpr int glossy_lobes_before(int end) {
+    int count = 0;
+#define TANDEM_LOBE(Type, name, needs, follows, is) \
+    if (LobePlace::name < end && has(Type<float>::flags, LobeFlags::glossy)) ++count;
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+    return count;
+}
+
+}  // namespace lobes_detail
+
+/// Glossy lobes have numbers of their own, from 0 to glossy_lobe_count.
+inline constexpr int glossy_lobe_count = lobes_detail::glossy_lobes_before(LobePlace::count);
+template <int place>
+inline constexpr int glossy_number = lobes_detail::glossy_lobes_before(place);
+
+/// Calls visit(lobe, place) for each lobe that the kernel simulates, in their order; `place` is a constant of
+/// LobePlace.
+template <class Effects, class Lobes, class Visit>
+TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
+#define TANDEM_LOBE(Type, name, needs, follows, is)                                                       \
+    if constexpr (can_simulate<Effects>(needs)) {                                                         \
+        if (simulates<Effects>(needs)) visit(lobes.name, std::integral_constant<int, LobePlace::name>{}); \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+}
+
+/// Do paths of some kernel continue along the lobe at `place`?
+template <int place>
+inline constexpr bool is_ever_followed = !lobes_detail::use_of<place>.follows.empty();
+
+/// Can paths continue along the lobe at `place`? For types.
+template <class Effects, int place>
+TANDEM_HD constexpr bool can_follow() {
+    return can_simulate<Effects>(lobes_detail::use_of<place>.needs) &&
+           can_simulate<Effects>(lobes_detail::use_of<place>.follows);
+}
+
+/// The same for each lobe that paths continue along.
+template <class Effects, class Lobes, class Visit>
+TANDEM_HD void for_each_followed_lobe(Lobes& lobes, Visit visit) {
+    for_each_lobe<Effects>(lobes, [&](auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+        constexpr int at = decltype(place)::value;
+        if constexpr (can_follow<Effects, at>()) {
+            if (simulates<Effects>(lobes_detail::use_of<at>.follows)) visit(lobe, place);
+        }
+    });
+}
+
+/// A sum over lobes, in their order.
+template <class T>
+class LobeSum {
+  public:
+    /// `nothing`: the sum of no lobes.
+    TANDEM_HD explicit LobeSum(const T& nothing) : sum_(nothing) {}
+    TANDEM_HD void add(const T& addend) {
+        if (empty_) {
+            sum_ = addend;
+        } else {
+            sum_ = sum_ + addend;
+        }
+        empty_ = false;
+    }
+    [[nodiscard]] TANDEM_HD const T& value() const { return sum_; }
+
+  private:
+    T sum_;
+    bool empty_ = true;  // so that 0 + x costs nothing
+};
+
+/// Replaces `kept` by `lobes` in the lanes of `mask`.
+template <class Effects, class Real>
+TANDEM_HD void keep(const Mask<Real>& mask, const SurfaceLobes<Real>& lobes, SurfaceLobes<Real>& kept) {
+#define TANDEM_LOBE(Type, name, needs, follows, is)                                     \
+    if constexpr (can_simulate<Effects>(needs)) {                                       \
+        if (simulates<Effects>(needs)) kept.name = select(mask, lobes.name, kept.name); \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
+#undef TANDEM_LOBE
+}
+
+/// Do paths meet lobes that transmit light, in which lanes?
+template <class Effects, class Real>
+TANDEM_HD Mask<Real> transmits(const SurfaceLobes<Real>& lobes) {
+    Mask<Real> result(false);
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+        if constexpr (has(std::decay_t<decltype(lobe)>::flags, LobeFlags::transmission)) {
+            result = result || lobe.scatters();
+        }
+    });
+    return result;
+}
+
+/// Can light leave a surface by a lobe that is not specular, in which lanes?
+template <class Effects, class Real>
+TANDEM_HD Mask<Real> scatters(const SurfaceLobes<Real>& lobes) {
+    Mask<Real> result(false);
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+        if constexpr (!has(std::decay_t<decltype(lobe)>::flags, LobeFlags::specular)) {
+            result = result || lobe.scatters();
+        }
+    });
+    return result;
+}
+
+/// The same of lobes that work in the local frame.
+template <class Effects, class Real>
+TANDEM_HD Mask<Real> scatters_locally(const SurfaceLobes<Real>& lobes) {
+    Mask<Real> result(false);
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+        if constexpr (is_local<std::decay_t<decltype(lobe)>, Real>) result = result || lobe.scatters();
+    });
+    return result;
+}
+
+}  // namespace tandem
