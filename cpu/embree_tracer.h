@@ -91,7 +91,9 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, con
     for_each_unique_lane(id, valid, [&](std::uint32_t number, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         visit_primitive<PrimitiveKinds::faces>(scene, number, [&](const auto& face) TANDEM_INLINE_LAMBDA {
             if (face.attributes.sides != FaceSides::culled) return;
-            culled = culled || (here && surface_point(face, ray, t, Mask<Real>(false), here).from_inside);
+            culled =
+                culled ||
+                (here && surface_point(face, record_hit(face, ray, t, Mask<Real>(false), here), ray, t).from_inside);
         });
     });
     return culled;

@@ -188,7 +188,8 @@ TEST(PrepareTextures, TurnsThePictureWithItsSphere) {
         const Ray<double> ray = {n * 3.0, -n};
         double t = 0;
         EXPECT_TRUE(first_in_front(prepared.ellipsoids[0], ray, t));
-        return parametrisation(prepared.ellipsoids[0], nullptr, ray, t, true, false);
+        const Ellipsoid& body = prepared.ellipsoids[0];
+        return parametrisation(body, record_hit(body, ray, t, false, true), nullptr, ray, t, true);
     };
     EXPECT_NEAR(at({0, -1, 0}).v, 0, 1e-7);
     EXPECT_NEAR(at({0, 0, -1}).u, 0.5, 1e-12);

@@ -54,7 +54,7 @@ int crossing(const Triangle& face, const Ray<double>& ray) {
 int crossing(const Quad& face, const Ray<double>& ray) {
     double t = 0;
     if (!first_in_front(face, ray, t)) return 0;
-    const bool first = is_in_first_half(face, ray, t);
+    const bool first = is_in_first_half(record_hit(face, ray, t, false, true));
     const Vec3d normal = first ? geometric_normal<double>(face.v0, face.v1, face.v2)
                                : geometric_normal<double>(face.v0, face.v2, face.v3);
     return dot(normal, ray.direction) > 0 ? 1 : -1;

@@ -9,13 +9,13 @@ namespace tandem {
 /// The texture coordinates of primitive `id` at a hit, as parametrisation(). Of a face: from its values in `slot`.
 template <std::uint32_t kinds, class Real>
 TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, std::uint32_t slot,
-                                                        Ray<Real> ray, Double<Real> t, Mask<Real> here,
-                                                        Mask<Real> exits) {
+                                                        HitRecord<Real> record, Ray<Real> ray, Double<Real> t,
+                                                        Mask<Real> here) {
     Parametrisation<Real> at{};
     visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
         using Body = std::decay_t<decltype(body)>;
         const std::uint32_t first = slot * corner_count<Body>;
-        at = parametrisation(body, scene.texcoords + first, ray, t, here, exits);
+        at = parametrisation(body, record, scene.texcoords + first, ray, t, here);
     });
     return at;
 }
@@ -25,14 +25,14 @@ TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, 
 template <std::uint32_t kinds, class Real>
 class CornerValues {
   public:
-    TANDEM_HD CornerValues(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const Double<Real>& t,
-                           const Mask<Real>& here, const Mask<Real>& exits)
-        : scene_(scene), id_(id), ray_(ray), t_(t), here_(here), exits_(exits) {}
+    TANDEM_HD CornerValues(const SceneView& scene, std::uint32_t id, const HitRecord<Real>& record,
+                           const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here)
+        : scene_(scene), id_(id), record_(record), ray_(ray), t_(t), here_(here) {}
 
     [[nodiscard]] TANDEM_HD const Parametrisation<Real>& in(std::uint32_t slot) {
         if (!may_have_several_slots()) slot = 0;
         if (slot != slot_) {
-            at_ = parametrisation_of<kinds>(scene_, id_, slot, ray_, t_, here_, exits_);
+            at_ = parametrisation_of<kinds>(scene_, id_, slot, record_, ray_, t_, here_);
             slot_ = slot;
         }
         return at_;
@@ -58,10 +58,10 @@ class CornerValues {
   private:
     const SceneView& scene_;
     std::uint32_t id_;
+    const HitRecord<Real>& record_;
     const Ray<Real>& ray_;
     const Double<Real>& t_;
     const Mask<Real>& here_;
-    const Mask<Real>& exits_;
     std::uint32_t slot_ = no_slot;
     Parametrisation<Real> at_{};
 };

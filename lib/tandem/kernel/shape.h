@@ -15,22 +15,25 @@ namespace tandem {
 /// - may_touch(): the filter in float, which rejects no hit;
 /// - first_in_front(): the nearest hit in front of a ray, decided in the type of decisions; of a solid also
 ///   first_or_far(), the hit of a ray that has left it;
+/// - record_hit(): what the shape finds out about a hit, for the next three;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
 /// - parametrisation(): texture coordinates and how they grow;
 /// - where area_lights_detail::is_light says so, view_light() and shines(): the light that leaves it, to be sampled.
 template <class Primitive, class Real>
 concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
-             const Vec2f* texcoords, Double<Real> t, const Mask<Real>& mask, const Vec3<Double<Real>>& v) {
+             const Vec2f* texcoords, Double<Real> t, const Mask<Real>& mask, const HitRecord<Real>& record,
+             const Vec3<Double<Real>>& v) {
     { bounds(primitive) } -> std::same_as<Aabb>;
     { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
     { first_in_front(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
     requires is_face<Primitive> || requires {
         { first_or_far(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
     };
-    { surface_point(primitive, ray, t, mask, mask) } -> std::same_as<SurfacePoint<Real>>;
-    { normal_at<Real>(scene, primitive, ray, t, mask, mask) } -> std::same_as<Vec3<Double<Real>>>;
-    { parametrisation(primitive, texcoords, ray, t, mask, mask) } -> std::same_as<Parametrisation<Real>>;
+    { record_hit(primitive, ray, t, mask, mask) } -> std::same_as<HitRecord<Real>>;
+    { surface_point(primitive, record, ray, t) } -> std::same_as<SurfacePoint<Real>>;
+    { normal_at<Real>(scene, primitive, record, ray, t, mask) } -> std::same_as<Vec3<Double<Real>>>;
+    { parametrisation(primitive, record, texcoords, ray, t, mask) } -> std::same_as<Parametrisation<Real>>;
     requires !area_lights_detail::is_light<Primitive> || requires {
         area_lights_detail::view_light<Real>(primitive, v);
         { area_lights_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;

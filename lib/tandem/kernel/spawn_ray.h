@@ -48,36 +48,28 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
 
 }  // namespace spawn_detail
 
-// The point of a primitive at a hit. `t` is the one that the tracer found; `exits`: it is the far side of the primitive
-// that the ray left inward, so the ray comes from within, whatever rounding has done to its origin. The last one: the
-// lanes that matter.
-
-// For closed solids `from_inside` follows from where the ray starts, so that a ray that grazes a solid enters it before
-// it leaves it.
+// The point of a primitive at a hit, where `t` is the one that the tracer found. `record`: the shape's, of this hit.
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const HitRecord<Real>& record, const Ray<Real>& ray,
+                                           const Double<Real>& t) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = sphere_normal(sphere, ray, t);
     const Vec3<D> centre = broadcast<D>(sphere.centre);
-    const Vec3<D> start = widen(ray.origin) - centre;
-    point.from_inside = exits || dot(start, start) < D(sphere.radius) * D(sphere.radius);
+    point.from_inside = record.from_inside;
     point.position = to_real<Real>(spawn_detail::along<Real>(centre, point.normal, D(sphere.radius)));
     return point;
 }
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const HitRecord<Real>& record, const Ray<Real>& ray,
+                                           const Double<Real>& t) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
-    const Vec3<D> direction = widen(ray.direction);
-    const BoxCrossing<Real> crossing = cross_box(box, ray);
-    point.normal = face_normal<Real>(crossing, direction, exits);
-    point.from_inside = exits || !(crossing.t_near > D(0.0));
-    const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), direction, t));
+    point.normal = face_normal(record);
+    point.from_inside = record.from_inside;
+    const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), widen(ray.direction), t));
     const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) TANDEM_INLINE_LAMBDA {
         const Real lo(lower);
         const Real hi(upper);
@@ -92,13 +84,13 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const Ray<Real>& ray,
 }
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const HitRecord<Real>& record, const Ray<Real>& ray,
+                                           const Double<Real>& t) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
     point.normal = ellipsoid_normal(body, ray, t);
     const ObjectRay<Real> local = to_object(body, ray);
-    point.from_inside = exits || dot(local.origin, local.origin) < D(1.0);
+    point.from_inside = record.from_inside;
     const Vec3<D> unit_point = spawn_detail::along<Real>(local.origin, local.direction, t);
     // scaling the offset from the centre scales its image in object space alike
     point.position = spawn_detail::at_offset(body, ray, t, inverse_square_root(dot(unit_point, unit_point)));
@@ -106,15 +98,14 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const Ray<Real
 }
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const HitRecord<Real>& record,
+                                           const Ray<Real>& ray, const Double<Real>& t) {
     using D = Double<Real>;
     SurfacePoint<Real> point;
-    point.normal = parallelepiped_normal(body, ray, exits);
+    point.normal = parallelepiped_normal(body, record);
+    point.from_inside = record.from_inside;
     const ObjectRay<Real> local = to_object(body, ray);
-    const BoxCrossing<Real> crossing = cross_parallelepiped(local);
-    point.from_inside = exits || !(crossing.t_near > D(0.0));
-    const Vec3<D> face = face_normal<Real>(crossing, local.direction, exits);
+    const Vec3<D> face = face_normal(record);
     const Vec3<D> cube_point = spawn_detail::along<Real>(local.origin, local.direction, t);
     point.position = spawn_detail::at_offset(body, ray, t, D(1.0) / absolute(dot(cube_point, face)));
     return point;
@@ -148,16 +139,16 @@ TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real
 }  // namespace spawn_detail
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Triangle& triangle, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&, const Mask<Real>&) {
+TANDEM_HD SurfacePoint<Real> surface_point(const Triangle& triangle, const HitRecord<Real>&, const Ray<Real>& ray,
+                                           const Double<Real>& t) {
     const auto normal = geometric_normal<Real>(triangle.v0, triangle.v1, triangle.v2);
     return spawn_detail::plane_point(triangle.v0, normal, ray, t);
 }
 
 template <class Real>
-TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
-                                           const Mask<Real>&, const Mask<Real>& here) {
-    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
+TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const HitRecord<Real>& record, const Ray<Real>& ray,
+                                           const Double<Real>& t) {
+    const Mask<Real> first = is_in_first_half(record);
     const auto a = geometric_normal<Real>(quad.v0, quad.v1, quad.v2);
     const auto b = geometric_normal<Real>(quad.v0, quad.v2, quad.v3);
     // both halves have the corner v0
@@ -189,7 +180,7 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
     const Mask<Real> exits = hits_far_side<kinds>(scene, id, ray, source, t, here);
     SurfacePoint<Real> point;
     visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
-        point = surface_point(primitive, ray, t, exits, here);
+        point = surface_point(primitive, record_hit(primitive, ray, t, exits, here), ray, t);
     });
     point.primitive = UInt<Real>(id);
     return point;

@@ -29,39 +29,39 @@ struct Surface {
 /// How many alpha-masked hits a ray passes before it counts as blocked.
 inline constexpr std::uint32_t max_masked_hits = 255;
 
-// The normal of each kind at parameter t of a ray that hits the primitive there, in the lanes of `here`: of a sphere of
-// any length, else unit. `exits`: where the ray leaves the same solid that it left inward.
+// The normal of each kind where a ray hits the primitive at t, in the lanes of `here`: of a sphere of any length, else
+// unit. `record`: the shape's, of this hit.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Sphere& sphere, const Ray<Real>& ray,
-                                       const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Sphere& sphere, const HitRecord<Real>&,
+                                       const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     return sphere_offset(sphere, ray, t);  // see surface_at()
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Box& box, const Ray<Real>& ray, const Double<Real>&,
-                                       const Mask<Real>&, const Mask<Real>& exits) {
-    return face_normal<Real>(cross_box(box, ray), widen(ray.direction), exits);
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Box&, const HitRecord<Real>& record, const Ray<Real>&,
+                                       const Double<Real>&, const Mask<Real>&) {
+    return face_normal(record);
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Ellipsoid& body, const Ray<Real>& ray,
-                                       const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Ellipsoid& body, const HitRecord<Real>&,
+                                       const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     return ellipsoid_normal(body, ray, t);
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Parallelepiped& body, const Ray<Real>& ray,
-                                       const Double<Real>&, const Mask<Real>&, const Mask<Real>& exits) {
-    return parallelepiped_normal(body, ray, exits);
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Parallelepiped& body, const HitRecord<Real>& record,
+                                       const Ray<Real>&, const Double<Real>&, const Mask<Real>&) {
+    return parallelepiped_normal(body, record);
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Triangle& triangle, const Ray<Real>& ray,
-                                       const Double<Real>&, const Mask<Real>& here, const Mask<Real>&) {
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Triangle& triangle, const HitRecord<Real>&,
+                                       const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& here) {
     const Vec3f* normals = corner_normals(scene.normals, triangle.attributes);
     return shading_normal<Real>(triangle, normals, ray, here);
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad, const Ray<Real>& ray,
-                                       const Double<Real>& t, const Mask<Real>& here, const Mask<Real>&) {
+TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad, const HitRecord<Real>& record,
+                                       const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& here) {
     const Vec3f* normals = corner_normals(scene.normals, quad.attributes);
-    return shading_normal<Real>(quad, normals, ray, t, here);
+    return shading_normal<Real>(quad, record, normals, ray, here);
 }
 
 /// Do materials depend on the position on the surface?
@@ -93,11 +93,13 @@ TANDEM_HD_STAGE Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>&
                              const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
                              if (!(textures.alpha_cutoff > 0.0F)) return;
                              bool on_face = false;
+                             const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
+                             HitRecord<Real> record;
                              visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
                                  on_face = is_face<std::decay_t<decltype(body)>>;
+                                 record = record_hit(body, ray, hit.t, exits, here);
                              });
-                             const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
-                             CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+                             CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
                              const Real alpha = base_colour(textures, on_face, values).a;
                              opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
                          });
@@ -132,13 +134,15 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             bool on_face = false;
             FaceSides sides = FaceSides::single_sided;
             SurfacePoint<Real> own;
+            HitRecord<Real> record;
             visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
                 using Body = std::decay_t<decltype(body)>;
-                if (needs_point) own = surface_point(body, ray, hit.t, exits, here);
+                record = record_hit(body, ray, hit.t, exits, here);
+                if (needs_point) own = surface_point(body, record, ray, hit.t);
                 if (needs_point && !is_face<Body>) {
                     normal = own.normal;
                 } else {
-                    normal = normal_at<Real>(scene, body, ray, hit.t, here, exits);
+                    normal = normal_at<Real>(scene, body, record, ray, hit.t, here);
                     if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
                 }
                 if constexpr (is_face<Body>) {
@@ -158,7 +162,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             MaterialTexels<Real> texels;
             if (has_pictures<Effects>() && has_textures(scene.textures)) {
                 const MaterialTextures& textures = scene.textures.materials[number];
-                CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+                CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
                 if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
                     texels.base_colour = base_colour(textures, on_face, values);
                 }

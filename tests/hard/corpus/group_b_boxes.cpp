@@ -109,7 +109,7 @@ Score face_normals(Random&, std::size_t calls) {
                 test::hit_box(big(c.ray.origin), big(c.ray.direction), big(c.box.lower), big(c.box.upper));
             if (!exact_hit || !is_traceable(c.ray)) continue;
             const auto crossing = cross_box(c.box, c.ray);
-            const Vec3d normal = face_normal<float>(crossing, widen(c.ray.direction));
+            const Vec3d normal = face_normal(record_hit<float>(crossing, widen(c.ray.direction), false));
             const double along = normal[exact_hit->axis] * static_cast<double>(c.ray.direction[exact_hit->axis]);
             const bool right = norm1(normal) == 1.0 && (exact_hit->entering ? along < 0 : along > 0);
             const bool open = !right && test::nearly_tied(big(c.ray.origin), big(c.ray.direction), big(c.box.lower),

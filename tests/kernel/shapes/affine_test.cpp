@@ -97,7 +97,9 @@ TEST_P(Affine, DecidesRightAndIsWithinOneUlp) {
             ASSERT_LE(error, 1) << where();
         }
 
-        const Vec3d normal = is_box ? parallelepiped_normal(placement, ray) : ellipsoid_normal(placement, ray, t);
+        const Vec3d normal =
+            is_box ? parallelepiped_normal(placement, record_hit(Parallelepiped{placement}, ray, t, false, true))
+                   : ellipsoid_normal(placement, ray, t);
         ASSERT_NEAR(dot(normal, normal), 1, 1e-14) << where();
         // entering looks against the ray, leaving along it; the object-space origin tells which
         const bool inside = is_box ? test::hit_box(object.origin, object.direction, {-1, -1, -1}, {1, 1, 1})

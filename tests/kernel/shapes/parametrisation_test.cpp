@@ -27,7 +27,7 @@ Parametrisation<double> seen(const Body& body, const Vec3d& target, const Vec3d&
     const Ray<double> ray = {target + outside, -outside};
     double t = 0;
     EXPECT_TRUE(first_in_front(body, ray, t));
-    return parametrisation(body, texcoords, ray, t, true, false);
+    return parametrisation(body, record_hit(body, ray, t, false, true), texcoords, ray, t, true);
 }
 
 /// du and dv by moving the target; `normal` at the target.
@@ -170,7 +170,7 @@ TEST(Parametrisation, OfABoxFromWithinIsThatOfTheFaceThatIsSeen) {
     const Ray<double> ray = {{0.5, 0.5, 0.5}, {1, 0.25, 0}};
     double t = 0;
     ASSERT_TRUE(first_in_front(box, ray, t));
-    const auto found = parametrisation(box, nullptr, ray, t, true, false);
+    const auto found = parametrisation(box, record_hit(box, ray, t, false, true), nullptr, ray, t, true);
     EXPECT_EQ(found.u, 0.5);
     EXPECT_EQ(found.v, 0.375);
 }

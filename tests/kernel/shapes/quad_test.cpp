@@ -67,7 +67,7 @@ TEST(Quad, CoordinatesRunAlongItsEdges) {
         const Ray<float> ray = {{x, y, 1}, {0, 0, -1}};
         double t = 0;
         EXPECT_TRUE(first_in_front(quad, ray, t));
-        const bool first = is_in_first_half(quad, ray, t);
+        const bool first = is_in_first_half(record_hit(quad, ray, t, false, true));
         const auto corners = first ? barycentrics(quad.v0, quad.v1, quad.v2, ray, true)
                                    : barycentrics(quad.v0, quad.v2, quad.v3, ray, true);
         const auto c = quad_coordinates<float>(corners, first);

@@ -78,6 +78,21 @@ TANDEM_HD Vec3<Double<Real>> to_world_normal(const Placement& placement, const V
     return normalize(multiply(transpose(placement.object_from_world), object_normal));
 }
 
+// For closed solids `from_inside` follows from where the ray starts, so that a ray that grazes a solid enters it before
+// it leaves it.
+template <class Real>
+TANDEM_HD HitRecord<Real> record_hit(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>&,
+                                     const Mask<Real>& exits, const Mask<Real>&) {
+    const ObjectRay<Real> local = to_object(body, ray);
+    return {UInt<Real>(0U), exits || dot(local.origin, local.origin) < Double<Real>(1.0)};
+}
+template <class Real>
+TANDEM_HD HitRecord<Real> record_hit(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>&,
+                                     const Mask<Real>& exits, const Mask<Real>&) {
+    const ObjectRay<Real> local = to_object(body, ray);
+    return record_hit<Real>(cross_parallelepiped(local), local.direction, exits);
+}
+
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const Ray<Real>& ray, const Double<Real>& t) {
     using D = Double<Real>;
@@ -88,10 +103,8 @@ TANDEM_HD Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const 
 }
 
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const Ray<Real>& ray,
-                                                   const Mask<Real>& exits = Mask<Real>(false)) {
-    const ObjectRay<Real> local = to_object(placement, ray);
-    return to_world_normal<Real>(placement, face_normal<Real>(cross_parallelepiped(local), local.direction, exits));
+TANDEM_HD Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const HitRecord<Real>& record) {
+    return to_world_normal<Real>(placement, face_normal(record));
 }
 
 }  // namespace tandem

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/shapes/crossing.h"
+#include "tandem/kernel/shapes/hit.h"
 #include "tandem/math/aabb.h"
 #include "tandem/math/error_free.h"
 #include "tandem/math/ray.h"
@@ -154,25 +155,38 @@ TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double
     return active && first_in_front<Real>(cross_box(box, ray), t);
 }
 
-/// Unit outward normal of the face that the ray hits first in front of its origin, or of the one that it leaves by
-/// where `exits` says that it comes from within. Axis-aligned, hence exact.
+/// The record of the face that the ray hits first in front of its origin, or of the one that it leaves by where `exits`
+/// says that it comes from within. Faces are numbered 2 axis + (1 for the upper one).
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
-                                         const Mask<Real>& exits) {
+TANDEM_HD HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
+                                     const Mask<Real>& exits) {
     using D = Double<Real>;
+    using Word = UInt<Real>;
     const D zero(0.0);
     const Mask<Real> entering = c.t_near > zero && !exits;
-    const UInt<Real> axis = select(entering, c.near_axis, c.far_axis);
+    const Word axis = select(entering, c.near_axis, c.far_axis);
+    const D along = select(axis == Word(0U), direction.x, select(axis == Word(1U), direction.y, direction.z));
     // an entered face looks against the ray, a left one along it
-    const auto component = [&](const D& d, std::uint32_t a) {
-        const D along = select(d < zero, D(-1.0), D(1.0));
-        return select(axis == UInt<Real>(a), select(entering, -along, along), zero);
-    };
-    return {component(direction.x, 0U), component(direction.y, 1U), component(direction.z, 2U)};
+    const Mask<Real> against = along < zero;
+    const Word upper = select((entering && against) || (!entering && !against), Word(1U), Word(0U));
+    return {(axis << 1) | upper, !entering};
 }
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> face_normal(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction) {
-    return face_normal<Real>(c, direction, Mask<Real>(false));
+TANDEM_HD HitRecord<Real> record_hit(const Box& box, const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& exits,
+                                     const Mask<Real>&) {
+    return record_hit<Real>(cross_box(box, ray), widen(ray.direction), exits);
+}
+
+/// Unit outward normal of a face. Axis-aligned, hence exact.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> face_normal(const HitRecord<Real>& record) {
+    using D = Double<Real>;
+    using Word = UInt<Real>;
+    const Word axis = record.part >> 1;
+    const D outward = select((record.part & Word(1U)) != Word(0U), D(1.0), D(-1.0));
+    const auto component = [&](std::uint32_t a)
+                               TANDEM_INLINE_LAMBDA { return select(axis == Word(a), outward, D(0.0)); };
+    return {component(0U), component(1U), component(2U)};
 }
 
 }  // namespace tandem

@@ -33,6 +33,15 @@ TANDEM_HD Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& primitiv
     return t < best.t || (t == best.t && primitive < best.primitive);
 }
 
+/// What a shape finds out about a hit on it beside t, once, for all that is asked there: the point, the normals, the
+/// parametrisation. record_hit() of each shape makes it.
+template <class Real>
+struct HitRecord {
+    UInt<Real> part = UInt<Real>(0U);            ///< of a box the face (box.h), of a quad the triangle: 0 or 1
+    Mask<Real> from_inside = Mask<Real>(false);  ///< of a body: the ray comes from within. Of a face it follows from
+                                                 ///< its normal.
+};
+
 /// A hit as callers see it.
 struct Hit {
     float t = 0;                             ///< in lengths of the ray's direction; 0 for a miss

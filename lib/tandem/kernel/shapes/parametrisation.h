@@ -130,28 +130,28 @@ TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
 
 }  // namespace parametrisation_detail
 
-// The parametrisation of each kind where `ray` hits it at `t`, in the lanes of `here`. `texcoords`: the scene's
-// (PreparedScene::texcoords), of one slot. `exits`: the ray comes from within, as in surface_point().
+// The parametrisation of each kind where `ray` hits it at `t`, in the lanes of `here`. `record`: the shape's, of this
+// hit. `texcoords`: the scene's (PreparedScene::texcoords), of one slot.
 //
 // Gives: u and v within 2^-21 on faces and 1e-12 on bodies, more where the ray itself moves far along the surface with
 // its last digit. In the tier fast as accurate as float. Tested by tests/kernel/shapes/parametrisation_test.cpp.
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const Vec2f*, const Ray<Real>& ray,
-                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const HitRecord<Real>&, const Vec2f*,
+                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     return parametrisation_detail::on_globe<Real>(sphere_offset(sphere, ray, t));
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Ellipsoid& body, const Vec2f*, const Ray<Real>& ray,
-                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>&) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Ellipsoid& body, const HitRecord<Real>&, const Vec2f*,
+                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     const auto own = parametrisation_detail::on_globe<Real>(parametrisation_detail::point_at(to_object(body, ray), t));
     return parametrisation_detail::to_world(body, own);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const Vec2f*, const Ray<Real>& ray,
-                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>& exits) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const HitRecord<Real>& record, const Vec2f*,
+                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     using D = Double<Real>;
     const Vec3<D> direction = widen(ray.direction);
     const auto along = [&](const D& o, const D& d, float lower, float upper) TANDEM_INLINE_LAMBDA {
@@ -164,38 +164,39 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const Vec2f*, co
     const Vec3<D> at = {along(origin.x, direction.x, box.lower.x, box.upper.x),
                         along(origin.y, direction.y, box.lower.y, box.upper.y),
                         along(origin.z, direction.z, box.lower.z, box.upper.z)};
-    return parametrisation_detail::on_box<Real>(at, face_normal<Real>(cross_box(box, ray), direction, exits));
+    return parametrisation_detail::on_box<Real>(at, face_normal(record));
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Parallelepiped& body, const Vec2f*, const Ray<Real>& ray,
-                                                const Double<Real>& t, const Mask<Real>&, const Mask<Real>& exits) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Parallelepiped& body, const HitRecord<Real>& record, const Vec2f*,
+                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     using D = Double<Real>;
     const ObjectRay<Real> local = to_object(body, ray);
     const Vec3<D> p = parametrisation_detail::point_at(local, t);
     const auto along = [](const D& x) TANDEM_INLINE_LAMBDA {
         return parametrisation_detail::clamp_to_one<Real>(D(0.5) * x + D(0.5));
     };
-    const Vec3<D> face = face_normal<Real>(cross_parallelepiped(local), local.direction, exits);
-    const auto own = parametrisation_detail::on_box<Real>(Vec3<D>{along(p.x), along(p.y), along(p.z)}, face);
+    const auto own =
+        parametrisation_detail::on_box<Real>(Vec3<D>{along(p.x), along(p.y), along(p.z)}, face_normal(record));
     return parametrisation_detail::to_world(body, own);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Triangle& triangle, const Vec2f* texcoords, const Ray<Real>& ray,
-                                                const Double<Real>&, const Mask<Real>& here, const Mask<Real>&) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Triangle& triangle, const HitRecord<Real>&,
+                                                const Vec2f* texcoords, const Ray<Real>& ray, const Double<Real>&,
+                                                const Mask<Real>& here) {
     const auto corner = parametrisation_detail::corners_of(triangle, texcoords);
     return parametrisation_detail::on_triangle<Real>(triangle.v0, triangle.v1, triangle.v2, corner.uv[0], corner.uv[1],
                                                      corner.uv[2], ray, here);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const Vec2f* texcoords, const Ray<Real>& ray,
-                                                const Double<Real>& t, const Mask<Real>& here, const Mask<Real>&) {
+TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const HitRecord<Real>& record, const Vec2f* texcoords,
+                                                const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& here) {
     using D = Double<Real>;
     const auto corner = parametrisation_detail::corners_of(quad, texcoords);
     const auto& [a, b, c, d] = corner.uv;
-    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
+    const Mask<Real> first = is_in_first_half(record);
     Parametrisation<Real> result{};
     if (any(here && first)) {
         result = parametrisation_detail::on_triangle<Real>(quad.v0, quad.v1, quad.v2, a, b, c, ray, here && first);

@@ -48,10 +48,15 @@ TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Doub
 /// Which of the two triangles a ray hits at t, in the lanes of `here`, where first_in_front() gave t: the first one on
 /// the diagonal.
 template <class Real>
-TANDEM_HD Mask<Real> is_in_first_half(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t,
-                                      const Mask<Real>& here = Mask<Real>(true)) {
+TANDEM_HD HitRecord<Real> record_hit(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&,
+                                     const Mask<Real>& here) {
     Double<Real> t_first(0.0);
-    return first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
+    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
+    return {select(first, UInt<Real>(0U), UInt<Real>(1U))};
+}
+template <class Real>
+TANDEM_HD Mask<Real> is_in_first_half(const HitRecord<Real>& record) {
+    return record.part == UInt<Real>(0U);
 }
 
 /// Coordinates on a quad, 0 to 1 along v0 v1 and v0 v3, affine in each triangle and the same on both sides of the

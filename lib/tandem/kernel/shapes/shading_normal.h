@@ -46,12 +46,12 @@ TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3
                                 ray, here);
 }
 
-/// The same for the triangle of the quad that the ray hits at t.
+/// The same for the triangle of the quad that the ray hits.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const Vec3f* normals, const Ray<Real>& ray,
-                                            const Double<Real>& t, const Mask<Real>& here) {
+TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const HitRecord<Real>& record, const Vec3f* normals,
+                                            const Ray<Real>& ray, const Mask<Real>& here) {
     const bool double_sided = is_double_sided(quad.attributes);
-    const Mask<Real> first = is_in_first_half(quad, ray, t, here);
+    const Mask<Real> first = is_in_first_half(record);
     Vec3<Double<Real>> normal{};
     if (any(here && first)) {
         normal = shading_normal<Real>(quad.v0, quad.v1, quad.v2, normals, 1, double_sided, ray, here && first);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/shapes/crossing.h"
+#include "tandem/kernel/shapes/hit.h"
 #include "tandem/math/aabb.h"
 #include "tandem/math/error_free.h"
 #include "tandem/math/ray.h"
@@ -247,6 +248,16 @@ TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
     return normalize(sphere_offset(sphere, ray, t));
+}
+
+/// `exits`: the ray left the sphere inward, so it comes from within, whatever rounding has done to its origin. For
+/// others it follows from where they start, so that a ray that grazes a sphere enters it before it leaves it.
+template <class Real>
+TANDEM_HD HitRecord<Real> record_hit(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>&,
+                                     const Mask<Real>& exits, const Mask<Real>&) {
+    using D = Double<Real>;
+    const Vec3<D> start = widen(ray.origin) - broadcast<D>(sphere.centre);
+    return {UInt<Real>(0U), exits || dot(start, start) < D(sphere.radius) * D(sphere.radius)};
 }
 
 }  // namespace tandem

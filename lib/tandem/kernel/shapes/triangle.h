@@ -3,6 +3,7 @@
 
 #include "tandem/kernel/shapes/face_sides.h"
 #include "tandem/kernel/shapes/filter.h"
+#include "tandem/kernel/shapes/hit.h"
 #include "tandem/math/aabb.h"
 #include "tandem/math/exact_sum.h"
 #include "tandem/math/ray.h"
@@ -404,6 +405,13 @@ TANDEM_HD Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<R
         if (triangle_detail::shadow(v0, v1, v2, axis).sign() != 0) return false;
     }
     return true;
+}
+
+/// A triangle has one part.
+template <class Real>
+TANDEM_HD HitRecord<Real> record_hit(const Triangle&, const Ray<Real>&, const Double<Real>&, const Mask<Real>&,
+                                     const Mask<Real>&) {
+    return {};
 }
 
 }  // namespace tandem
