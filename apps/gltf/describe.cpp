@@ -245,7 +245,7 @@ Json describe(const std::string& specification, const Scene& scene, const Import
                                   {"top", colour(environment.top)},
                                   {"ambient", colour(environment.ambient)},
                                   {"illuminates", environment.illuminates != 0},
-                                  {"indirect", environment.indirect != 0}};
+                                  {"indirect", scene.indirect_light}};
     if (const auto& image = scene.environment_image) {
         description["environment"]["picture"] = {{"width", image->picture.width},
                                                  {"height", image->picture.height},

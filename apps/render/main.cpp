@@ -214,7 +214,7 @@ int render(int argc, char** argv) {
                               .default_light = words.light == "default" && !environment});
     if (environment) light_by(scene, *std::move(environment));
     if (words.indirect) {
-        scene.environment.indirect = 1;
+        scene.indirect_light = true;
         scene.environment.ambient = {0, 0, 0};
     }
     if (words.instants > 0) set_shutter_instants(scene, words.instants);

@@ -226,7 +226,7 @@ TEST_P(ClosedForms, AConvexBodyInUniformLightShowsItsAlbedo) {
     scene.nodes = {camera({0, 0, 4}, 0.3), body(SphereShape{1}, {0, 0, 0}, 0)};
     scene.environment.illuminates = 1;
     for (const std::uint32_t indirect : {0U, 1U}) {
-        scene.environment.indirect = indirect;
+        scene.indirect_light = indirect;
         EXPECT_NEAR(mean_of(scene, 16, {}).x, 0.7, 1e-6) << indirect;
     }
 }
@@ -240,7 +240,7 @@ TEST_P(ClosedForms, AGlowingRoomIsAGeometricSeries) {
     wall.phong.diffuse = {0.6F, 0.6F, 0.6F};
     wall.optics.emission = {2, 2, 2};
     scene.materials = {wall};
-    scene.environment.indirect = 1;
+    scene.indirect_light = true;
     Mesh room{.name = "room",  // the fronts of its faces are within
               .positions =
                   {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
@@ -308,7 +308,8 @@ TEST_P(ClosedForms, AWhiteMetalVanishesInUniformLight) {
     scene.nodes[0].camera = OrthographicCamera{1e-3};
     scene.materials[0].microfacets = Microfacets{1, 1};
     for (const bool by_chance : {false, true}) {
-        scene.environment.illuminates = scene.environment.indirect = by_chance ? 1 : 0;
+        scene.environment.illuminates = by_chance ? 1 : 0;
+        scene.indirect_light = by_chance;
         expect_mean(scene, 64, {}, 0.5 * (1 - std::numbers::ln2));
     }
 }

@@ -167,7 +167,7 @@ TEST_F(Import, TakesComputedLightInPlaceOfTheAmbientTerm) {
     EXPECT_EQ(import(file).scene.environment.illuminates, 1U);
     environment = {{"indirect", true}, {"ambient", {0.5, 0.5, 0.5}}};
     EXPECT_EQ(import(file).scene.environment.ambient, Vec3f(0.5F, 0.5F, 0.5F));
-    EXPECT_EQ(import(file).scene.environment.indirect, 1U);
+    EXPECT_TRUE(import(file).scene.indirect_light);
 }
 
 TEST_F(Import, ReadsMirrorsAndGlass) {

@@ -68,13 +68,13 @@ void add_pictures(const PreparedTextures& textures, std::size_t material, const 
 }
 
 void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& needs) {
-    if (scene.environment.indirect != 0) needs.add(Effect::indirect, "the environment asks for indirect light");
+    if (scene.indirect_light) needs.add(Effect::indirect, "the scene asks for indirect light");
     if (prepared.roulette_from != PreparedScene::never) {
         needs.add(Effect::roulette, "paths of indirect light may be long");
     }
     if (scene.environment.illuminates != 0) {
         needs.add(Effect::environment_light, "the environment lights surfaces");
-        const bool by_samples = scene.environment.indirect == 0 || scene.environment_image;
+        const bool by_samples = !scene.indirect_light || scene.environment_image;
         const bool by_shadow_rays = by_samples && prepared.area_light_shadows;
         if (by_shadow_rays) needs.add(Effect::shadows, "the environment casts shadows");
     }
@@ -224,7 +224,7 @@ Scene without_effects(Scene scene, EffectMask off) {
     }
     if (off.has(Effect::environment_picture)) scene.environment_image.reset();
     if (off.has(Effect::environment_light)) scene.environment.illuminates = 0;
-    if (off.has(Effect::indirect)) scene.environment.indirect = 0;
+    if (off.has(Effect::indirect)) scene.indirect_light = false;
     return scene;
 }
 

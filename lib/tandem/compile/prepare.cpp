@@ -131,6 +131,7 @@ class Preparer {
             if (scene_.materials[i].unlit) make_unlit(result_.materials[i], result_.optics[i]);
         }
         result_.environment = scene_.environment;
+        result_.indirect_light = scene_.indirect_light;
         std::size_t count = 0;
         for (const Node& node : scene_.nodes) {
             for (const Geometry& geometry : node.geometry) {
@@ -156,7 +157,7 @@ class Preparer {
         }
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
-        if (settings_.roulette && scene_.environment.indirect != 0) result_.roulette_from = first_roulette;
+        if (settings_.roulette && scene_.indirect_light) result_.roulette_from = first_roulette;
         if (settings_.solids_are_disjoint) result_.media_overlap = false;
         result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;
         return std::move(result_);

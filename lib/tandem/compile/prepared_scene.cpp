@@ -21,6 +21,7 @@ SceneView view(const PreparedScene& scene) {
         .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
         .several_slots = scene.several_slots ? 1U : 0U,
         .cutout_kinds = scene.cutout_kinds,
+        .indirect_light = scene.indirect_light ? 1U : 0U,
         .roulette_from = scene.roulette_from,
         .media_overlap = scene.media_overlap ? 1U : 0U,
         .camera_media = scene.camera_media,
@@ -78,6 +79,7 @@ std::string scene_hash(const PreparedScene& scene) {
     hash.update_value(scene.camera_media);
     hash.update_value(std::uint8_t{scene.media_overlap});
     hash.update_value(scene.environment);
+    hash.update_value(std::uint32_t{scene.indirect_light});
     hash.update_value(scene.camera.render_from_camera);
     hash.update_value(std::uint8_t{scene.camera.orthographic});
     hash.update_value(scene.camera.half_height);

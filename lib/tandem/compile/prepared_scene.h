@@ -49,6 +49,7 @@ struct PreparedScene {
     CameraMedia camera_media{};
     bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
     Environment environment;
+    bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
     EnvironmentPicture environment_picture{};
     EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
     /// Of the Scene, because no ray hits them: faces without area, bodies that their transforms hide (scale 0), and

@@ -47,9 +47,9 @@ bool read_environment(const Document& document, const Json* scene, const std::st
         environment.top = read_colour(*gradient, "top", environment.top);
     }
     environment.illuminates = found->value("illuminates", uri != nullptr) ? 1U : 0U;
-    environment.indirect = found->value("indirect", false) ? 1U : 0U;
+    result.indirect_light = found->value("indirect", false);
     // light that is computed takes the place of the ambient term
-    if (environment.illuminates != 0 || environment.indirect != 0) environment.ambient = {0, 0, 0};
+    if (environment.illuminates != 0 || result.indirect_light) environment.ambient = {0, 0, 0};
     environment.ambient = read_colour(*found, "ambient", environment.ambient);
     if (uri == nullptr) return true;
     const std::string uri_path = path + ".uri";

@@ -31,7 +31,7 @@ struct LitVertex {
 /// Do diffuse surfaces receive light from other surfaces?
 template <class Effects>
 TANDEM_HD bool has_indirect_light(const SceneView& scene) {
-    return Effects::has(Effect::indirect) && scene.environment.indirect != 0;
+    return Effects::has(Effect::indirect) && scene.indirect_light != 0;
 }
 
 /// Which lobes reflect a light?

@@ -143,7 +143,7 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
     if (scene.area_lights_cast_shadows != 0) {
-        const bool shared = scene.environment.indirect != 0 || material.has_facets;
+        const bool shared = scene.indirect_light != 0 || material.has_facets;
         if (has_picture(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
         if (is_stopped(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
     }
@@ -168,7 +168,7 @@ Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& en
     }
     sum = sum + glow(scene, material, vertex, ends.facets || draws_lights(material), chance);
     const bool picture = has_picture(scene);
-    const EndingLobes of_sky = {scene.environment.indirect == 0 || (picture && ends.diffuse), picture && ends.facets};
+    const EndingLobes of_sky = {scene.indirect_light == 0 || (picture && ends.diffuse), picture && ends.facets};
     if (scene.environment.illuminates != 0 && (of_sky.diffuse || of_sky.facets)) {
         sum = sum + sky(scene, material, vertex, of_sky, chance);
     }

@@ -177,6 +177,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
+    bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
     std::optional<EnvironmentImage> environment_image{};  ///< takes the place of the gradient
     Display display{};                                    ///< of 8-bit pictures; no part of what is rendered
     double frames_per_second = 24;

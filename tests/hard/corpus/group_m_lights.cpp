@@ -188,7 +188,7 @@ Score behind_sheets(const Subject& subject, Random& random, std::size_t) {
             lobe.sides = double_sided ? FaceSides::double_sided : FaceSides::single_sided;
             add_sheet(scene, corners, add_material(scene, lobe));
             add_shape(scene, SphereShape{0.1}, {6, -0.5, 0}, add_material(scene, glowing("lamp", 100)));
-            scene.environment.indirect = indirect ? 1 : 0;
+            scene.indirect_light = indirect;
             const PreparedScene prepared = prepare(scene);
             with_oracle(subject, [&](Backend& backend, const std::string& name) {
                 const FilmMean film = mean_of(backend, prepared, square_film(subject, 16, 2), score);
@@ -337,7 +337,7 @@ Score without_effect(const Subject& subject, Random&, std::size_t) {
         const std::uint32_t matt = add_material(scene, matt_material("matt", 0.7F));
         add_shape(scene, BoxShape{{4, 1, 4}}, {0, -0.5, 0}, matt);
         add_shape(scene, SphereShape{0.3}, {0.2, 0.3, 0.1}, matt);
-        scene.environment.indirect = 1;
+        scene.indirect_light = true;
         const auto nothing = [&] {
             if (!more) return;
             add_lamp(scene, {.kind = LightKind::spot, .outer_cone = 0.3}, {0.3, -3, 0.2}, downward());

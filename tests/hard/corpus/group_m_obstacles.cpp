@@ -81,7 +81,7 @@ Score holes_upon_sheets(const Subject& subject, Random& random, std::size_t) {
             add_sheet(scene, Square(0, 0.3F + 0.1F * static_cast<float>(i), 0, 20).corner, open);
         }
         add_shape(scene, SphereShape{1}, {0, 2, 0}, add_material(scene, glowing("lamp", 5)));
-        scene.environment.indirect = 1;
+        scene.indirect_light = true;
         const FilmMean film = mean_of(subject.backend, prepare(scene), square_film(subject, 32, 64), score);
         judge_mean(score, film, 0.6F * 5 / 4.0, 1e-4, 0.01, fmt::format("a lamp behind {} holes", sheets));
     }
@@ -146,7 +146,7 @@ Score far_out(const Subject& subject, Random& random, std::size_t) {
                 add_shape(scene, SphereShape{0.05 * size}, place(), matt);
                 add_shape(scene, BoxShape{Vec3d{0.1, 0.05, 0.2} * size}, place(), matt, any_turn(random));
             }
-            scene.environment.indirect = indirect ? 1 : 0;
+            scene.indirect_light = indirect;
             add_lamp(scene, {.kind = LightKind::directional}, {0, 0, 0}, {0.3, 0.1, 0, 0.9});
             add_lamp(scene, {}, Vec3d{0.5, 1, 2} * size);
             const Film film = picture_of(subject.backend, prepare(scene), small_picture(subject), score);

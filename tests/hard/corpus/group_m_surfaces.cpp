@@ -35,7 +35,7 @@ Score under_a_roof(const Subject& subject, Random&, std::size_t) {
             add_shape(scene, BoxShape{{40, 0.1, 40}}, {0, 3, 0}, add_material(scene, matt_material("roof", 0)));
             add(number % 2 != 0);
             // what paths find are walls that are black, but for the floor, which does not see itself
-            scene.environment.indirect = number / 2 == 0 ? 0 : 1;
+            scene.indirect_light = number / 2 != 0;
             const double distance2 = 0.5 * 0.5 + 1, distance = std::sqrt(distance2);
             const double right = 0.6F * 5 * (0.25 * 0.25 / distance2) * (1 / distance);
             const FilmMean film = mean_of(subject.backend, prepare(scene), square_film(subject, 24, 64), score);
@@ -78,7 +78,7 @@ Score folded_lights(const Subject& subject, Random&, std::size_t) {
         // seen from below the corners run clockwise
         const Vec3f corner[4] = {fold.corner[0], fold.corner[3], fold.corner[2], fold.corner[1]};
         add_sheet(scene, corner, add_material(scene, lamp));
-        scene.environment.indirect = indirect ? 1 : 0;
+        scene.indirect_light = indirect;
         return prepare(scene);
     };
     const auto form_of = [](const Fold& fold) {
@@ -152,7 +152,7 @@ Score above_a_face(const Subject& subject, Random&, std::size_t) {
                     const Square up = square(0.5, 1);
                     add_sheet(scene, {up.corner[3], up.corner[2], up.corner[1], up.corner[0]}, lamp, triangles);
                 }
-                scene.environment.indirect = 1;
+                scene.indirect_light = true;
                 const PreparedScene prepared = prepare(scene, {.origin = Vec3d{0, 0, 0}});
                 const FilmMean film = mean_of(subject.backend, prepared, square_film(subject, 64, 256), score);
                 judge_mean(score, film, 0.6F * 5 * (is_ball ? of_ball : of_square), 2e-4, 1e-3,

@@ -13,7 +13,6 @@ struct Environment {
     Vec3f top{0.5F, 0.7F, 1.0F};
     Vec3f ambient{1.0F, 1.0F, 1.0F};  ///< ia of Phong's model
     std::uint32_t illuminates = 0;    ///< 1: the background lights diffuse surfaces
-    std::uint32_t indirect = 0;       ///< 1: diffuse surfaces receive light from other surfaces
 };
 
 /// Radiance along a direction, whose length is within [1e-15, 1e15]. Within 3 ulp of float.

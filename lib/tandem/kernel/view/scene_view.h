@@ -32,6 +32,7 @@ struct SceneView {
     std::uint32_t area_lights_cast_shadows;
     std::uint32_t several_slots;  ///< 0: materials read no colours of corners, and texture coordinates of slot 0 alone
     std::uint32_t cutout_kinds;   ///< PrimitiveKinds of those that are cut out by their alpha, or culled
+    std::uint32_t indirect_light;  ///< 1: diffuse surfaces receive light from other surfaces
     std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
     std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
