@@ -225,7 +225,7 @@ TEST_P(ClosedForms, AConvexBodyInUniformLightShowsItsAlbedo) {
     scene.materials = {matt};
     scene.nodes = {camera({0, 0, 4}, 0.3), body(SphereShape{1}, {0, 0, 0}, 0)};
     scene.environment.illuminates = 1;
-    for (const std::uint32_t indirect : {0U, 1U}) {
+    for (const bool indirect : {false, true}) {
         scene.indirect_light = indirect;
         EXPECT_NEAR(mean_of(scene, 16, {}).x, 0.7, 1e-6) << indirect;
     }
