@@ -85,7 +85,7 @@ TEST_P(EffectBits, AreThoseOfTheLeastProcessor) {
 TEST_P(EffectBits, OfHolesInAHierarchyAreThoseOfTheLeastProcessor) {
     Scene open = named_scene("triangles/5000");
     for (Material& material : open.materials) material.sides = FaceSides::culled;
-    open.environment = {{0.2F, 0.2F, 0.2F}, {0.6F, 0.7F, 0.8F}, {0, 0, 0}, 1, 0};
+    open.environment = {{0.2F, 0.2F, 0.2F}, {0.6F, 0.7F, 0.8F}, {0, 0, 0}, 1};
     open.nodes.push_back({.name = "sun",
                           .trs = {.rotation = {-0.4, 0.3, 0.1, 0.85}},
                           .light = LightSource{.kind = LightKind::directional, .intensity = 0.5F}});

@@ -26,7 +26,8 @@ Scene ball(const PhongMaterial& phong, std::optional<Microfacets> microfacets, b
     Node body{.name = "ball"};
     body.geometry.push_back({SphereShape{1}, 0, {}});
     scene.nodes = {{.name = "eye", .trs = {.translation = {0, 0, 5}}, .camera = OrthographicCamera{0.6}}, body};
-    scene.environment = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, 1, indirect ? 1U : 0U};
+    scene.environment = {{1, 1, 1}, {1, 1, 1}, {0, 0, 0}, 1};
+    scene.indirect_light = indirect;
     return scene;
 }
 constexpr PhongMaterial white = {{0, 0, 0}, {1, 1, 1}, {0, 0, 0}, 1};

@@ -248,7 +248,8 @@ Scene worn_scene() {
     return scene;
 }
 Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
-    scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U, indirect ? 1U : 0U};
+    scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U};
+    scene.indirect_light = indirect;
     return scene;
 }
 /// Within a turned picture of 12 x 6 texels with a bright window.

@@ -19,7 +19,7 @@ namespace {
 /// Mean radiance of the surfaces from which a scene counts as lit by them.
 constexpr double enough_glow = 0.2;
 
-const Environment sky = {{0.11F, 0.115F, 0.13F}, {0.30F, 0.335F, 0.39F}, {1, 1, 1}, 1, 0};
+const Environment sky = {{0.11F, 0.115F, 0.13F}, {0.30F, 0.335F, 0.39F}, {1, 1, 1}, 1};
 constexpr float key_intensity = 0.52F;
 constexpr float fill_intensity = 0.1F;
 /// To the key light, along the camera's right, up and backward.
