@@ -108,7 +108,7 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     const PathLimits limits = {5, 6, 7};
     const LinkedFacts plain = linked_facts(scene, Effect::shadows, limits);
     EXPECT_EQ(plain,
-              (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 3, 0, 0, 0}));
+              (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 0, 3, 0, 0, 0}));
     const LinkedFacts mirrors = linked_facts(scene, Effect::reflection, limits);
     EXPECT_EQ(mirrors.reflection, 5U);
     EXPECT_EQ(mirrors.refraction, 0U);

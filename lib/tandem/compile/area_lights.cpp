@@ -22,6 +22,21 @@ double area_of(const Body&) {
     return 0;
 }
 
+/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
+/// diagonal lies within it.
+bool halves_overlap(const Quad& quad) {
+    const Vec3d to1 = widen(quad.v1) - widen(quad.v0);
+    const Vec3d to2 = widen(quad.v2) - widen(quad.v0);
+    const Vec3d to3 = widen(quad.v3) - widen(quad.v0);
+    const Vec3d normal = cross(to1, to2);
+    const bool is_flat = std::abs(dot(to3, normal)) <= 0x1p-20 * (norm1(to3) * norm1(normal));
+    return !is_flat || !(dot(normal, cross(to2, to3)) > 0);
+}
+template <class Body>
+bool halves_overlap(const Body&) {
+    return false;
+}
+
 /// This part of the chances is shared equally, and the rest by power, since a weak light may be near and a strong one
 /// hidden.
 constexpr double shared_alike = 1.0 / 8;
@@ -60,7 +75,9 @@ void find_area_lights(PreparedScene& prepared) {
         if (!(brightness > 0)) continue;
         double power = 0;
         std::uint32_t kind = 0;
+        bool overlaps = false;
         visit_primitive(scene, id, [&](const auto& body) {
+            overlaps = halves_overlap(body);
             power = brightness * area_of(body);
             kind = kind_of<std::decay_t<decltype(body)>>;
         });
@@ -68,7 +85,7 @@ void find_area_lights(PreparedScene& prepared) {
         if (!(power > 0)) continue;
         prepared.area_light_kinds |= kind;
         powers.push_back(power);
-        prepared.area_lights.push_back({0, 0, id});
+        prepared.area_lights.push_back({0, 0, id, overlaps ? 1U : 0U});
     }
     share_out(prepared.area_lights, powers);
 }

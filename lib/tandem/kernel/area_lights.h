@@ -14,33 +14,22 @@ namespace area_lights_detail {
 template <class Body>
 inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
+// A light as seen from a point. `halves_overlap`: as AreaLight has it; the density does not depend on it.
 template <class Real>
-TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point) {
+TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point, bool) {
     using D = Double<Real>;
     return view_sphere_light<Real>(point, broadcast<D>(sphere.centre), D(sphere.radius));
 }
 template <class Real>
-TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point) {
+TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point, bool) {
     using D = Double<Real>;
     return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
 }
-/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
-/// diagonal lies within it.
 template <class Real>
-TANDEM_HD bool overlaps(const Quad& quad) {
-    using S = Scalar<Double<Real>>;
-    const Vec3<S> to1 = Vec3<S>(quad.v1) - Vec3<S>(quad.v0);
-    const Vec3<S> to2 = Vec3<S>(quad.v2) - Vec3<S>(quad.v0);
-    const Vec3<S> to3 = Vec3<S>(quad.v3) - Vec3<S>(quad.v0);
-    const Vec3<S> normal = cross(to1, to2);
-    const bool is_flat = absolute(dot(to3, normal)) <= S(0x1p-20) * (norm1(to3) * norm1(normal));
-    return !is_flat || !(dot(normal, cross(to2, to3)) > S(0));
-}
-template <class Real>
-TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point) {
+TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point, bool halves_overlap) {
     using D = Double<Real>;
     return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
-                                 broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
+                                 broadcast<D>(face.v3), {face.attributes.sides, halves_overlap});
 }
 
 /// Whether light leaves in `direction`, unit, towards the lit point: a sphere emits from its outside, a face from its
@@ -94,7 +83,8 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
                 if (!may_glow(kind_of<Body>)) return;
-                of_light = sample_light(area_lights_detail::view_light<Real>(body, position), u, v);
+                of_light = sample_light(
+                    area_lights_detail::view_light<Real>(body, position, chosen.halves_overlap != 0), u, v);
                 lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
                 if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
                 const MaterialTextures& textures = scene.textures.materials[material];
@@ -112,12 +102,12 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
     });
     IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
-    const Mask<Real> seen = active && drawn.pdf > zero;
+    Mask<Real> seen = active && drawn.pdf > zero;
+    if (scene.area_lights_cast_shadows != 0) seen = seen && is_in_front(at, drawn.direction);
     if (!any(seen)) return result;
     const D pdf = select(seen, drawn.pdf, D(1.0));
     const Vec3<Real> value = reflect_light<Effects>(scene, at, radiance * light_scale<Real>(pdf), drawn.direction, pdf);
     result.reflected = select(seen, value, result.reflected);
-    if (scene.area_lights_cast_shadows != 0) keep_in_front(at, drawn.direction, result);
     return result;
 }
 
@@ -136,7 +126,7 @@ TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<R
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
                 if (!may_glow(kind_of<Body>)) return;
-                const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point), direction);
+                const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point, false), direction);
                 result = select(here, of_light * constant<D>(chance), result);
             }
         });

@@ -30,19 +30,18 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_environment_picture(const SceneView& 
     IncidentLight<Real> result = {black<Real>(), to_real<Real>(drawn.direction)};
     result.is_far = Mask<Real>(true);
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
-    const Mask<Real> seen = drawn.pdf > zero && dot(drawn.direction, at.surface.normal) > zero;
+    Mask<Real> seen = drawn.pdf > zero && dot(drawn.direction, at.surface.normal) > zero;
+    if (scene.area_lights_cast_shadows != 0) {
+        // as for paths that go on; where none does, the gradient also lights what looks away
+        const Mask<Real> shared =
+            Mask<Real>(has_indirect_light<Effects>(scene)) || scatters_locally<Effects>(at.surface.reflectance.lobes);
+        seen = seen && (!shared || is_in_front(at, drawn.direction));
+    }
     if (!any(seen)) return result;
     const D pdf = select(seen, drawn.pdf, D(1.0));
     const Vec3<Real> light = drawn.radiance * light_scale<Real>(pdf);
     const Vec3<Real> value = reflect_light<Effects, LobesShown::of_paths>(scene, at, light, drawn.direction, pdf);
     result.reflected = select(seen, value, result.reflected);
-    if (scene.area_lights_cast_shadows == 0) return result;
-    // as for paths that go on; where none does, the gradient also lights what looks away
-    const Mask<Real> shared =
-        Mask<Real>(has_indirect_light<Effects>(scene)) || scatters_locally<Effects>(at.surface.reflectance.lobes);
-    IncidentLight<Real> in_front = result;
-    keep_in_front(at, drawn.direction, in_front);
-    result.reflected = select(shared, in_front.reflected, result.reflected);
     return result;
 }
 

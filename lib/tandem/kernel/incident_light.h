@@ -21,18 +21,15 @@ struct IncidentLight {
     }
 };
 
-/// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface
-/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
-/// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For
-/// lights that cast shadows. `to_light`: the direction that the light was shaded with.
+/// Is a direction in front of the surface: before the shading normal, and on the viewer's side? Lights that cast
+/// shadows must be. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
+/// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it.
 template <class Real>
-TANDEM_HD void keep_in_front(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light,
-                             IncidentLight<Real>& light) {
+TANDEM_HD Mask<Real> is_in_front(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light) {
     const Double<Real> zero(0.0);
     const Double<Real> height = dot(to_light, at.point.normal);
-    const Mask<Real> across = !(select(at.point.from_inside, -height, height) > zero);
-    const Mask<Real> behind = across || !(dot(to_light, at.surface.normal) > zero);
-    light.reflected = select(behind, black<Real>(), light.reflected);
+    const Mask<Real> on_side = select(at.point.from_inside, -height, height) > zero;
+    return on_side && dot(to_light, at.surface.normal) > zero;
 }
 
 }  // namespace tandem

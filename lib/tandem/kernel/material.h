@@ -19,7 +19,7 @@ struct MaterialTexels {
 template <class Real>
 struct Reflectance {
     SurfaceLobes<Real> lobes;
-    Vec3<Real> ambient = black<Real>();
+    Vec3<Real> ambient;
 };
 
 /// That of a material. A new kind of material is read here.
@@ -29,7 +29,7 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
                                            const MaterialTexels<Real>& texels, const Mask<Real>& from_inside) {
     const PhongMaterial& material = scene.materials[number];
     const Optics& optics = scene.optics[number];
-    Reflectance<Real> result;
+    Reflectance<Real> result{};
     SurfaceLobes<Real>& lobes = result.lobes;
     result.ambient = broadcast<Real>(material.ambient);
     lobes.diffuse.reflectance = broadcast<Real>(material.diffuse);

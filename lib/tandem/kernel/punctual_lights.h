@@ -24,7 +24,9 @@ struct PunctualLights {
             result.to = is_far ? constant<Real>(-light.direction) : broadcast<Real>(light.position);
             result.is_far = Mask<Real>(is_far);
             result.casts_shadows = Mask<Real>(light.casts_shadows != 0);
-            if (light.casts_shadows != 0) keep_in_front(at, ray.to_light, result);
+            if (light.casts_shadows != 0) {
+                result.reflected = select(is_in_front(at, ray.to_light), result.reflected, black<Real>());
+            }
         }
         return result;
     }

@@ -35,7 +35,7 @@ concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standar
     { normal_at<Real>(scene, primitive, record, ray, t, mask) } -> std::same_as<Vec3<Double<Real>>>;
     { parametrisation(primitive, record, texcoords, ray, t, mask) } -> std::same_as<Parametrisation<Real>>;
     requires !area_lights_detail::is_light<Primitive> || requires {
-        area_lights_detail::view_light<Real>(primitive, v);
+        area_lights_detail::view_light<Real>(primitive, v, true);
         { area_lights_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
     };
 };

@@ -14,14 +14,14 @@
 
 namespace tandem {
 
+/// Not initialised where nothing needs it: a GPU would store zeros at every vertex.
 template <class Real>
 struct Surface {
-    Vec3<Double<Real>> normal = {Double<Real>(0.0), Double<Real>(0.0), Double<Real>(1.0)};  ///< for shading: unit,
-                                                                                            ///< outward, world space
+    Vec3<Double<Real>> normal;  ///< for shading: unit, outward, world space
     Reflectance<Real> reflectance;
     // only where the effects need them
-    UInt<Real> material = UInt<Real>(0U);
-    Vec3<Real> emission = black<Real>();  ///< on the side that the ray comes from
+    UInt<Real> material;
+    Vec3<Real> emission;  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
 };
@@ -125,7 +125,8 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     const bool needs_point = Effects::has_any(effects_on_surfaces);
     if (needs_point) point = {ray.origin, widen(ray.direction)};
     Mask<Real> on_sphere(false);
-    Surface<Real> surface;
+    Surface<Real> surface{};
+    surface.normal.z = D(1.0);
     for_each_unique_lane(
         hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
             // Normals

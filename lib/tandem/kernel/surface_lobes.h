@@ -9,9 +9,10 @@
 
 namespace tandem {
 
+/// SurfaceLobes{} has no light.
 template <class Real>
 struct SurfaceLobes {
-#define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name{};
+#define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name;
 #include "tandem/kernel/bsdf/lobes.def"
 #undef TANDEM_LOBE
 };

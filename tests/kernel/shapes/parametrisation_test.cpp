@@ -283,11 +283,14 @@ TEST(Parametrisation, GivesPacketsTheBitsOfSingleRays) {
             {Packet(0.0F), Packet::from([&](int) { return random.uniform(-0.01F, 0.01F); }), Packet(-1.0F)}};
         Double<Packet> t;
         ASSERT_TRUE(all(first_in_front(body, rays, t)));
-        const auto found = parametrisation<Packet>(body, nullptr, rays, t, LaneMaskOf(true), LaneMaskOf(false));
+        const auto found =
+            parametrisation<Packet>(body, record_hit<Packet>(body, rays, t, LaneMaskOf(false), LaneMaskOf(true)),
+                                    nullptr, rays, t, LaneMaskOf(true));
         for (int i = 0; i < Packet::size; ++i) {
             const Ray<float> ray = {{rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]},
                                     {rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]}};
-            const auto single = parametrisation<float>(body, nullptr, ray, t[i], true, false);
+            const auto single =
+                parametrisation<float>(body, record_hit<float>(body, ray, t[i], false, true), nullptr, ray, t[i], true);
             ASSERT_EQ(found.u[i], single.u) << "case " << number;
             ASSERT_EQ(found.v[i], single.v) << "case " << number;
             ASSERT_EQ(found.dp_du.z[i], single.dp_du.z) << "case " << number;

@@ -68,7 +68,7 @@ TEST(ShadingNormal, OfAQuadIsContinuousOverTheDiagonal) {
     const auto at = [&](float x, float y) {
         double t = 0;
         EXPECT_TRUE(first_in_front(quad, down(x, y), t));
-        return shading_normal(quad, normals, down(x, y), t, true);
+        return shading_normal(quad, record_hit(quad, down(x, y), t, false, true), normals, down(x, y), true);
     };
     const Vec3d one_side = at(0.5F, 0.49999F), other_side = at(0.49999F, 0.5F);
     EXPECT_NEAR(one_side.x, other_side.x, 1e-4);

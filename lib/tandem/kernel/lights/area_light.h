@@ -14,7 +14,7 @@ struct AreaLight {
     std::uint64_t last;  ///< of its range, which starts after that of the light before it
     double chance;       ///< with which it is chosen
     std::uint32_t primitive;
-    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+    std::uint32_t halves_overlap = 0;  ///< 1: of a quad, one half may occlude the other from some points
 };
 static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
