@@ -45,9 +45,14 @@ install(
   COMPONENT library
 )
 
+# Where programs find a shared library once they are installed, and both what is not in the system's folders.
+file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(tandem PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 foreach(program tandem-render tandem-bench tandem-gltf)
   if(TARGET ${program})
-    set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}") # of a shared library
+    set_target_properties(
+      ${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_bin}" INSTALL_RPATH_USE_LINK_PATH ON
+    )
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   endif()
 endforeach()

@@ -1,18 +1,25 @@
-# Kernels that are specialised at load (cuda/jit_link.h): compiled to LTO-IR, whose bytes become part of a target. By a
-# command of its own, because CMake 3.25 has no rule that compiles CUDA to a fat binary.
+# Kernels that are linked with facts (cuda/jit_link.h): compiled to LTO-IR, whose bytes become part of a target, and linked
+# already when Tandem is built with facts that hold for many scenes. By commands of their own, because CMake 3.25 has no
+# rule that compiles CUDA to a fat binary, nor one that links a single kernel.
 
-# The lowest of CMAKE_CUDA_ARCHITECTURES, as a number: its LTO-IR can be linked for all the later ones.
-function(tandem_lowest_architecture result)
+# CMAKE_CUDA_ARCHITECTURES without collective names: "80", "80-real" or "80-virtual".
+function(tandem_cuda_architectures result)
   set(list ${CMAKE_CUDA_ARCHITECTURES})
   if("${list}" MATCHES "^(native|all|all-major)$")
     string(TOUPPER ${list} which)
     string(REPLACE "-" "_" which ${which})
     set(list ${CMAKE_CUDA_ARCHITECTURES_${which}})
   endif()
-  string(REGEX MATCHALL "[0-9]+" numbers "${list}")
-  if(NOT numbers)
+  if(NOT "${list}" MATCHES "[0-9]")
     message(FATAL_ERROR "Tandem: CMAKE_CUDA_ARCHITECTURES is '${CMAKE_CUDA_ARCHITECTURES}', which names no GPU")
   endif()
+  set(${result} ${list} PARENT_SCOPE)
+endfunction()
+
+# The lowest of them, as a number: its LTO-IR can be linked for all the later ones.
+function(tandem_lowest_architecture result)
+  tandem_cuda_architectures(list)
+  string(REGEX MATCHALL "[0-9]+" numbers "${list}")
   list(SORT numbers COMPARE NATURAL)
   list(GET numbers 0 lowest)
   set(${result} ${lowest} PARENT_SCOPE)
@@ -30,23 +37,27 @@ if(tandem_nvcc_help MATCHES "--gen-opt-lto")
   set(tandem_optimised_lto --gen-opt-lto)
 endif()
 
-# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
-# [DEFINES NAME=VALUE...]): compiles FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET
-# the function
-#
-#   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
-#
-# whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this; for what goes into
-# the library itself that is an object library.
-function(tandem_add_lto_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES;DEFINES")
+# nvlink finds libnvvm.so, NVIDIA's optimiser, in the folder lib64 of the one that it is told. A toolkit's installer and the
+# wheels of PyPI put it in different places.
+find_path(
+  TANDEM_NVVM_DIR lib64/libnvvm.so
+  HINTS ${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}/nvvm ${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}
+        ${CMAKE_CUDA_COMPILER_LIBRARY_ROOT}/nvvm ${CMAKE_CUDA_COMPILER_LIBRARY_ROOT}
+  NO_DEFAULT_PATH
+)
+mark_as_advanced(TANDEM_NVVM_DIR)
+if(NOT TANDEM_NVVM_DIR)
+  message(FATAL_ERROR "Tandem: no lib64/libnvvm.so in ${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}/nvvm or "
+                      "${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}; it links the kernels. Install NVVM of this CUDA release, or "
+                      "configure with -DTANDEM_NVVM_DIR=... (the folder above lib64) or -DTANDEM_CUDA=OFF")
+endif()
+
+# tandem_compile_to_lto(FATBIN SOURCE FILE TIER TIER [INCLUDES DIRS...] [DEFINES NAME=VALUE...]): compiles FILE with the flags
+# of TIER's other kernels (cuda/CMakeLists.txt).
+function(tandem_compile_to_lto fatbin)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "SOURCE;TIER" "INCLUDES;DEFINES")
   list(TRANSFORM arg_DEFINES PREPEND -D)
-  if(NOT arg_NAMESPACE)
-    set(arg_NAMESPACE tandem::cuda)
-  endif()
   get_filename_component(source ${arg_SOURCE} ABSOLUTE)
-  set(fatbin ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME}.fatbin)
-  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME}.cpp)
   tandem_lowest_architecture(lowest)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
   separate_arguments(flags NATIVE_COMMAND "${CMAKE_CUDA_FLAGS} ${CMAKE_CUDA_FLAGS_${type}}")
@@ -68,14 +79,96 @@ function(tandem_add_lto_kernels target)
     COMMENT "Compiling ${shown} to LTO-IR, ${arg_TIER}"
     COMMAND_EXPAND_LISTS VERBATIM
   )
+endfunction()
+
+# tandem_embed_fatbin(TARGET FATBIN NAMESPACE): adds to TARGET the function
+#
+#   std::span<const std::byte> NAMESPACE::NAME()    // declare it where you use it; "": the namespace is tandem::cuda
+#
+# with the bytes of FATBIN, which is called NAME.fatbin. TARGET has to be made in the folder that calls this; for what goes
+# into the library itself that is an object library.
+function(tandem_embed_fatbin target fatbin namespace)
+  if(NOT namespace)
+    set(namespace tandem::cuda)
+  endif()
+  get_filename_component(name ${fatbin} NAME_WE)
+  set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/embed_bytes.cmake)
   add_custom_command(
     OUTPUT ${embedded}
-    COMMAND
-      ${CMAKE_COMMAND} -DINPUT=${fatbin} -DOUTPUT=${embedded} -DNAMESPACE=${arg_NAMESPACE} -DNAME=${arg_NAME}
-      -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${fatbin} -DOUTPUT=${embedded} -DNAMESPACE=${namespace} -DNAME=${name} -P ${script}
     DEPENDS ${fatbin} ${script}
     VERBATIM
   )
   target_sources(${target} PRIVATE ${embedded})
+endfunction()
+
+# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
+# [DEFINES NAME=VALUE...]): tandem_compile_to_lto() of FILE, whose bytes FUNCTION of TARGET gives for JitInput::code
+# (tandem_embed_fatbin()).
+function(tandem_add_lto_kernels target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES;DEFINES")
+  set(fatbin ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME}.fatbin)
+  tandem_compile_to_lto(
+    ${fatbin}
+    SOURCE ${arg_SOURCE}
+    TIER ${arg_TIER}
+    INCLUDES ${arg_INCLUDES}
+    DEFINES ${arg_DEFINES}
+  )
+  tandem_embed_fatbin(${target} ${fatbin} "${arg_NAMESPACE}")
+endfunction()
+
+# tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FILE [NAMESPACE NAMESPACE]
+# [INCLUDES DIRS...] [DEFINES NAME=VALUE...]): links KERNEL from the LTO-IR of the function LINKS, which
+# tandem_add_lto_kernels() added in this folder, and from FACTS, which defines its facts. For each of
+# CMAKE_CUDA_ARCHITECTURES: FUNCTION of TARGET gives a fat binary of machine code and PTX (tandem_embed_fatbin()).
+function(tandem_add_compiled_kernels target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;NAMESPACE" "INCLUDES;DEFINES")
+  set(name ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME})
+  set(kernel ${CMAKE_CURRENT_BINARY_DIR}/${arg_LINKS}.fatbin)
+  set(facts ${name}_facts.fatbin)
+  tandem_compile_to_lto(
+    ${facts}
+    SOURCE ${arg_FACTS}
+    TIER ${arg_TIER}
+    INCLUDES ${arg_INCLUDES}
+    DEFINES ${arg_DEFINES}
+  )
+  # The link decides about contraction and flushes: without an option for it, nvlink contracts, whatever nvcc's options
+  # were. With one it passes on all of them, with nvcc's values for divisions and square roots.
+  get_target_property(options tandem_cuda_${arg_TIER} TANDEM_LINK_OPTIONS)
+  list(TRANSFORM options PREPEND -Xnvvm=)
+  set(files)
+  set(images)
+  macro(image kind ending option)
+    set(file ${name}_${number}.${ending})
+    add_custom_command(
+      OUTPUT ${file}
+      COMMAND ${CMAKE_CUDA_DEVICE_LINKER} -dlto -arch=sm_${number} ${option} -nvvmpath=${TANDEM_NVVM_DIR} ${options}
+              -kernels-used=${arg_KERNEL} ${kernel} ${facts} -o ${file}
+      DEPENDS ${kernel} ${facts}
+      COMMENT "Linking ${arg_NAME}_${number}.${ending}"
+      COMMAND_EXPAND_LISTS VERBATIM
+    )
+    list(APPEND files ${file})
+    list(APPEND images --image3=kind=${kind},sm=${number},file=${file})
+  endmacro()
+  tandem_cuda_architectures(architectures)
+  foreach(architecture IN LISTS architectures)
+    string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
+    if(NOT architecture MATCHES "-virtual$")
+      image(elf cubin "")
+    endif()
+    if(NOT architecture MATCHES "-real$")
+      image(ptx ptx -emit-ptx)
+    endif()
+  endforeach()
+  add_custom_command(
+    OUTPUT ${name}.fatbin
+    COMMAND ${CMAKE_CUDA_FATBINARY} -64 --compress-all --create=${name}.fatbin ${images}
+    DEPENDS ${files}
+    VERBATIM
+  )
+  tandem_embed_fatbin(${target} ${name}.fatbin "${arg_NAMESPACE}")
 endfunction()

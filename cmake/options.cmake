@@ -2,6 +2,7 @@
 option(TANDEM_APPS "Build tandem-render, tandem-bench and tandem-gltf" ${PROJECT_IS_TOP_LEVEL})
 option(TANDEM_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(TANDEM_INSTALL "Install the library, its headers and its CMake package" ${PROJECT_IS_TOP_LEVEL})
+option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(TANDEM_WERROR "Treat warnings in Tandem's own code as errors" OFF)
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 

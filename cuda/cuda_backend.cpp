@@ -149,6 +149,8 @@ class CudaBackend final : public Backend {
             linked =
                 kernels_->find(job.tier, resident.view(), linked_facts(resident.view().scene, effects, job.limits));
         }
+        const SceneKernel& kernel =
+            linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);
         compute_.wait_for(resident.uploaded());
         memory->render_start.record(compute_.get());
         check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
@@ -157,12 +159,7 @@ class CudaBackend final : public Backend {
         const auto height = static_cast<std::uint32_t>(job.height);
         const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
         const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
-            if (linked.kernel != nullptr) {
-                launch_linked(*linked.kernel, resident.view(), samples, height, sums, counters, compute_.get());
-            } else {
-                kernels(job.tier).render[variant].start(resident.view(), samples, height, sums, counters,
-                                                        compute_.get());
-            }
+            launch_render(kernel, resident.view(), samples, height, sums, counters, compute_.get());
         };
         if (planes.variance != nullptr) {
             draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance);
@@ -184,8 +181,7 @@ class CudaBackend final : public Backend {
               "downloading counters");
         memory->download_end.record(download_.get());
 
-        const KernelFacts facts = linked.kernel != nullptr ? kernel_facts(linked.kernel->code.function())
-                                                           : kernels(job.tier).render[variant].facts(resident.view());
+        const KernelFacts facts = kernel_facts(kernel.code.function());
         RenderResult result;
         result.film = Film(job.width, job.height, job.samples, std::move(sums), job.planes);
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
@@ -243,7 +239,7 @@ class CudaBackend final : public Backend {
                                  .count = job.rays.size()};
         check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
         trace_start_.record(compute_.get());
-        kernels(resident.tier()).trace(resident.view(), rays, compute_.get());
+        trace_kernels(resident.tier())(resident.view(), rays, compute_.get());
         trace_end_.record(compute_.get());
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);

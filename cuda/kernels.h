@@ -4,9 +4,7 @@
 #include <cuda_runtime_api.h>
 
 #include <cstdint>
-#include <iterator>
 
-#include "tandem/effects/variants.h"
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
@@ -40,12 +38,6 @@ struct KernelFacts {
 /// Of a render kernel. Throws if CUDA cannot tell.
 [[nodiscard]] KernelFacts kernel_facts(const void* kernel);
 
-/// The sets of effects that the render kernel is compiled for ahead of time.
-inline constexpr KernelVariant variants[] = {
-    {"plain", {}},
-    {"full", all_effects},
-};
-
 /// The number of ray counters: each pixel adds to one of them, the threads of a warp to different ones.
 inline constexpr std::size_t ray_counters = 32;
 
@@ -70,35 +62,23 @@ struct DeviceRays {
     std::size_t count;
 };
 
-/// A render kernel that is compiled ahead of time: one per tier and set of effects (`variants`).
-struct RenderKernel {
-    /// Starts the sums of all pixels. `sums` and `counters` are in device memory.
-    void (*start)(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, Vec3d* sums,
-                  DeviceCounters* counters, cudaStream_t stream);
-    /// Of the kernel that a scene gets.
-    KernelFacts (*facts)(const DeviceSceneView& scene);
-};
+/// Starts tracing the rays.
+using TraceLaunch = void(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 
-/// The kernels of one tier.
-struct TierKernels {
-    RenderKernel render[std::size(variants)];
-    /// Starts tracing the rays.
-    void (*trace)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
-};
+// In a file for each tier (kernels_*.cu).
+#define TANDEM_TIER(name, promise) extern TraceLaunch launch_trace_##name;
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
 
-[[nodiscard]] const TierKernels& fast_kernels();
-[[nodiscard]] const TierKernels& strict_kernels();
-[[nodiscard]] const TierKernels& precise_kernels();
-
-[[nodiscard]] inline const TierKernels& kernels(Tier tier) {
+[[nodiscard]] inline TraceLaunch& trace_kernels(Tier tier) {
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \
-        return name##_kernels();
+        return launch_trace_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
     }
-    return strict_kernels();
+    return launch_trace_strict;
 }
 
 }  // namespace tandem::cuda

@@ -1,11 +1,10 @@
-#include "cuda/tier_kernels.h"
+#include "cuda/trace_kernels.h"
 #include "tandem/math/fast_math.h"
 
 namespace tandem::cuda {
 
-const TierKernels& fast_kernels() {
-    static const TierKernels kernels = tier_kernels<FastFloat>(full_fast_kernel());
-    return kernels;
+void launch_trace_fast(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
+    launch_trace<FastFloat>(scene, rays, stream);
 }
 
 }  // namespace tandem::cuda

@@ -1,10 +1,9 @@
-#include "cuda/tier_kernels.h"
+#include "cuda/trace_kernels.h"
 
 namespace tandem::cuda {
 
-const TierKernels& precise_kernels() {
-    static const TierKernels kernels = tier_kernels<double>(full_precise_kernel());
-    return kernels;
+void launch_trace_precise(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
+    launch_trace<double>(scene, rays, stream);
 }
 
 }  // namespace tandem::cuda

@@ -1,10 +1,9 @@
-#include "cuda/tier_kernels.h"
+#include "cuda/trace_kernels.h"
 
 namespace tandem::cuda {
 
-const TierKernels& strict_kernels() {
-    static const TierKernels kernels = tier_kernels<float>(full_strict_kernel());
-    return kernels;
+void launch_trace_strict(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
+    launch_trace<float>(scene, rays, stream);
 }
 
 }  // namespace tandem::cuda

@@ -1,14 +1,23 @@
-/// The facts that a render kernel is specialised for at load (cuda/scene_kernels.h): one struct, made on the host from
-/// the scene and the job, a constant to the kernel once it is linked.
+/// The facts that a render kernel is linked for (cuda/scene_kernels.h): one struct, made on the host from the scene and
+/// the job, or when Tandem is built (compiled_facts.cu). A constant to the kernel once it is linked.
 #pragma once
 
 #include <cstdint>
+#include <iterator>
+
+#include "tandem/effects/variants.h"
 
 namespace tandem::cuda {
 
+/// The sets of effects for which the render kernel is linked when Tandem is built.
+inline constexpr KernelVariant variants[] = {
+    {"plain", {}},
+    {"full", all_effects},
+};
+
 /// A plain struct of 32-bit integers.
 struct LinkedFacts {
-    static constexpr std::uint32_t any = ~0U;  ///< of lights: not a constant
+    static constexpr std::uint32_t any = ~0U;  ///< of lights and limits: not a constant
 
     std::uint32_t effects = 0;                                  ///< EffectMask::bits()
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
@@ -21,5 +30,11 @@ struct LinkedFacts {
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };
+
+/// What holds for all scenes with no other effects and no other PrimitiveKinds.
+constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds) {
+    constexpr std::uint32_t any = LinkedFacts::any;
+    return {effects.bits(), kinds, kinds, kinds, 1, any, any, any, any};
+}
 
 }  // namespace tandem::cuda

@@ -1,6 +1,7 @@
-// The render kernel that is specialised at load. Compiled to LTO-IR of its own for each tier (TANDEM_LINKED_TIER), each
-// way to find primitives (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go
-// through the code of the others.
+// The render kernel, to be linked with facts: at load for a scene, and when Tandem is built for all scenes
+// (compiled_facts.cu). Compiled to LTO-IR of its own for each tier (TANDEM_LINKED_TIER), each way to find primitives
+// (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go through the code of the
+// others.
 //
 // TANDEM_SHORT_PATHS is defined for paths of one vertex: without synchronising_effects. Their code fits into the caches
 // for it, and TANDEM_HD_SHARED is inline.
@@ -31,10 +32,11 @@ struct LinkedEffects {
         return (tandem_facts.effects & (most & of).bits()) != 0;
     }
     [[nodiscard]] TANDEM_HD static std::uint32_t light_count(std::uint32_t count) {
-        return tandem_facts.lights == LinkedFacts::any ? count : tandem_facts.lights;
+        return either(tandem_facts.lights, count);
     }
-    [[nodiscard]] TANDEM_HD static PathLimits limits(const PathLimits&) {
-        return {tandem_facts.reflection, tandem_facts.refraction, tandem_facts.diffuse};
+    [[nodiscard]] TANDEM_HD static PathLimits limits(const PathLimits& given) {
+        return {either(tandem_facts.reflection, given.reflection), either(tandem_facts.refraction, given.refraction),
+                either(tandem_facts.diffuse, given.diffuse)};
     }
 #else  // nvcc reads it for the host too, where the facts are not
     static bool has_any(EffectMask);
@@ -42,6 +44,12 @@ struct LinkedEffects {
     static PathLimits limits(const PathLimits&);
 #endif
     [[nodiscard]] TANDEM_HD static bool has(Effect effect) { return has_any(effect); }
+
+  private:
+    /// The fact, or the number that the kernel was given if the fact says nothing.
+    [[nodiscard]] TANDEM_HD static std::uint32_t either(std::uint32_t fact, std::uint32_t given) {
+        return fact == LinkedFacts::any ? given : fact;
+    }
 };
 
 /// The Reals of the tiers, by their names.

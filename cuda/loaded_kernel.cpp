@@ -6,12 +6,11 @@
 
 namespace tandem::cuda {
 
-LoadedCode::LoadedCode(std::span<const std::byte> cubin, const std::string& kernel) {
-    check(cudaLibraryLoadData(&library_, cubin.data(), nullptr, nullptr, 0, nullptr, nullptr, 0),
-          "loading a specialised kernel");
-    const cudaError_t code = cudaLibraryGetKernel(&kernel_, library_, kernel.c_str());
-    if (code != cudaSuccess) (void)cudaLibraryUnload(std::exchange(library_, nullptr));
-    check(code, "finding a specialised kernel");
+LoadedCode::LoadedCode(std::span<const std::byte> code, const std::string& kernel) {
+    check(cudaLibraryLoadData(&library_, code.data(), nullptr, nullptr, 0, nullptr, nullptr, 0), "loading a kernel");
+    const cudaError_t found = cudaLibraryGetKernel(&kernel_, library_, kernel.c_str());
+    if (found != cudaSuccess) (void)cudaLibraryUnload(std::exchange(library_, nullptr));
+    check(found, "finding a kernel");
 }
 
 // a failure to unload cannot be answered

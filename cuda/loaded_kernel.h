@@ -1,6 +1,6 @@
-/// A kernel from a cubin, through the runtime's library interface: like all of the runtime it opens the driver only
-/// when it is used, so that programs start without one. The only other way to launch a kernel than launch.h; host code
-/// can use it.
+/// A kernel from a cubin or a fat binary, through the runtime's library interface: like all of the runtime it opens the
+/// driver only when it is used, so that programs start without one. The only other way to launch a kernel than
+/// launch.h; host code can use it.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -11,11 +11,11 @@
 
 namespace tandem::cuda {
 
-/// A cubin that is loaded, for the device that is current, and its kernel.
+/// Code that is loaded, for the device that is current, and its kernel.
 class LoadedCode {
   public:
-    /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the cubin.
-    LoadedCode(std::span<const std::byte> cubin, const std::string& kernel);
+    /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the code.
+    LoadedCode(std::span<const std::byte> code, const std::string& kernel);
     ~LoadedCode();
     LoadedCode(const LoadedCode&) = delete;
     LoadedCode& operator=(const LoadedCode&) = delete;

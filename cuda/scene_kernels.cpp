@@ -10,18 +10,33 @@
 
 namespace tandem::cuda {
 
-// Embedded by tandem_add_lto_kernels().
+// Embedded by tandem_add_lto_kernels() and tandem_add_compiled_kernels().
 #define TANDEM_TIER(name, promise)                         \
     std::span<const std::byte> linked_short_few_##name();  \
     std::span<const std::byte> linked_short_loop_##name(); \
     std::span<const std::byte> linked_short_bvh_##name();  \
     std::span<const std::byte> linked_long_few_##name();   \
     std::span<const std::byte> linked_long_loop_##name();  \
-    std::span<const std::byte> linked_long_bvh_##name();
+    std::span<const std::byte> linked_long_bvh_##name();   \
+    TANDEM_COMPILED(plain, name)                           \
+    TANDEM_COMPILED(full, name)
+#define TANDEM_COMPILED(variant, name)                                    \
+    std::span<const std::byte> compiled_##variant##_few_##name();         \
+    std::span<const std::byte> compiled_##variant##_loop_##name();        \
+    std::span<const std::byte> compiled_##variant##_loop_bodies_##name(); \
+    std::span<const std::byte> compiled_##variant##_bvh_##name();         \
+    std::span<const std::byte> compiled_##variant##_bvh_bodies_##name();
 #include "tandem/render/tiers.def"
+#undef TANDEM_COMPILED
 #undef TANDEM_TIER
 
+static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchronising_effects) &&
+                  variants[1].effects == all_effects,
+              "compiled_code() and CMakeLists.txt know two");
+
 namespace {
+
+constexpr const char* kernel_name = "tandem_render";
 
 std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_long) {
     switch (tier) {
@@ -42,8 +57,9 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
     return {};
 }
 
-/// Are they kernels for long paths? Their threads take pixels from a queue, a block together.
-bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(synchronising_effects); }
+/// Are kernels with these effects for long paths? Their threads take pixels from a queue, a block together.
+bool has_queue(EffectMask effects) { return effects.has_any(synchronising_effects); }
+bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bits(facts.effects)); }
 
 /// More lights than these are a loop whose length is no constant: it would not be unrolled.
 constexpr std::uint32_t most_linked_lights = 4;
@@ -77,12 +93,30 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture) {
     JitInput input;
     input.code = linked_code(tier, structure, has_queue(facts));
-    input.kernel = "tandem_render";
+    input.kernel = kernel_name;
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = tier;
     input.architecture = architecture;
     return input;
+}
+
+std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant) {
+    switch (tier) {
+#define TANDEM_TIER(name, promise) \
+    case Tier::name:               \
+        return variant == 0 ? TANDEM_COMPILED(plain, name) : TANDEM_COMPILED(full, name);
+#define TANDEM_COMPILED(variant, name)                                                            \
+    (structure == Structure::few ? compiled_##variant##_few_##name()                              \
+     : structure == Structure::loop                                                               \
+         ? faces ? compiled_##variant##_loop_##name() : compiled_##variant##_loop_bodies_##name() \
+     : faces ? compiled_##variant##_bvh_##name()                                                  \
+             : compiled_##variant##_bvh_bodies_##name())
+#include "tandem/render/tiers.def"
+#undef TANDEM_COMPILED
+#undef TANDEM_TIER
+    }
+    return {};
 }
 
 SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
@@ -99,7 +133,8 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
         try {
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, input.kernel), has_queue(facts)});
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), has_queue(facts),
+                                                "rendering with a kernel made for the scene"});
             if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
         } catch (const std::exception& error) {
             warn(fmt::format(
@@ -112,12 +147,22 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
     return found;
 }
 
-void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scene, std::size_t variant) {
+    const Structure structure = structure_of(scene);
+    const bool faces = has_faces(scene.scene);
+    auto& kernel = compiled_[{tier, structure, faces, variant}];
+    if (kernel == nullptr) {
+        kernel.reset(new SceneKernel{LoadedCode(compiled_code(tier, structure, faces, variant), kernel_name),
+                                     has_queue(variants[variant].effects), "rendering"});
+    }
+    return *kernel;
+}
+
+void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch("rendering with a kernel made for the scene", grid.blocks, grid.threads, stream, tracer, job,
-                           height, sums, counters);
+        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };
     switch (structure_of(scene)) {
         case Structure::few:

@@ -1,8 +1,10 @@
-/// The render kernels that are specialised for scenes: each is linked once per backend, and cached on disk.
+/// The render kernels. All are linked from the same code: for a scene, at load, once per backend and cached on disk; or
+/// when Tandem is built, for all scenes of a variant.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -21,10 +23,15 @@ namespace tandem::cuda {
 /// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
-/// A kernel that is linked for a scene.
+/// The kernel that was linked when Tandem was built, with the effects of `variants[variant]`, for scenes with faces
+/// (has_faces()) or without: a fat binary for CMAKE_CUDA_ARCHITECTURES.
+[[nodiscard]] std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant);
+
+/// A render kernel on the GPU.
 struct SceneKernel {
     LoadedCode code;
-    bool has_queue;  ///< its threads take pixels from a queue (cuda/render_thread.h)
+    bool has_queue;     ///< its threads take pixels from a queue (cuda/render_thread.h)
+    const char* doing;  ///< as with LoadedCode::launch()
 };
 
 class SceneKernels {
@@ -40,15 +47,21 @@ class SceneKernels {
     /// Not for several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
+    /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode. Not for several
+    /// threads at once.
+    [[nodiscard]] const SceneKernel& compiled(Tier tier, const DeviceSceneView& scene, std::size_t variant);
+
   private:
     int architecture_;
     KernelCache cache_;
     bool warned_ = false;
     std::map<std::tuple<Tier, Structure, LinkedFacts>, std::unique_ptr<SceneKernel>> kernels_;
+    std::map<std::tuple<Tier, Structure, bool, std::size_t>, std::unique_ptr<SceneKernel>> compiled_;
 };
 
-/// Starts a kernel that SceneKernels gave for this scene: as TierKernels::render.
-void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
+/// Starts a kernel that SceneKernels gave for this scene: the sums of all pixels. `sums` and `counters` are in device
+/// memory.
+void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
 
 }  // namespace tandem::cuda

@@ -1,6 +1,12 @@
-/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h).
+/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h). Included by one .cu file per
+/// tier, each compiled with the flags of its tier and with TANDEM_SHORT_PATHS (cuda/CMakeLists.txt).
 #pragma once
 
+#if !defined(TANDEM_SHORT_PATHS)
+#error "compile it with TANDEM_SHORT_PATHS: the kernels that trace rays are slower by a tenth without"
+#endif
+
+#include "cuda/block_shape.h"
 #include "cuda/launch.h"
 #include "cuda/with_tracer.h"
 

@@ -1,4 +1,4 @@
-/// How kernels that are compiled ahead of time get the tracer that fits a scene. Included by .cu files.
+/// How kernels that are no linked ones (scene_kernels.h) get the tracer that fits a scene. Included by .cu files.
 #pragma once
 
 #include <type_traits>
@@ -30,7 +30,7 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
             break;
     }
     BvhView bvh = scene.bvh;
-    bvh.stack_overflows = counters == nullptr ? nullptr : &counters->stack_overflows;
+    bvh.stack_overflows = &counters->stack_overflows;
     return faces ? f(BvhTracerFor<all>{scene.scene, bvh}) : f(BvhTracerFor<bodies>{scene.scene, bvh});
 }
 

@@ -14,6 +14,10 @@ namespace tandem::test {
 std::span<const std::byte> toy_strict();
 std::span<const std::byte> toy_fast();
 
+/// It linked for compiled_toy_facts and CMAKE_CUDA_ARCHITECTURES, embedded by tandem_add_compiled_kernels().
+std::span<const std::byte> compiled_toy_strict();
+std::span<const std::byte> compiled_toy_fast();
+
 /// For compute capability 9.0, or the lowest that this build is for if that is higher.
 inline cuda::JitInput toy_input(const ToyFacts& facts, Tier tier = Tier::strict) {
     cuda::JitInput input;

@@ -24,6 +24,9 @@ struct ToyFacts {
     std::uint32_t lights = 3;
 };
 
+/// Those of the kernel that is linked when the tests are built.
+inline constexpr ToyFacts compiled_toy_facts = {toy_lights | toy_table | toy_fused, 3};
+
 inline constexpr float toy_marker = 1.2345678F;
 
 TANDEM_HD float toy_value(const ToyFacts& facts, float x) {

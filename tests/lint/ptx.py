@@ -23,8 +23,10 @@ FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|
 
 def units_of(source):
     """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone."""
+    if source.name == "compiled_facts.cu":
+        return []  # numbers
     if source.name != "linked_kernel.cu":
-        return [(source, [] if source.stem.endswith("_full") else ["-DTANDEM_SHORT_PATHS=1"])]
+        return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
             for tracer in ("ConstantMemoryTracer", "LoopTracer", "BvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
 

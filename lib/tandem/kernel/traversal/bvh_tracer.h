@@ -3,8 +3,8 @@
 #pragma once
 
 #include "tandem/kernel/traversal/bvh.h"
-#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/kernel/traversal/proposal.h"
+#include "tandem/kernel/traversal/ray_tracer.h"
 #include "tandem/kernel/traversal/slab.h"
 
 namespace tandem {
@@ -62,31 +62,13 @@ TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source
 
 /// `kind_set` as with LoopTracerFor.
 template <std::uint32_t kind_set>
-struct BvhTracerFor {
+struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
     static constexpr bool has_hierarchy = true;
 
     SceneView scene;
     BvhView bvh;
 
-    /// As LoopTracer::closest().
-    template <class Real, class From>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
-        Closest<Real> best = no_hit<Real>();
-        if (active) find<Search::nearest>(ray, source, best);
-        return best;
-    }
-
-    /// As LoopTracer::occluded().
-    template <class Real>
-    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
-                            bool active) const {
-        Closest<Real> best = closest_starting_at<Real>(t_max);
-        if (active) find<Search::any>(ray, source, best);
-        return best.t < t_max;
-    }
-
-  private:
     template <Search search, class Real, class From>
     TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const Proposal<Real> proposal = propose(ray, bvh.frame, true);
@@ -142,6 +124,7 @@ struct BvhTracerFor {
         }
     }
 
+  private:
     template <class Real, class From>
     TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
                             const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
@@ -165,6 +148,9 @@ struct BvhTracerFor {
         }
     }
 };
+
+template <std::uint32_t kind_set>
+using BvhTracerFor = RayTracer<BvhStructure<kind_set>>;
 using BvhTracer = BvhTracerFor<PrimitiveKinds::all>;
 
 }  // namespace tandem

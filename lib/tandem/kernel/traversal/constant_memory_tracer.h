@@ -2,12 +2,12 @@
 /// known to the compiler, so that no filter loads anything.
 #pragma once
 
-#include "tandem/kernel/traversal/intersect.h"
+#include "tandem/kernel/traversal/ray_tracer.h"
 
 namespace tandem {
 
 /// First all filters, without a branch; then, for the few primitives that pass, the decision in double.
-struct ConstantMemoryTracer {
+struct ConstantMemoryStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
     static constexpr bool has_hierarchy = false;
     static constexpr std::uint32_t max_spheres = 8;
@@ -17,24 +17,6 @@ struct ConstantMemoryTracer {
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
 
-    /// As LoopTracer::closest().
-    template <class Real, class From>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
-        Closest<Real> best = no_hit<Real>();
-        if (active) find<Search::nearest>(ray, source, best);
-        return best;
-    }
-
-    /// As LoopTracer::occluded().
-    template <class Real>
-    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
-                            bool active) const {
-        Closest<Real> best = closest_starting_at<Real>(t_max);
-        if (active) find<Search::any>(ray, source, best);
-        return best.t < t_max;
-    }
-
-  private:
     template <Search search, class Real, class From>
     TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const FilterRay<Real> f = make_filter_ray(ray);
@@ -72,6 +54,7 @@ struct ConstantMemoryTracer {
         }
     }
 };
+using ConstantMemoryTracer = RayTracer<ConstantMemoryStructure>;
 
 /// Has the scene so few primitives, and of such kinds?
 TANDEM_HD bool fits_constant_memory(const SceneView& scene) {

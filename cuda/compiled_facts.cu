@@ -1,0 +1,15 @@
+// The facts of a render kernel that is linked when Tandem is built: for all scenes that have no effects but those of
+// TANDEM_COMPILED_VARIANT and no primitives but TANDEM_COMPILED_KINDS (CMakeLists.txt). It draws where no kernel is
+// linked at load.
+#include "cuda/kernels.h"
+#include "cuda/linked_facts.h"
+
+namespace tandem::cuda {
+
+extern "C" {
+extern __device__ const LinkedFacts tandem_facts;
+__device__ const LinkedFacts tandem_facts =
+    facts_of_any_scene(variants[TANDEM_COMPILED_VARIANT].effects, TANDEM_COMPILED_KINDS);
+}
+
+}  // namespace tandem::cuda

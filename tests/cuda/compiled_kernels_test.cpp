@@ -1,0 +1,99 @@
+// The kernels that are linked when Tandem is built: their machine code is what a link at load would give. No GPU.
+#include <cuda_runtime_api.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cuda/cubin_facts.h"
+#include "cuda/machine_code.h"
+#include "cuda/scene_kernels.h"
+#include "cuda/toy_input.h"
+#include "tandem/base/whole_file.h"
+
+namespace tandem::cuda {
+namespace {
+
+using namespace tandem::test;
+
+/// What is in a kernel's machine code.
+struct Code {
+    int ffma = 0, dfma = 0, mufu = 0;
+    int registers = 0, stack_bytes = 0;
+    friend bool operator==(const Code&, const Code&) = default;
+    friend void PrintTo(const Code& code, std::ostream* out) {
+        *out << fmt::format("{} FFMA, {} DFMA, {} MUFU, {} registers, {} bytes of stack", code.ffma, code.dfma,
+                            code.mufu, code.registers, code.stack_bytes);
+    }
+};
+
+Code code_of(std::span<const std::byte> cubin, const std::string& kernel) {
+    const CubinFacts facts = cubin_facts(cubin, kernel).value();
+    return {count(facts.code, Operation::ffma), count(facts.code, Operation::dfma), count(facts.code, Operation::mufu),
+            facts.registers, facts.stack_bytes};
+}
+
+class CompiledKernels : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (TANDEM_COMPILED_ARCHITECTURE == 0) GTEST_SKIP() << "the build is for PTX alone";
+    }
+    /// `name`: with its folder, under the build folder.
+    static Code compiled(const std::string& name, const std::string& kernel) {
+        return code_of(read_file(fmt::format("{}/{}_{}.cubin", TANDEM_BINARY_DIR, name, TANDEM_COMPILED_ARCHITECTURE)),
+                       kernel);
+    }
+};
+
+TEST_F(CompiledKernels, OfExactTiersFuseOnlyWhatIsWritten) {
+    const Code strict = compiled("tests/cuda/compiled_toy_strict", "toy_kernel");
+    EXPECT_EQ(strict.ffma, 1);
+    EXPECT_EQ(strict.mufu, 0);
+    EXPECT_GT(compiled("tests/cuda/compiled_toy_fast", "toy_kernel").ffma, 1);
+}
+
+TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
+    if (!why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
+    const std::string release = fmt::format("nvJitLink {}.{},", CUDART_VERSION / 1000, CUDART_VERSION % 1000 / 10);
+    if (!jit_version().starts_with(release))
+        GTEST_SKIP() << jit_version() << " is not of the release that built Tandem";
+
+    const auto expect_equal = [](Tier tier, std::size_t variant) {
+        const std::string name = fmt::format("{}_few_{}", variants[variant].name, to_string(tier));
+        const LinkedFacts facts = facts_of_any_scene(variants[variant].effects, ConstantMemoryTracer::kinds);
+        const JitInput input = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE);
+        EXPECT_EQ(compiled("cuda/compiled_" + name, input.kernel), code_of(link(input), input.kernel)) << name;
+    };
+#define TANDEM_TIER(name, promise) expect_equal(Tier::name, 0);
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+    expect_equal(Tier::strict, 1);
+}
+
+TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
+    for (const char* scenes : {"few", "loop", "loop_bodies", "bvh", "bvh_bodies"}) {
+        for (const KernelVariant& variant : variants) {
+            const std::string name = fmt::format("cuda/compiled_{}_{}_", variant.name, scenes);
+            const auto of = [&](const char* tier) { return compiled(name + tier, "tandem_render"); };
+            EXPECT_LT(of("strict").ffma, of("fast").ffma) << name;
+        }
+    }
+}
+
+TEST(CompiledCode, IsThereForEverySceneAndTheFactsLeaveEverythingOpen) {
+    for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh}) {
+        for (const bool faces : {false, true}) {
+            for (std::size_t variant = 0; variant < std::size(variants); ++variant) {
+#define TANDEM_TIER(name, promise) EXPECT_FALSE(compiled_code(Tier::name, structure, faces, variant).empty());
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+            }
+        }
+    }
+    const auto full = [](bool faces) { return compiled_code(Tier::strict, Structure::bvh, faces, 1).size(); };
+    EXPECT_LT(full(false), full(true));
+    EXPECT_LT(compiled_code(Tier::strict, Structure::bvh, true, 0).size(), full(true));
+}
+
+}  // namespace
+}  // namespace tandem::cuda
