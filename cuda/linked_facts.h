@@ -22,7 +22,7 @@ struct LinkedFacts {
     std::uint32_t effects = 0;                                  ///< EffectMask::bits()
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
     std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the area lights
-    std::uint32_t one_area_light = 0;                           ///< 1: there is exactly one
+    std::uint32_t area_lights = 0;                              ///< KnownAreaLights
     std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds that are cut out by alpha, or culled
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights
@@ -34,7 +34,15 @@ struct LinkedFacts {
 /// What holds for all scenes with no other effects and no other PrimitiveKinds.
 constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds) {
     constexpr std::uint32_t any = LinkedFacts::any;
-    return {effects.bits(), kinds, kinds, kinds, 1, any, any, any, any};
+    return {.effects = effects.bits(),
+            .kinds = kinds,
+            .light_kinds = kinds,
+            .cutout_kinds = kinds,
+            .several_slots = 1,
+            .lights = any,
+            .reflection = any,
+            .refraction = any,
+            .diffuse = any};
 }
 
 }  // namespace tandem::cuda

@@ -10,7 +10,8 @@
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
 #define TANDEM_LINKED_KINDS tandem_facts.kinds
 #define TANDEM_LINKED_LIGHT_KINDS tandem_facts.light_kinds
-#define TANDEM_LINKED_ONE_AREA_LIGHT tandem_facts.one_area_light
+#define TANDEM_LINKED_AREA_LIGHTS tandem_facts.area_lights
+#define TANDEM_LINKED_ANY_SCENE (tandem_facts.reflection == tandem::cuda::LinkedFacts::any)
 #define TANDEM_LINKED_SEVERAL_SLOTS tandem_facts.several_slots
 #define TANDEM_LINKED_CUTOUT_KINDS tandem_facts.cutout_kinds
 

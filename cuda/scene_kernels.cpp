@@ -75,7 +75,10 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
 #undef TANDEM_PRIMITIVE
     if (effects.has(Effect::area_lights)) {
         facts.light_kinds = scene.area_light_kinds;
-        facts.one_area_light = scene.area_light_count == 1 ? 1 : 0;
+        const auto known = scene.area_light_count > 1    ? KnownAreaLights::several
+                           : scene.area_light_count == 1 ? KnownAreaLights::one
+                                                         : KnownAreaLights::unknown;
+        facts.area_lights = static_cast<std::uint32_t>(known);
     }
     if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
     if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts)) {

@@ -122,7 +122,7 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     EXPECT_EQ(linked_facts(scene, Effect::emission, limits).light_kinds, 0U);
     for (const std::uint32_t count : {0U, 1U, 2U}) {
         scene.area_light_count = count;
-        EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).one_area_light, count == 1 ? 1U : 0U);
+        EXPECT_EQ(linked_facts(scene, Effect::area_lights, limits).area_lights, count) << "KnownAreaLights";
     }
     scene.several_slots = 1;
     EXPECT_EQ(linked_facts(scene, Effect::textures, limits).several_slots, 1U);

@@ -65,7 +65,7 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
     const D u = widen(to_unit_interval<Real>(random.word[1]));
     const D v = widen(to_unit_interval<Real>(random.word[2]));
     Word light(0U);
-    for (int i = 0; i < RealTraits<Real>::lanes && !must_have_one_area_light(); ++i) {
+    for (int i = 0; i < RealTraits<Real>::lanes && known_area_lights() != KnownAreaLights::one; ++i) {
         const std::uint64_t number = std::uint64_t{lane(random.word[0], i)} << 32 | lane(random.word[3], i);
         set_lane(light, i, choose_area_light(scene.area_lights, scene.area_light_count, number));
     }
@@ -93,7 +93,7 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
             }
         });
         D pdf = select(lights, of_light.pdf, zero);
-        if (!must_have_one_area_light()) pdf = pdf * constant<D>(chosen.chance);
+        if (known_area_lights() != KnownAreaLights::one) pdf = pdf * constant<D>(chosen.chance);
         drawn.direction = select(here, of_light.direction, drawn.direction);
         drawn.point = select(here, of_light.point, drawn.point);
         drawn.pdf = select(here, pdf, drawn.pdf);
@@ -137,7 +137,7 @@ TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<R
 struct AreaLights {
     template <class Effects>
     TANDEM_HD static std::uint32_t count(const SceneView& scene) {
-        return scene.area_light_count > 0 ? 1 : 0;
+        return known_area_lights() != KnownAreaLights::unknown || scene.area_light_count > 0 ? 1 : 0;
     }
     template <class Effects, class Real>
     TANDEM_HD static IncidentLight<Real> sample(const SceneView& scene, std::uint32_t, const LitVertex<Real>& at,

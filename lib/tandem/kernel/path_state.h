@@ -65,7 +65,7 @@ struct PathState<Effects, Real, true> {
 
     /// Of a new ray, in the lanes of `active`.
     TANDEM_HD void forget_holes(const SceneView& scene, const Mask<Real>& active) {
-        if (!Effects::has(Effect::cutouts) || (!is_linked && scene.cutout_kinds == 0)) return;
+        if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) return;
         source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
         source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
     }

@@ -48,7 +48,7 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
                                           const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
                                           UInt<Real>& rays) {
     count_rays<Effects, Real>(shadow.active, rays);
-    if (!Effects::has(Effect::cutouts) || (!is_linked && scene.cutout_kinds == 0)) {
+    if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) {
         return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
     }
     PathSource<Real> source = {shadow.source};

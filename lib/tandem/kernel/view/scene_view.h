@@ -127,12 +127,22 @@ TANDEM_HD bool may_glow(std::uint32_t kinds) {
 #endif
 }
 
-/// Is it certain, when the kernel is compiled, that there is one area light?
-TANDEM_HD bool must_have_one_area_light() {
-#if defined(TANDEM_LINKED_ONE_AREA_LIGHT) && TANDEM_ON_DEVICE
-    return TANDEM_LINKED_ONE_AREA_LIGHT != 0;
+/// What a linked kernel knows of the number of area lights.
+enum class KnownAreaLights : std::uint32_t { unknown, one, several };
+TANDEM_HD KnownAreaLights known_area_lights() {
+#if defined(TANDEM_LINKED_AREA_LIGHTS) && TANDEM_ON_DEVICE
+    return static_cast<KnownAreaLights>(TANDEM_LINKED_AREA_LIGHTS);
 #else
-    return false;
+    return KnownAreaLights::unknown;
+#endif
+}
+
+/// Has the scene no primitive that is cut out or culled? A kernel that is linked for a scene with some does not ask.
+TANDEM_HD bool has_no_cutouts(const SceneView& scene) {
+#if defined(TANDEM_LINKED_ANY_SCENE) && TANDEM_ON_DEVICE
+    return TANDEM_LINKED_ANY_SCENE && scene.cutout_kinds == 0;
+#else
+    return scene.cutout_kinds == 0;
 #endif
 }
 
