@@ -1,4 +1,4 @@
-/// Emissive spheres and faces as lights of a vertex.
+/// Area lights at a vertex of a path.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -10,7 +10,7 @@ namespace tandem {
 
 namespace area_lights_detail {
 
-/// Can points of such a primitive be sampled as a light, or do only paths find it?
+/// Whether a kind of primitive can be an area light. Other emissive primitives are found by paths only.
 template <class Body>
 inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
@@ -24,8 +24,8 @@ TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Do
     using D = Double<Real>;
     return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
 }
-/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
-/// diagonal lies within it.
+/// Whether one half of a quad may occlude the other. Not if it is flat, up to the rounding of its corners, and its
+/// diagonal lies inside.
 template <class Real>
 TANDEM_HD bool overlaps(const Quad& quad) {
     using S = Scalar<Double<Real>>;
@@ -43,8 +43,9 @@ TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Rea
                                  broadcast<D>(face.v3), {face.attributes.sides, overlaps<Real>(face)});
 }
 
-/// Whether light leaves in `direction`, unit, towards the lit point: a sphere emits from its outside, a face from its
-/// front, or from both sides if it is double-sided. The halves of a quad decide this themselves.
+/// Whether the light emits towards the lit `point`; `direction`: unit, from the point to the light. A sphere emits
+/// outward, a face from its front, or from both sides if it is double-sided. For quads, view_quad_light() decides by
+/// half.
 template <class Real>
 TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
     using D = Double<Real>;
@@ -63,7 +64,7 @@ TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<D
 
 }  // namespace area_lights_detail
 
-/// What a vertex receives of one emissive primitive, chosen in proportion to their power, in the lanes of `active`.
+/// One area light, sampled with AreaLight's probabilities, at a vertex, in the lanes of `active`.
 /// Source: P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
 TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, const LitVertex<Real>& at,
@@ -121,8 +122,8 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
     return result;
 }
 
-/// The density, per solid angle, with which sample_area_light() would have drawn `direction` from `point` for the light
-/// `primitive` that is hit there: 0 if it is no light.
+/// The density, 1/sr, with which sample_area_light() samples `direction` from `point`, where `primitive` is hit; 0 if
+/// that is no area light.
 template <class Real>
 TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
                                             const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,

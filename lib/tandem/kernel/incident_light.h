@@ -1,4 +1,4 @@
-/// One light as a vertex of a path receives it.
+/// A light as a vertex of a path receives it.
 #pragma once
 
 #include "tandem/kernel/lit_vertex.h"
@@ -7,10 +7,10 @@ namespace tandem {
 
 template <class Real>
 struct IncidentLight {
-    Vec3<Real> reflected;  ///< radiance reflected of it if nothing blocks it; 0 where it contributes none
-    Vec3<Real> to;         ///< its position or, if it is far, its direction
-    UInt<Real> primitive = UInt<Real>(no_primitive);  ///< the light's own
-    Mask<Real> is_far = Mask<Real>(false);            ///< infinitely
+    Vec3<Real> reflected;  ///< reflected radiance if nothing blocks the light; 0 where it contributes none
+    Vec3<Real> to;         ///< position or, if `is_far`, direction of the light
+    UInt<Real> primitive = UInt<Real>(no_primitive);  ///< of the light
+    Mask<Real> is_far = Mask<Real>(false);            ///< at infinite distance
     Mask<Real> casts_shadows = Mask<Real>(true);
 
     /// `a` in the lanes of `mask`, else `b`.
@@ -21,10 +21,10 @@ struct IncidentLight {
     }
 };
 
-/// Removes the light where it is behind the surface: behind the shading normal, or on the other side of the surface
-/// than the viewer. Without this a highlight passes through an opaque face, since Phong's formula does not require L .
-/// N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For
-/// lights that cast shadows. `to_light`: the direction that the light was shaded with.
+/// Removes the light where it is behind the shading normal, or on the other side of the surface than the viewer.
+/// Otherwise a highlight would pass through an opaque face, since Phong's formula does not require L . N > 0 and the
+/// shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it. For lights that
+/// cast shadows. `to_light`: the direction used for shading.
 template <class Real>
 TANDEM_HD void keep_in_front(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light,
                              IncidentLight<Real>& light) {

@@ -1,4 +1,4 @@
-/// The texture coordinates of an area light at a sampled point.
+/// The emissive texture of an area light at a sampled point.
 #pragma once
 
 #include "tandem/kernel/corner_values.h"
@@ -13,8 +13,9 @@ struct TexturePoint {
 
 namespace light_picture_detail {
 
-/// At the point of the plane of (v0, v1, v2) that is nearest to `point`; `a`, `b`, `c` are the corners' coordinates.
-/// Needs no ray: a light is sampled by points. The weights err by the rounding of `point` over the triangle's height.
+/// Texture coordinates at the projection of `point` onto the plane of (v0, v1, v2), whose corners have the coordinates
+/// `a`, `b` and `c`. From the point, not from a ray, since a light is sampled by points. The error of the weights is
+/// the rounding of `point` over the triangle's height.
 template <class Real>
 TANDEM_HD TexturePoint<Real> on_triangle(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec2f& a,
                                          const Vec2f& b, const Vec2f& c, const Vec3<Double<Real>>& point) {
@@ -33,7 +34,7 @@ TANDEM_HD TexturePoint<Real> on_triangle(const Vec3f& v0, const Vec3f& v1, const
 
 }  // namespace light_picture_detail
 
-// `texcoords`: the values of the slot, as for parametrisation(). The point is on the surface but for rounding.
+// `texcoords`: the values of the slot, as for parametrisation(). The point is on the surface, up to rounding.
 template <class Real>
 TANDEM_HD TexturePoint<Real> texture_point(const Sphere& sphere, const Vec2f*, const LightSample<Real>& drawn) {
     const auto at = parametrisation_detail::on_globe<Real>(drawn.point - broadcast<Double<Real>>(sphere.centre));

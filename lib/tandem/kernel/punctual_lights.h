@@ -1,4 +1,4 @@
-/// Lights without extent at a vertex of a path.
+/// Punctual lights at a vertex of a path.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"

@@ -7,14 +7,13 @@
 
 namespace tandem {
 
-/// An emissive sphere, triangle or quad. A 64-bit number chooses one of them: each light has a range of its values,
-/// in the order of the lights, and the light's probability is exactly the length of its range over 2^64, however
-/// small.
+/// An emissive sphere, triangle or quad. A uniform 64-bit number chooses one of them: each light has a range of
+/// numbers, in the order of the lights, and its probability is exactly the length of its range over 2^64.
 struct AreaLight {
-    std::uint64_t last;  ///< of its range, which starts after that of the light before it
-    double chance;       ///< with which it is chosen
+    std::uint64_t last;  ///< last number of its range; the range starts after that of the light before it
+    double chance;       ///< with which the light is chosen
     std::uint32_t primitive;
-    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+    std::uint32_t unused = 0;  ///< otherwise padding bytes, undefined
 };
 static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
@@ -32,7 +31,7 @@ TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t
     return first;
 }
 
-/// The probability of a primitive, 0 for one that is no light. `lights` are in the order of their primitives.
+/// The probability of a primitive; 0 if it is no area light. `lights` are in the order of their primitives.
 TANDEM_HD double chance_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
     std::uint32_t first = 0, end = count;
     while (first < end) {

@@ -1,11 +1,11 @@
-/// Where a line crosses a convex solid.
+/// The crossings of a line with a convex solid.
 #pragma once
 
 #include "tandem/math/real.h"
 
 namespace tandem {
 
-/// Entry and exit parameters along a ray, in double. Meaningful where `crosses`; then t_near <= t_far.
+/// Entry and exit parameters along a ray, in double. Valid where `crosses`; then t_near <= t_far.
 template <class Real>
 struct Crossing {
     Mask<Real> crosses;

@@ -1,10 +1,10 @@
-/// Rays that leave surfaces. No offset and no minimum t keeps such a ray off the surface that it starts on. Instead it
-/// carries its source: the primitive and the side. Each kind of primitive handles it. Correct at every scale, however
+/// Rays that leave surfaces. Neither an offset nor a minimum t prevents self-intersection. Instead a ray carries its
+/// source, the primitive and the side, and each kind of primitive handles it. This is correct at every scale, however
 /// near the next surface is (docs/numerics.md).
 ///
 /// Closed convex solids (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot hit its solid again;
-/// one that leaves inward always hits the far side, so that it is never lost inside. A ray that leaves a face cannot
-/// hit it again. A new kind of solid adds one overload of first_or_far().
+/// one that leaves inward always hits the far side, so it never leaks. A ray that leaves a face cannot hit it again. A
+/// new kind of solid needs one overload of first_or_far().
 #pragma once
 
 #include "tandem/kernel/shapes/affine.h"
@@ -13,32 +13,32 @@
 
 namespace tandem {
 
-/// The source of a ray. A ray that starts in space has no_primitive.
+/// The source of a ray. no_primitive for a ray that does not start on a surface.
 template <class Real>
 struct Source {
     UInt<Real> primitive = UInt<Real>(no_primitive);
-    Mask<Real> inside = Mask<Real>(false);  ///< it leaves inward: its direction against the outward normal is negative
+    Mask<Real> inside = Mask<Real>(false);  ///< it leaves inward: direction . outward normal < 0
 };
 using RaySource = Source<float>;
 
-/// A caller's source as the kernels of a tier take it. `Real` of one lane.
+/// Converts a caller's source to the types of a tier. `Real` of one lane.
 template <class Real>
 TANDEM_HD Source<Real> to_real(const RaySource& source) {
     return {source.primitive, source.inside};
 }
 
-/// A source for rays that leave no surface, such as camera rays: the code for sources is then not even compiled.
+/// The source of rays that leave no surface, such as camera rays. No code for sources is compiled for it.
 struct NoSource {};
 
-/// For rays that continue through alpha masks: the source, and the last masked hit that the ray has passed. The ray
-/// keeps its origin, and hits count only if they come after that one in the order of hits, by t and then by id. So a
-/// surface in the plane of a masked one, at the same t, is still hit.
+/// For rays that continue through alpha masks: the source, and the last masked hit. The ray keeps its origin, and only
+/// hits after the masked one count, in the order of t and then id. So a surface in the plane of a masked one, at the
+/// same t, is still hit.
 template <class Real>
 struct PathSource : Source<Real> {
     Closest<Real> passed = {Double<Real>(0.0), UInt<Real>(no_primitive)};
 };
 
-/// Does a hit count for a ray that has passed masked hits?
+/// Whether a hit comes after the last masked hit, and so counts.
 template <class Real>
 TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& passed, const Double<Real>& t, const UInt<Real>& primitive) {
     return t > passed.t || (t == passed.t && primitive > passed.primitive);
@@ -52,8 +52,8 @@ struct ShadowSource : Source<Real> {
 
 namespace source_detail {
 
-/// The far crossing of a ray that goes inward is in front of it; where rounding has put the origin behind the surface
-/// it would not be, and comes at once.
+/// Makes t positive. The far crossing of an inward ray is in front of it, unless rounding moved the origin out of the
+/// solid; then the hit is at once.
 template <class Real>
 TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
     return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
@@ -62,7 +62,8 @@ TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
 template <class Real>
 TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
-    // A line that misses the sphere because rounding has put the origin outside: the point nearest to it.
+    // If the line misses the sphere because rounding moved the origin outside: the point of the line nearest to the
+    // sphere.
     const Mask<Real> by_product = roots.crosses && roots.b < D(0.0);
     const D numerator = select(by_product, roots.c, select(roots.crosses, roots.q, roots.b));
     const D denominator = select(by_product, roots.q, roots.a);
@@ -71,9 +72,9 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 
 }  // namespace source_detail
 
-// The first point in front of a ray or, in the lanes of `own`, where a ray that leaves the same solid inward hits it
-// again; in the lanes of `active`. t is within 1 ulp of float of where the line through the ray enters or leaves the
-// solid. The root at the origin is not computed, so that the two need not be told apart.
+// The nearest hit in front of the origin or, in the lanes of `own`, the exit of a ray that leaves the same solid
+// inward; in the lanes of `active`. t is within 1 ulp of float of the entry or exit of the ray's line. For `own` the
+// root at the origin is not computed, so that it need not be told from the exit.
 
 template <class Real>
 TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
@@ -112,15 +113,15 @@ TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& r
 template <class Primitive>
 inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_same_v<Primitive, Quad>;
 
-/// Which rays can hit primitive `id`, unless it is certainly `behind` them? Not those that have left it outward, or
-/// left a face.
+/// The lanes whose ray can hit primitive `id`: not those that left it outward or left a face, nor those that have it
+/// certainly `behind` them.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
     if constexpr (is_face<Primitive>) return !own && !behind;
     return select(own, source.inside, !behind);
 }
-/// A triangle is not met again behind a hole in it.
+/// A ray does not hit a triangle again after a masked hit on it.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
     const Source<Real>& surface = source;
@@ -133,7 +134,7 @@ TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind)
     return !behind;
 }
 
-/// Where is a hit on primitive `id` the far side of the solid that the ray left inward?
+/// The lanes where a hit on primitive `id` is the far side of the solid that the ray left inward.
 template <class Real>
 TANDEM_HD Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
     return source.inside && source.primitive == UInt<Real>(id);
@@ -143,8 +144,8 @@ TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
     return Mask<Real>(false);
 }
 
-/// Is a hit at `t` on primitive `id` on its far side? It is where the ray left the primitive inward, and where the ray
-/// has passed a masked hit of the solid on its near side.
+/// Whether a hit at `t` on primitive `id` is on its far side: where the ray left the primitive inward, and where it has
+/// passed a masked hit on the near side of the solid.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
                                  const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
@@ -159,8 +160,8 @@ TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive
     return far;
 }
 
-/// The first point of primitive `id` in front of a ray that comes from `source`, in the lanes of `active`. A point of a
-/// face beyond `farthest` may be left out.
+/// The nearest hit of a ray from `source` on primitive `id`, in the lanes of `active`. A hit on a face beyond
+/// `farthest` may be omitted.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
                                 const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
@@ -171,8 +172,8 @@ TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint3
     }
 }
 
-// A ray does not hit again what it leaves outward, nor a face on either side, nor a quad, even a folded one. This comes
-// first: at the origin of the ray only exact arithmetic could decide.
+// A ray does not hit again a solid that it leaves outward, nor a face, nor a quad, even a folded one. Tested first,
+// because at the origin of the ray only exact arithmetic could decide.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
@@ -189,8 +190,8 @@ TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& pri
 
 namespace source_detail {
 
-// Where a ray crosses a body that it does not start on for the second time; 0 if it does not. A call, since this is
-// rare: a ray must pass a masked hit on a body and hit the same body again.
+// The second crossing of a ray with a solid that it does not start on; 0 if there is none. Out of line, because it is
+// rare: a ray must pass a masked hit on a solid and hit the same solid again.
 template <class Real, class Body>
 TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
     Double<Real> t(0.0);
@@ -200,8 +201,8 @@ TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real>
 
 }  // namespace source_detail
 
-// A ray may hit a primitive again that it hit before the last masked hit: a solid where it leaves it, a folded quad at
-// its other half. `culls`: a culled face may be passed from behind.
+// A ray may hit a primitive a second time after a masked hit on it: a solid on its far side, a folded quad on its other
+// half. `culls`: culled faces let rays pass from behind.
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
                                 const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
