@@ -94,17 +94,17 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
         visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_glow(kind_of<Body>)) return;
+                if (!may_emit_light(kind_of<Body>)) return;
                 of_light = sample_light(area_lights_detail::view_light<Real>(body, position), u, v);
                 lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
                 if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
                 const MaterialTextures& textures = scene.textures.materials[material];
                 if (textures.emission.texture == no_texture) return;
-                emitted = emitted * light_picture<Real>(scene, textures, body, of_light);
+                emitted = emitted * light_texture_factor<Real>(scene, textures, body, of_light);
             }
         });
         D pdf = select(lights, of_light.pdf, zero);
-        if (!must_have_one_area_light()) pdf = pdf * constant<D>(chosen.chance);
+        if (!must_have_one_area_light()) pdf = pdf * constant<D>(chosen.probability);
         drawn.direction = select(here, of_light.direction, drawn.direction);
         drawn.point = select(here, of_light.point, drawn.point);
         drawn.pdf = select(here, pdf, drawn.pdf);
@@ -131,14 +131,14 @@ TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<R
     using D = Double<Real>;
     D result(0.0);
     for_each_unique_lane(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
-        if (!(chance > 0.0)) return;
+        const double probability = probability_of(scene.area_lights, scene.area_light_count, id);
+        if (!(probability > 0.0)) return;
         visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_glow(kind_of<Body>)) return;
+                if (!may_emit_light(kind_of<Body>)) return;
                 const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point), direction);
-                result = select(here, of_light * constant<D>(chance), result);
+                result = select(here, of_light * constant<D>(probability), result);
             }
         });
     });

@@ -67,7 +67,7 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
             threads.gather();
             const Mask<Real> lit = reflects && light.casts_shadows && norm1(light.reflected) > Real(0.0F);
             if (any(lit)) {
-                const Mask<Real> dark = is_stopped<Effects>(tracer, scene, light, at.point, lit, rays);
+                const Mask<Real> dark = is_blocked<Effects>(tracer, scene, light, at.point, lit, rays);
                 light.reflected = select(dark, black<Real>(), light.reflected);
             }
         }

@@ -68,9 +68,10 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_environment_gradient(const SceneView&
     const auto drawn = sample_cosine_hemisphere<Real>(at.surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));
     IncidentLight<Real> result;
-    result.to = to_real<Real>(drawn.direction);
+    result.position_or_direction = to_real<Real>(drawn.direction);
     // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
-    result.reflected = diffuse_reflectance<Effects>(at, drawn.direction) * background(scene.environment, result.to);
+    result.reflected =
+        diffuse_reflectance<Effects>(at, drawn.direction) * background(scene.environment, result.position_or_direction);
     result.is_far = Mask<Real>(true);
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     return result;

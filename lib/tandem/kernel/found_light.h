@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// The MIS weight of the emission of a surface that a path hits, in the lanes of `glows`. `point`: the hit point.
+/// The MIS weight of the emission of a surface that a path hits, in the lanes of `emits`. `point`: the hit point.
 ///
 /// Method: both densities of the power heuristic are for `sampled_from`, the point for which the direction was sampled.
 ///         The ray starts slightly above a face, where a near light looks larger. So the light is scaled by the ratio
@@ -17,12 +17,12 @@ namespace tandem {
 ///         lobe.
 template <class Effects, class Real>
 TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, Real, true>& path,
-                              const Closest<Real>& hit, const SurfacePoint<Real>& point, const Mask<Real>& glows) {
+                              const Closest<Real>& hit, const SurfacePoint<Real>& point, const Mask<Real>& emits) {
     using D = Double<Real>;
     const Real whole(1.0F);
     if (!Effects::has_any(effects_of_scattering_lobes) || !Effects::has(Effect::area_lights)) return whole;
     const Mask<Real> glossy = Mask<Real>(Effects::has_any(effects_of_glossy_lobes)) && path.pdf < D(0.0);
-    const Mask<Real> shared = glows && (path.pdf > D(0.0) || glossy);
+    const Mask<Real> shared = emits && (path.pdf > D(0.0) || glossy);
     if (scene.area_light_count == 0 || !any(shared)) return whole;
     const D zero(0.0);
     const D one(1.0);

@@ -7,15 +7,15 @@ namespace tandem {
 
 template <class Real>
 struct IncidentLight {
-    Vec3<Real> reflected;  ///< reflected radiance if nothing blocks the light; 0 where it contributes none
-    Vec3<Real> to;         ///< position or, if `is_far`, direction of the light
+    Vec3<Real> reflected;              ///< reflected radiance if nothing blocks the light; 0 where it contributes none
+    Vec3<Real> position_or_direction;  ///< of the light; a direction if `is_far`
     UInt<Real> primitive = UInt<Real>(no_primitive);  ///< of the light
     Mask<Real> is_far = Mask<Real>(false);            ///< at infinite distance
     Mask<Real> casts_shadows = Mask<Real>(true);
 
     /// `a` in the lanes of `mask`, else `b`.
     TANDEM_HD friend IncidentLight select(const Mask<Real>& mask, const IncidentLight& a, const IncidentLight& b) {
-        return {select(mask, a.reflected, b.reflected), select(mask, a.to, b.to),
+        return {select(mask, a.reflected, b.reflected), select(mask, a.position_or_direction, b.position_or_direction),
                 select(mask, a.primitive, b.primitive), select(mask, a.is_far, b.is_far),
                 select(mask, a.casts_shadows, b.casts_shadows)};
     }

@@ -27,17 +27,17 @@ class LightReservoir {
 
     TANDEM_HD void offer(const IncidentLight<Real>& light) {
         const D zero(0.0);
-        const Real brought = norm1(light.reflected);
-        const D weight = widen(brought);
-        const Mask<Real> brings = weight > zero;
-        if (!any(brings || !(weight == zero))) return;  // a NaN counts
+        const Real contribution = norm1(light.reflected);
+        const D weight = widen(contribution);
+        const Mask<Real> contributes = weight > zero;
+        if (!any(contributes || !(weight == zero))) return;  // a NaN counts
         const Mask<Real> others = total_ > zero;
         total_ = total_ + weight;
-        const Mask<Real> draws = brings && others;
-        Mask<Real> taken = brings && !others;
+        const Mask<Real> draws = contributes && others;
+        Mask<Real> taken = contributes && !others;
         if (any(draws)) taken = taken || (draws && is_taken(weight, draws));
         chosen_ = select(taken, light, chosen_);
-        weight_ = select(taken, brought, weight_);
+        weight_ = select(taken, contribution, weight_);
     }
 
     /// The chosen light, divided by its probability: its mean is the sum over all lights.

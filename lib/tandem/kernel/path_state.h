@@ -34,7 +34,7 @@ struct PathState<Effects, Real, true> {
     UInt<Real> reflections = UInt<Real>(0U);
     UInt<Real> refractions = UInt<Real>(0U);
     UInt<Real> scatterings = UInt<Real>(0U);  ///< by diffuse surfaces
-    UInt<Real> holes = UInt<Real>(0U);
+    UInt<Real> masked_hits = UInt<Real>(0U);
     /// The density of `ray`'s direction, 1/sr, if a diffuse lobe sampled it; minus the density for a glossy lobe; else
     /// 0.
     Double<Real> pdf = Double<Real>(0.0);
@@ -54,21 +54,21 @@ struct PathState<Effects, Real, true> {
         alive = alive || active;
         source.primitive = select(active, Word(no_primitive), source.primitive);
         source.inside = source.inside && !active;
-        forget_holes(scene, active);
+        forget_masked_hits(scene, active);
         throughput = select(active, Vec3<Real>{one, one, one}, throughput);
         reflections = select(active, none, reflections);
         refractions = select(active, none, refractions);
         scatterings = select(active, none, scatterings);
-        holes = select(active, none, holes);
+        masked_hits = select(active, none, masked_hits);
         pdf = select(active, Double<Real>(0.0), pdf);
         media = select(active, media_at_camera<Effects>(scene, Media()), media);
     }
 
     /// For a new ray, in the lanes of `active`.
-    TANDEM_HD void forget_holes(const SceneView& scene, const Mask<Real>& active) {
+    TANDEM_HD void forget_masked_hits(const SceneView& scene, const Mask<Real>& active) {
         if (!Effects::has(Effect::cutouts) || (!is_linked && scene.cutout_kinds == 0)) return;
-        source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
-        source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
+        source.last_masked.t = select(active, Double<Real>(0.0), source.last_masked.t);
+        source.last_masked.primitive = select(active, UInt<Real>(no_primitive), source.last_masked.primitive);
     }
 
     /// References to all values per lane, except those that only some scenes need.
@@ -76,11 +76,11 @@ struct PathState<Effects, Real, true> {
         auto& [origin, direction] = ray;
         return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
                                        source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
-                                       reflections, refractions, scatterings, holes, pdf),
+                                       reflections, refractions, scatterings, masked_hits, pdf),
                               media.per_lane());
     }
     /// The others: for scenes with cutouts, and for scenes that combine paths and area lights.
-    TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
+    TANDEM_HD auto per_lane_of_masks() { return std::tie(source.last_masked.t, source.last_masked.primitive); }
     TANDEM_HD auto per_lane_of_lights() { return std::tie(sampled_from.x, sampled_from.y, sampled_from.z); }
 
     /// Applies the absorption along `ray` from the last masked hit to t, in the lanes of `active`. `own`: the current
@@ -92,8 +92,8 @@ struct PathState<Effects, Real, true> {
         const UInt<Real> medium = current_medium<Effects>(scene, media, own);
         if (!any(active && medium != UInt<Real>(no_medium))) return;
         const Vec3<D> direction = widen(ray.direction);
-        const D passed = Effects::has(Effect::cutouts) ? t - source.passed.t : t;
-        const D distance = passed * square_root(dot(direction, direction));
+        const D segment = Effects::has(Effect::cutouts) ? t - source.last_masked.t : t;
+        const D distance = segment * square_root(dot(direction, direction));
         throughput = throughput * transmittance<Real>(scene, medium, distance, active);
     }
 };

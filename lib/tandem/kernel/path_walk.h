@@ -25,7 +25,7 @@ class PathWalk {
     [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
     [[nodiscard]] TANDEM_HD UInt<Real> pixel(const PixelJob& job) const { return y_ * UInt<Real>(job.width) + x_; }
     /// The lanes whose ray starts on a surface, not at the camera.
-    [[nodiscard]] TANDEM_HD Mask<Real> gone_on() const { return path_.alive && vertex_ > UInt<Real>(0U); }
+    [[nodiscard]] TANDEM_HD Mask<Real> leaves_surface() const { return path_.alive && vertex_ > UInt<Real>(0U); }
     /// The radiance of the path so far, RGB, linear; complete when leave() says that it has ended.
     [[nodiscard]] TANDEM_HD const Vec3<Real>& radiance() const { return radiance_; }
 
@@ -58,7 +58,7 @@ class PathWalk {
         auto& [r, g, b] = radiance_;
         return std::tuple_cat(std::tie(x_, y_, sample_, vertex_, working_, r, g, b), path_.per_lane());
     }
-    TANDEM_HD auto per_lane_of_holes() { return path_.per_lane_of_holes(); }
+    TANDEM_HD auto per_lane_of_masks() { return path_.per_lane_of_masks(); }
     TANDEM_HD auto per_lane_of_lights() { return path_.per_lane_of_lights(); }
 
   private:

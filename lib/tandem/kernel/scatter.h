@@ -8,15 +8,15 @@
 
 namespace tandem {
 
-/// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `holes`.
+/// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `masked`.
 template <class Effects, class Real>
-TANDEM_HD void continue_through_mask(const Closest<Real>& hole, const Mask<Real>& holes,
+TANDEM_HD void continue_through_mask(const Closest<Real>& hit, const Mask<Real>& masked,
                                      PathState<Effects, Real, true>& path) {
     using Word = UInt<Real>;
-    path.source.passed.t = select(holes, hole.t, path.source.passed.t);
-    path.source.passed.primitive = select(holes, hole.primitive, path.source.passed.primitive);
-    path.holes = path.holes + select(holes, Word(1U), Word(0U));
-    path.alive = path.alive || (holes && path.holes <= Word(max_masked_hits));
+    path.source.last_masked.t = select(masked, hit.t, path.source.last_masked.t);
+    path.source.last_masked.primitive = select(masked, hit.primitive, path.source.last_masked.primitive);
+    path.masked_hits = path.masked_hits + select(masked, Word(1U), Word(0U));
+    path.alive = path.alive || (masked && path.masked_hits <= Word(max_masked_hits));
 }
 
 namespace scatter_detail {
@@ -163,7 +163,7 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
     path.source.primitive = select(active, point.primitive, path.source.primitive);
     path.source.inside = select(active, inside, path.source.inside);
-    path.forget_holes(scene, active);
+    path.forget_masked_hits(scene, active);
     // in the tier fast a ray may overflow
     if (is_fast<Real>) path.alive = path.alive && is_traceable(path.ray);
     return lost && path.alive;

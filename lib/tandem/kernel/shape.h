@@ -13,8 +13,8 @@ namespace tandem {
 /// A plain struct with these functions. They are checked for single rays; packets use the same templates.
 /// - bounds();
 /// - may_touch(): the filter in float, which never rejects a hit;
-/// - first_in_front(): the nearest hit in front of the ray's origin, decided in Double<Real>; for a solid also
-///   first_or_far(), the hit of a ray that starts on it;
+/// - first_hit(): the nearest hit in front of the ray's origin, decided in Double<Real>; for a solid also
+///   first_hit_or_exit(), the hit of a ray that starts on it;
 /// - record_hit(): what the next three need to know about a hit;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
 /// - parametrisation(): texture coordinates and their derivatives;
@@ -26,9 +26,9 @@ concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standar
              const Vec3<Double<Real>>& v) {
     { bounds(primitive) } -> std::same_as<Aabb>;
     { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
-    { first_in_front(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
+    { first_hit(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
     requires is_face<Primitive> || requires {
-        { first_or_far(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
+        { first_hit_or_exit(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
     };
     { record_hit(primitive, ray, t, mask, mask) } -> std::same_as<HitRecord<Real>>;
     { surface_point(primitive, record, ray, t) } -> std::same_as<SurfacePoint<Real>>;

@@ -236,7 +236,7 @@ TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corn
                                   const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
-    const D chance = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+    const D probability = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
         const std::uint32_t band = lane(point.band, i);
         const std::uint32_t of_band = range_length(view.band_ends, band);
         const std::uint32_t of_cell = range_length(view.cell_ends + first_cell(picture, band), lane(point.column, i));
@@ -248,7 +248,7 @@ TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corn
     const Mask<Real> is_lit = mean > D(0.0F);
     const D relative = between(brightness, point.x, point.y) / select(is_lit, mean, D(1.0F));
     const D cells_per_steradian = D(to_float(picture.width)) * constant<D>(inverse_pi / 4) / extent;
-    return select(is_lit, (chance * cells_per_steradian) * relative, D(0.0F));
+    return select(is_lit, (probability * cells_per_steradian) * relative, D(0.0F));
 }
 
 /// Samples a number in [0, 1] with a density that is linear from `a` at 0 to `b` at 1, both >= 0. Gives 0 where both

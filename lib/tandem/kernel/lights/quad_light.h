@@ -80,7 +80,7 @@ inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 
 /// Whether a half blocks rays from the point. A culled back does not.
 template <class Real>
-TANDEM_HD Mask<Real> stops_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
+TANDEM_HD Mask<Real> blocks_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
 }
 
@@ -97,7 +97,7 @@ TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Doubl
     const TriangleLightHit<Real> hit = find_on_light(other, direction, direction_slack<Real>);
     const D slack = constant<D>(same_distance<Real>);
     const D reach = distance * select(other_is_first, D(1.0F) + slack, D(1.0F) - slack);
-    return hit.meets && stops_rays(view, other) && hit.distance * other.unit < reach;
+    return hit.meets && blocks_rays(view, other) && hit.distance * other.unit < reach;
 }
 
 }  // namespace quad_light_detail
@@ -133,9 +133,9 @@ TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double
     const TriangleLightHit<Real> second = find_on_light(view.second, direction, -direction_slack<Real>);
     const D reach = first.distance * view.first.unit * (D(1.0F) - constant<D>(quad_light_detail::same_distance<Real>));
     const Mask<Real> is_nearer =
-        quad_light_detail::stops_rays(view, view.second) && second.distance * view.second.unit < reach;
+        quad_light_detail::blocks_rays(view, view.second) && second.distance * view.second.unit < reach;
     const Mask<Real> in_second =
-        second.meets && (!first.meets || is_nearer || !quad_light_detail::stops_rays(view, view.first));
+        second.meets && (!first.meets || is_nearer || !quad_light_detail::blocks_rays(view, view.first));
     const D of_first =
         triangle_light_detail::density(view.first, first.distance) * quad_light_detail::share(view, view.first);
     const D of_second =

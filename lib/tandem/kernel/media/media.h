@@ -109,16 +109,16 @@ TANDEM_HD Interface<Real> cross_interface(const SceneView& scene, MediumStack<Re
         NoMediumStack<Real> none;
         return cross_interface<Effects>(scene, none, material, from_inside, active);
     }
-    Interface<Real> border;
-    border.before = stack.current();
+    Interface<Real> interface;
+    interface.before = stack.current();
     Word priority(0U);
     for_each_unique_lane(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         priority = select(here, Word(scene.optics[value].priority), priority);
     });
     const Mask<Real> no_room = stack.enter(material, priority, active && !from_inside);
-    border.lost = no_room || stack.leave(material, active && from_inside);
-    border.behind = stack.current();
-    return border;
+    interface.lost = no_room || stack.leave(material, active && from_inside);
+    interface.behind = stack.current();
+    return interface;
 }
 
 }  // namespace tandem

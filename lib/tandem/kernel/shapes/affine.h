@@ -62,14 +62,14 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
 
 /// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front(ellipsoid_roots<Real>(body, ray, {active}), t);
+TANDEM_HD Mask<Real> first_hit(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit(ellipsoid_roots<Real>(body, ray, {active}), t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
+TANDEM_HD Mask<Real> first_hit(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.

@@ -150,9 +150,9 @@ TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
 
 /// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front<Real>(cross_box(box, ray), t);
+TANDEM_HD Mask<Real> first_hit(const Box& box, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit<Real>(cross_box(box, ray), t);
 }
 
 /// The record of the face that the ray hits first or, in the lanes of `exits`, of the face where it leaves the box.

@@ -23,35 +23,35 @@ TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) 
 
 /// The nearer of the hits on the two triangles that count. Watertight at the diagonal, like two triangles of a mesh; a
 /// hit on the diagonal belongs to the first triangle. `counts` takes the lanes that hit a triangle, t, and the
-/// triangle's last two corners; it returns the lanes whose hit counts. Otherwise as first_in_front() of a triangle.
+/// triangle's last two corners; it returns the lanes whose hit counts. Otherwise as first_hit() of a triangle.
 /// Tested by tests/kernel/shapes/quad_test.cpp.
 template <class Real, class Counts>
 TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
                                        const Mask<Real>& active, const Double<Real>& farthest, const Counts& counts) {
     Double<Real> t_second(0.0);
-    const Mask<Real> on_first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
-    const Mask<Real> on_second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
+    const Mask<Real> on_first = first_hit(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
+    const Mask<Real> on_second = first_hit(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
     const Mask<Real> first = counts(on_first, t, quad.v1, quad.v2);
     const Mask<Real> second = counts(on_second && !(on_first && t == t_second), t_second, quad.v2, quad.v3);
     t = select(second && !(first && t < t_second), t_second, t);
     return first || second;
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD Mask<Real> first_hit(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     const auto all = [](const Mask<Real>& hit, const Double<Real>&, const Vec3f&, const Vec3f&)
                          TANDEM_INLINE_LAMBDA { return hit; };
     return first_that_counts(quad, ray, t, active, farthest, all);
 }
 
-/// The triangle that a ray hits at t, in the lanes of `here`; t is that of first_in_front(). The first triangle on the
+/// The triangle that a ray hits at t, in the lanes of `here`; t is that of first_hit(). The first triangle on the
 /// diagonal.
 template <class Real>
 TANDEM_HD HitRecord<Real> record_hit(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&,
                                      const Mask<Real>& here) {
     Double<Real> t_first(0.0);
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
+    const Mask<Real> first = first_hit(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
     return {select(first, UInt<Real>(0U), UInt<Real>(1U))};
 }
 template <class Real>

@@ -4,7 +4,7 @@
 ///
 /// Closed convex solids (sphere, box, ellipsoid, parallelepiped): a ray that leaves outward cannot hit its solid again;
 /// one that leaves inward always hits the far side, so it never leaks. A ray that leaves a face cannot hit it again. A
-/// new kind of solid needs one overload of first_or_far().
+/// new kind of solid needs one overload of first_hit_or_exit().
 #pragma once
 
 #include "tandem/kernel/shapes/affine.h"
@@ -35,13 +35,13 @@ struct NoSource {};
 /// same t, is still hit.
 template <class Real>
 struct PathSource : Source<Real> {
-    Closest<Real> passed = {Double<Real>(0.0), UInt<Real>(no_primitive)};
+    Closest<Real> last_masked = {Double<Real>(0.0), UInt<Real>(no_primitive)};
 };
 
 /// Whether a hit comes after the last masked hit, and so counts.
 template <class Real>
-TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& passed, const Double<Real>& t, const UInt<Real>& primitive) {
-    return t > passed.t || (t == passed.t && primitive > passed.primitive);
+TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& last_masked, const Double<Real>& t, const UInt<Real>& primitive) {
+    return t > last_masked.t || (t == last_masked.t && primitive > last_masked.primitive);
 }
 
 /// The source and the target of a shadow ray: hits on the light's own primitive do not count.
@@ -77,37 +77,37 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 // root at the origin is not computed, so that it need not be told from the exit.
 
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
-    const Mask<Real> hit = first_in_front(roots, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_hit(roots, t);
     t = select(own, source_detail::far_crossing(roots), t);
     return hit || own;
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const BoxCrossing<Real>& crossing, const Mask<Real>& own, Double<Real>& t) {
-    const Mask<Real> hit = first_in_front<Real>(crossing, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const BoxCrossing<Real>& crossing, const Mask<Real>& own, Double<Real>& t) {
+    const Mask<Real> hit = first_hit<Real>(crossing, t);
     t = select(own, source_detail::in_front<Real>(crossing.t_far), t);
     return hit || own;
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
-                                  const Mask<Real>& active, Double<Real>& t) {
-    return active && first_or_far(sphere_roots<Real>(sphere, ray, {active, own}), own, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
+                                       const Mask<Real>& active, Double<Real>& t) {
+    return active && first_hit_or_exit(sphere_roots<Real>(sphere, ray, {active, own}), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Box& box, const Ray<Real>& ray, const Mask<Real>& own, const Mask<Real>& active,
-                                  Double<Real>& t) {
-    return active && first_or_far(cross_box(box, ray), own, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const Box& box, const Ray<Real>& ray, const Mask<Real>& own,
+                                       const Mask<Real>& active, Double<Real>& t) {
+    return active && first_hit_or_exit(cross_box(box, ray), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                  const Mask<Real>& active, Double<Real>& t) {
-    return active && first_or_far(ellipsoid_roots<Real>(body, ray, {active, own}), own, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                       const Mask<Real>& active, Double<Real>& t) {
+    return active && first_hit_or_exit(ellipsoid_roots<Real>(body, ray, {active, own}), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_or_far(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                  const Mask<Real>& active, Double<Real>& t) {
-    return active && first_or_far(cross_parallelepiped(to_object(body, ray)), own, t);
+TANDEM_HD Mask<Real> first_hit_or_exit(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                       const Mask<Real>& active, Double<Real>& t) {
+    return active && first_hit_or_exit(cross_parallelepiped(to_object(body, ray)), own, t);
 }
 
 template <class Primitive>
@@ -127,7 +127,7 @@ TANDEM_HD Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, 
     const Source<Real>& surface = source;
     const Mask<Real> meets = can_meet<Real, Primitive>(surface, id, behind);
     if constexpr (!std::is_same_v<Primitive, Triangle>) return meets;
-    return meets && source.passed.primitive != UInt<Real>(id);
+    return meets && source.last_masked.primitive != UInt<Real>(id);
 }
 template <class Real, class Primitive>
 TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
@@ -151,10 +151,10 @@ TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive
                                  const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
     Mask<Real> far = leaves_inward<Real>(source, id);
     if constexpr (!is_face<Primitive>) {
-        const Mask<Real> passed = here && !far && source.passed.t > Double<Real>(0.0);
-        if (any(passed)) [[unlikely]] {
+        const Mask<Real> has_passed = here && !far && source.last_masked.t > Double<Real>(0.0);
+        if (any(has_passed)) [[unlikely]] {
             Double<Real> first(0.0);
-            far = far || (first_in_front(primitive, ray, first, passed) && passed && t > first);
+            far = far || (first_hit(primitive, ray, first, has_passed) && has_passed && t > first);
         }
     }
     return far;
@@ -163,28 +163,28 @@ TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive
 /// The nearest hit of a ray from `source` on primitive `id`, in the lanes of `active`. A hit on a face beyond
 /// `farthest` may be omitted.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
-                                const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
+                                    const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
     if constexpr (is_face<Primitive>) {
-        return first_in_front(primitive, ray, t, active, farthest);
+        return first_hit(primitive, ray, t, active, farthest);
     } else {
-        return first_in_front(primitive, ray, t, active);
+        return first_hit(primitive, ray, t, active);
     }
 }
 
 // A ray does not hit again a solid that it leaves outward, nor a face, nor a quad, even a folded one. Tested first,
 // because at the origin of the ray only exact arithmetic could decide.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                    Double<Real>& t) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
     if constexpr (is_face<Primitive>) {
-        return first_in_front(primitive, ray, t, active && !own, farthest);
+        return first_hit(primitive, ray, t, active && !own, farthest);
     } else {
         const Mask<Real> meets = active && (!own || source.inside);
         if (!any(meets)) return meets;
-        return first_or_far(primitive, ray, own, meets, t);
+        return first_hit_or_exit(primitive, ray, own, meets, t);
     }
 }
 
@@ -195,7 +195,7 @@ namespace source_detail {
 template <class Real, class Body>
 TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real> active) {
     Double<Real> t(0.0);
-    (void)first_or_far(body, ray, active, active, t);
+    (void)first_hit_or_exit(body, ray, active, active, t);
     return t;
 }
 
@@ -204,46 +204,47 @@ TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real>
 // A ray may hit a primitive a second time after a masked hit on it: a solid on its far side, a folded quad on its other
 // half. `culls`: culled faces let rays pass from behind.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                Double<Real>& t, bool culls) {
+TANDEM_HD Mask<Real> first_hit_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                    Double<Real>& t, bool culls) {
     const UInt<Real> number(id);
     const Source<Real>& surface = source;
     if constexpr (is_face<Primitive>) {
         culls = culls && primitive.attributes.sides == FaceSides::culled;
         const auto counts = [&](Mask<Real> hit, const Double<Real>& at, const Vec3f& b,
                                 const Vec3f& c) TANDEM_INLINE_LAMBDA {
-            hit = hit && is_beyond<Real>(source.passed, at, number);
+            hit = hit && is_beyond<Real>(source.last_masked, at, number);
             if (culls && any(hit)) hit = hit && !comes_from_behind(ray, geometric_normal<Real>(primitive.v0, b, c));
             return hit;
         };
         if constexpr (std::is_same_v<Primitive, Quad>) {
             return first_that_counts(primitive, ray, t, active && source.primitive != number, farthest, counts);
         } else {
-            const Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
-            if (!culls && !any(source.passed.t > Double<Real>(0.0))) [[likely]]
+            const Mask<Real> hit = first_hit_from(surface, primitive, id, ray, active, farthest, t);
+            if (!culls && !any(source.last_masked.t > Double<Real>(0.0))) [[likely]]
                 return hit;
             return counts(hit, t, primitive.v1, primitive.v2);
         }
     } else {
-        Mask<Real> hit = first_from(surface, primitive, id, ray, active, farthest, t);
-        if (!any(source.passed.t > Double<Real>(0.0))) [[likely]]
+        Mask<Real> hit = first_hit_from(surface, primitive, id, ray, active, farthest, t);
+        if (!any(source.last_masked.t > Double<Real>(0.0))) [[likely]]
             return hit;
-        const auto before = hit && source.passed.t > Double<Real>(0.0) && !is_beyond<Real>(source.passed, t, number);
+        const auto before =
+            hit && source.last_masked.t > Double<Real>(0.0) && !is_beyond<Real>(source.last_masked, t, number);
         if (any(before)) {
             t = select(before, source_detail::second_crossing<Real>(primitive, ray, before), t);
-            hit = hit && (!before || is_beyond<Real>(source.passed, t, number));
+            hit = hit && (!before || is_beyond<Real>(source.last_masked, t, number));
         }
         return hit;
     }
 }
 
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                    Double<Real>& t) {
     const Source<Real>& surface = source;
-    return first_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
+    return first_hit_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
 }
 
 }  // namespace tandem

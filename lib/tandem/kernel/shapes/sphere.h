@@ -173,11 +173,11 @@ TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
     return {roots.crosses, lesser(t_small, t_large), greater(t_small, t_large)};
 }
 
-/// first_in_front(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
+/// first_hit(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
 /// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a if the centre is ahead (b >= 0), else c
 /// / q. From the surface (c = 0) an inward ray leaves at q / a; for an outward one c / q = 0 is no hit.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
     using D = Double<Real>;
     const D zero(0.0);
     const Mask<Real> by_product = roots.c > zero || roots.b < zero;
@@ -200,28 +200,27 @@ TANDEM_HD Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray
 
 namespace sphere_detail {
 
-/// first_in_front() of the exact roots, infinite for a miss.
+/// first_hit() of the exact roots, infinite for a miss.
 template <class Real>
-TANDEM_HD_COLD Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
+TANDEM_HD_COLD Double<Real> exact_first_hit(Sphere sphere, Ray<Real> ray) {
     Double<Real> t;
-    const Mask<Real> hit = first_in_front(sphere_roots(sphere, ray), t);
+    const Mask<Real> hit = first_hit(sphere_roots(sphere, ray), t);
     return select(hit, t, Double<Real>(__builtin_huge_val()));
 }
 
 }  // namespace sphere_detail
 
-/// The nearest hit in front of the ray's origin, in the lanes of `active`: first_in_front(sphere_roots(sphere, ray),
+/// The nearest hit in front of the ray's origin, in the lanes of `active`: first_hit(sphere_roots(sphere, ray),
 /// t), with the rare cases out of line.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
-                                                             Double<Real>& t,
-                                                             const Mask<Real>& active = Mask<Real>(true)) {
+requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                        const Mask<Real>& active = Mask<Real>(true)) {
     using D = Double<Real>;
     const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
                                                                  widen(ray.direction), D(sphere.radius), {active});
-    Mask<Real> hit = active && first_in_front(roots, t);
+    Mask<Real> hit = active && first_hit(roots, t);
     if (any(roots.doubtful)) [[unlikely]] {
-        const D exact = sphere_detail::exact_first_in_front(sphere, ray);
+        const D exact = sphere_detail::exact_first_hit(sphere, ray);
         hit = select(roots.doubtful, exact < D(__builtin_huge_val()), hit);
         t = select(roots.doubtful, exact, t);
     }
@@ -229,9 +228,9 @@ requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& spher
 }
 
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
-                                                            const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front(sphere_roots(sphere, ray), t);
+requires(is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                       const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit(sphere_roots(sphere, ray), t);
 }
 
 /// From the centre to the point at parameter t of the ray.

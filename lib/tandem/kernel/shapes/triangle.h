@@ -304,19 +304,19 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 ///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by
 ///        tests/kernel/shapes/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
-                                    Double<Real>& t, const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD Mask<Real> first_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     if (!any(active)) return active;
     t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active, farthest);
     return active && t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
-    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
+TANDEM_HD Mask<Real> first_hit(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+    return first_hit(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
 }
 
 /// The barycentric coordinates of a hit, in the lanes of `active`, whose rays hit the triangle. Within 2^-22 of the

@@ -28,12 +28,12 @@ TANDEM_HD void test_primitive(const Primitive& primitive, std::uint32_t id, cons
         // rays pass only masked primitives and the light of a shadow ray; any other solid in front of the last masked
         // hit would have stopped the ray
         const bool culls = may_be_cut_out(kind_of<Primitive>);
-        const bool is_passed = is_face<Primitive> || culls || may_glow(kind_of<Primitive>);
+        const bool is_passed = is_face<Primitive> || culls || may_emit_light(kind_of<Primitive>);
         const Source<Real>& surface = source;
-        hit = is_passed ? first_from(source, primitive, id, ray, candidate, best.t, t, culls)
-                        : first_from(surface, primitive, id, ray, candidate, best.t, t);
+        hit = is_passed ? first_hit_from(source, primitive, id, ray, candidate, best.t, t, culls)
+                        : first_hit_from(surface, primitive, id, ray, candidate, best.t, t);
     } else {
-        hit = first_from(source, primitive, id, ray, candidate, best.t, t);
+        hit = first_hit_from(source, primitive, id, ray, candidate, best.t, t);
     }
     keep_nearest<Real>(hit, t, UInt<Real>(id), best);
 }

@@ -52,8 +52,8 @@ struct Proposal {
     template <class From>
     TANDEM_HD Float<Real> start_for(const From& source) const {
         if constexpr (std::is_base_of_v<PathSource<Real>, From>) {
-            if (any(source.passed.t > Double<Real>(0.0))) [[unlikely]]
-                return start(source.passed.t);
+            if (any(source.last_masked.t > Double<Real>(0.0))) [[unlikely]]
+                return start(source.last_masked.t);
         }
         return Float<Real>(0.0F);
     }
