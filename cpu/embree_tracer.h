@@ -106,7 +106,7 @@ TANDEM_HD Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real
     const QuerySource<Real>& source = *query.source;
     if constexpr (search == Search::nearest) {
         const Double<Real> t = query.proposal.parameter(s);
-        const Mask<Real> excluded = source.primitive == id || !is_beyond<Real>(source.passed, t, id);
+        const Mask<Real> excluded = source.primitive == id || !is_beyond<Real>(source.last_masked, t, id);
         return source.culls ? excluded || is_culled<Real>(scene, query.filter.ray, t, id, valid) : excluded;
     } else {
         return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);

@@ -53,14 +53,14 @@ class PathSorter {
     template <class Tracer>
     TANDEM_HD bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
                         TileStats& stats) {
-        Mask<Real> working(false), gone_on(false);
+        Mask<Real> working(false), leaves_surface(false);
         for (int i = 0; i < packet_count; ++i) {
             working = working || now_[i].walk.working();
-            gone_on = gone_on || now_[i].walk.gone_on();
+            leaves_surface = leaves_surface || now_[i].walk.leaves_surface();
         }
         if (!any(working)) return false;
         // camera rays are neighbours anyway
-        const bool sorts = any(gone_on);
+        const bool sorts = any(leaves_surface);
         const int together = sorts ? packet_count : 1;
         PathTally<Real> tally;
         for (int first = 0; first < packet_count; first += together) {
@@ -130,7 +130,7 @@ class PathSorter {
             moved |= to ^ i;
         }
         if (moved == 0) return;
-        const bool has_holes = scene.cutout_kinds != 0;
+        const bool has_masks = scene.cutout_kinds != 0;
         const bool shares_light =
             scene.area_light_count > 0 && (scene.indirect_light != 0 || scene.microfacet_count > 0);
         for (int i = 0; i < packet_count; ++i) {
@@ -141,7 +141,7 @@ class PathSorter {
             places.lane = path & Word(size - 1);
             places.packet = (path >> std::countr_zero(size)) * Word(static_cast<std::uint32_t>(sizeof(Packet)));
             fetch(places, next_[i].per_lane(), now_[0].per_lane());
-            if (has_holes) fetch(places, next_[i].walk.per_lane_of_holes(), now_[0].walk.per_lane_of_holes());
+            if (has_masks) fetch(places, next_[i].walk.per_lane_of_masks(), now_[0].walk.per_lane_of_masks());
             if (shares_light) fetch(places, next_[i].walk.per_lane_of_lights(), now_[0].walk.per_lane_of_lights());
         }
         std::swap(now_, next_);

@@ -20,12 +20,13 @@ struct QuerySource : PathSource<Real> {
 
 namespace query_detail {
 
-/// first_from() of rays that start on the primitive itself, that have passed a masked hit, or that meet a culled face.
+/// first_hit_from() of rays that start on the primitive itself, that have passed a masked hit, or that meet a culled
+/// face.
 template <class Real, class Primitive>
-TANDEM_HD_CALL Mask<Real> first_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
-                                             const PathSource<Real>& source, const Mask<Real>& active,
-                                             const Double<Real>& farthest, Double<Real>& t, bool culls) {
-    return first_from(source, primitive, id, ray, active, farthest, t, culls);
+TANDEM_HD_CALL Mask<Real> first_hit_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
+                                                 const PathSource<Real>& source, const Mask<Real>& active,
+                                                 const Double<Real>& farthest, Double<Real>& t, bool culls) {
+    return first_hit_from(source, primitive, id, ray, active, farthest, t, culls);
 }
 
 }  // namespace query_detail
@@ -43,10 +44,10 @@ TANDEM_HD_CALL void test_primitive(const Primitive& primitive, std::uint32_t id,
     if constexpr (is_face<Primitive>) culls = source.culls && primitive.attributes.sides == FaceSides::culled;
     Double<Real> t(0.0);
     Mask<Real> hit;
-    if (culls || any(active && (starts_here || source.passed.t > Double<Real>(0.0)))) {
-        hit = query_detail::first_from_surface<Real>(primitive, id, ray, source, active, best.t, t, culls);
+    if (culls || any(active && (starts_here || source.last_masked.t > Double<Real>(0.0)))) {
+        hit = query_detail::first_hit_from_surface<Real>(primitive, id, ray, source, active, best.t, t, culls);
     } else {
-        hit = first_from(NoSource{}, primitive, id, ray, active, best.t, t);
+        hit = first_hit_from(NoSource{}, primitive, id, ray, active, best.t, t);
     }
     keep_nearest<Real>(hit, t, number, best);
 }

@@ -187,7 +187,7 @@ TEST(PrepareTextures, TurnsThePictureWithItsSphere) {
     const auto at = [&](const Vec3d& n) {
         const Ray<double> ray = {n * 3.0, -n};
         double t = 0;
-        EXPECT_TRUE(first_in_front(prepared.ellipsoids[0], ray, t));
+        EXPECT_TRUE(first_hit(prepared.ellipsoids[0], ray, t));
         const Ellipsoid& body = prepared.ellipsoids[0];
         return parametrisation(body, record_hit(body, ray, t, false, true), nullptr, ray, t, true);
     };

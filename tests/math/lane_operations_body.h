@@ -91,13 +91,13 @@ TANDEM_HD UInt<Real> low_word(const UInt<Real>& a, const UInt<Real>& b) {
 template <class Real, class ShadingFrame>
 TANDEM_HD Double<Real> first_parameter(const ShadingFrame& meeting) {
     Double<Real> t;
-    const auto hit = first_in_front<Real>(meeting, t);
+    const auto hit = first_hit<Real>(meeting, t);
     return select(hit, t, Double<Real>(-1.0));
 }
 template <class Real, class Primitive>
 TANDEM_HD Double<Real> first_parameter(const Primitive& primitive, const Ray<Real>& ray) {
     Double<Real> t;
-    const auto hit = first_in_front(primitive, ray, t);
+    const auto hit = first_hit(primitive, ray, t);
     return select(hit, t, Double<Real>(-1.0));
 }
 template <class Real>

@@ -56,8 +56,8 @@ void share_out(std::vector<AreaLight>& lights, const std::vector<double>& powers
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const std::uint64_t numbers = by_power(powers[i]) + each + (i < left_over ? 1 : 0);
         end += numbers;
-        lights[i].last = end - 1;
-        lights[i].chance = count == 1 ? 1 : static_cast<double>(numbers) * 0x1p-64;
+        lights[i].range_last = end - 1;
+        lights[i].probability = count == 1 ? 1 : static_cast<double>(numbers) * 0x1p-64;
     }
 }
 

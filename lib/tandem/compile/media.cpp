@@ -48,12 +48,12 @@ bool holds(const Parallelepiped& body, const Vec3d& point) {
 /// What a line from the camera says of the faces of one material: how often it leaves less how often it enters.
 int crossing(const Triangle& face, const Ray<double>& ray) {
     double t = 0;
-    if (!first_in_front(face, ray, t)) return 0;
+    if (!first_hit(face, ray, t)) return 0;
     return dot(geometric_normal<double>(face.v0, face.v1, face.v2), ray.direction) > 0 ? 1 : -1;
 }
 int crossing(const Quad& face, const Ray<double>& ray) {
     double t = 0;
-    if (!first_in_front(face, ray, t)) return 0;
+    if (!first_hit(face, ray, t)) return 0;
     const bool first = is_in_first_half(record_hit(face, ray, t, false, true));
     const Vec3d normal = first ? geometric_normal<double>(face.v0, face.v1, face.v2)
                                : geometric_normal<double>(face.v0, face.v2, face.v3);

@@ -1,4 +1,4 @@
-/// Emissive spheres and faces as lights of a vertex.
+/// Area lights at a vertex of a path.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -10,7 +10,7 @@ namespace tandem {
 
 namespace area_lights_detail {
 
-/// Can points of such a primitive be sampled as a light, or do only paths find it?
+/// Whether a kind of primitive can be an area light. Other emissive primitives are found by paths only.
 template <class Body>
 inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
@@ -32,8 +32,9 @@ TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Rea
                                  broadcast<D>(face.v3), {face.attributes.sides, halves_overlap});
 }
 
-/// Whether light leaves in `direction`, unit, towards the lit point: a sphere emits from its outside, a face from its
-/// front, or from both sides if it is double-sided. The halves of a quad decide this themselves.
+/// Whether the light emits towards the lit `point`; `direction`: unit, from the point to the light. A sphere emits
+/// outward, a face from its front, or from both sides if it is double-sided. For quads, view_quad_light() decides by
+/// half.
 template <class Real>
 TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
     using D = Double<Real>;
@@ -52,7 +53,7 @@ TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<D
 
 }  // namespace area_lights_detail
 
-/// What a vertex receives of one emissive primitive, chosen in proportion to their power, in the lanes of `active`.
+/// One area light, sampled with AreaLight's probabilities, at a vertex, in the lanes of `active`.
 /// Source: P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
 TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, const LitVertex<Real>& at,
@@ -82,18 +83,18 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
         visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_glow(kind_of<Body>)) return;
+                if (!may_emit_light(kind_of<Body>)) return;
                 of_light = sample_light(
                     area_lights_detail::view_light<Real>(body, position, chosen.halves_overlap != 0), u, v);
                 lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
                 if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
                 const MaterialTextures& textures = scene.textures.materials[material];
                 if (textures.emission.texture == no_texture) return;
-                emitted = emitted * light_picture<Real>(scene, textures, body, of_light);
+                emitted = emitted * light_texture_factor<Real>(scene, textures, body, of_light);
             }
         });
         D pdf = select(lights, of_light.pdf, zero);
-        if (known_area_lights() != KnownAreaLights::one) pdf = pdf * constant<D>(chosen.chance);
+        if (known_area_lights() != KnownAreaLights::one) pdf = pdf * constant<D>(chosen.probability);
         drawn.direction = select(here, of_light.direction, drawn.direction);
         drawn.point = select(here, of_light.point, drawn.point);
         drawn.pdf = select(here, pdf, drawn.pdf);
@@ -111,8 +112,8 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
     return result;
 }
 
-/// The density, per solid angle, with which sample_area_light() would have drawn `direction` from `point` for the light
-/// `primitive` that is hit there: 0 if it is no light.
+/// The density, 1/sr, with which sample_area_light() samples `direction` from `point`, where `primitive` is hit; 0 if
+/// that is no area light.
 template <class Real>
 TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
                                             const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
@@ -120,14 +121,14 @@ TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<R
     using D = Double<Real>;
     D result(0.0);
     for_each_unique_lane(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const double chance = chance_of(scene.area_lights, scene.area_light_count, id);
-        if (!(chance > 0.0)) return;
+        const double probability = probability_of(scene.area_lights, scene.area_light_count, id);
+        if (!(probability > 0.0)) return;
         visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
             using Body = std::decay_t<decltype(body)>;
             if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_glow(kind_of<Body>)) return;
+                if (!may_emit_light(kind_of<Body>)) return;
                 const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point, false), direction);
-                result = select(here, of_light * constant<D>(chance), result);
+                result = select(here, of_light * constant<D>(probability), result);
             }
         });
     });

@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// The texture coordinates of primitive `id` at a hit, as parametrisation(). Of a face: from its values in `slot`.
+/// The parametrisation() of primitive `id` at a hit. For a face, from its values in `slot`.
 template <std::uint32_t kinds, class Real>
 TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, std::uint32_t slot,
                                                         HitRecord<Real> record, Ray<Real> ray, Double<Real> t,
@@ -20,8 +20,8 @@ TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, 
     return at;
 }
 
-/// The values of one primitive's slots at a ray's hit at `t`, in the lanes of `here`. Keeps the last: most materials
-/// ask for one slot several times.
+/// The values of a primitive's slots at the hit at `t`, in the lanes of `here`. Caches the last slot, because most
+/// materials use one slot several times.
 template <std::uint32_t kinds, class Real>
 class CornerValues {
   public:
@@ -46,7 +46,7 @@ class CornerValues {
 
     /// Interpolated red, green, blue and alpha of a face's corners (MaterialTextures::colour_slot).
     [[nodiscard]] TANDEM_HD Rgba<Real> colour(std::uint32_t slot) {
-        // the sum of the corners' weights may differ from 1 by rounding
+        // rounding may make the sum of the corners' weights differ from 1
         const auto share = [](const Double<Real>& a) TANDEM_INLINE_LAMBDA {
             return to_real<Real>(parametrisation_detail::clamp_to_one<Real>(a));
         };

@@ -1,4 +1,4 @@
-/// Direct light at a vertex of a path, and what the surface reflects of it.
+/// Direct light at a vertex of a path.
 #pragma once
 
 #include "tandem/kernel/area_lights.h"
@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-/// How many lights a vertex samples, over all families of lights.def.
+/// The number of lights that a vertex samples, over all families of lights.def.
 template <class Effects>
 TANDEM_HD std::uint32_t count_lights(const SceneView& scene) {
     std::uint32_t count = 0;
@@ -23,7 +23,7 @@ TANDEM_HD std::uint32_t count_lights(const SceneView& scene) {
     return count;
 }
 
-/// The light `number` of these.
+/// Light `number` of these.
 template <class Effects, class Real>
 TANDEM_HD IncidentLight<Real> sample_light(const SceneView& scene, std::uint32_t number, const LitVertex<Real>& at,
                                            const Mask<Real>& active) {
@@ -40,9 +40,9 @@ TANDEM_HD IncidentLight<Real> sample_light(const SceneView& scene, std::uint32_t
     return {black<Real>(), black<Real>()};
 }
 
-/// The sum over all lights at a vertex, with the ambient term, in the lanes of `found`. With indirect light, each
-/// vertex chooses one light (LightReservoir). One loop covers all families of lights, so that a kernel starts shadow
-/// rays in one place. `rays` counts them. `threads`: as IndependentThreads.
+/// The reflected light of all lights at a vertex, and the ambient term, in the lanes of `found`. With indirect light,
+/// each vertex samples one light (LightReservoir). One loop covers all families of lights, so that shadow rays are
+/// traced in one place. `rays` counts them. `threads`: as IndependentThreads.
 template <class Effects, class Real, class Tracer, class Threads>
 TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scene, const LitVertex<Real>& at,
                                      const Mask<Real>& found, const Threads& threads, UInt<Real>& rays) {
@@ -53,10 +53,10 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
     const std::uint32_t count = count_lights<Effects>(scene);
     const bool by_chance = has_indirect_light<Effects>(scene) && count > 1;
     LightReservoir<Real> choice(by_chance ? light_choice<Real>(at.sample, at.number) : PhiloxBlock<UInt<Real>>{});
-    // one more iteration, for the chosen light: so shadow rays start in one place
+    // one more iteration for the chosen light, so that shadow rays are traced in one place
     for (std::uint32_t i = 0; i < count + (by_chance ? 1U : 0U); ++i) {
         IncidentLight<Real> light = {black<Real>(), black<Real>()};
-        if (any_reflects) {  // threads without any iterate as well
+        if (any_reflects) {  // threads without such a lane iterate too
             light = i == count ? choice.chosen() : sample_light<Effects>(scene, i, at, reflects);
         }
         if (by_chance && i < count) {
@@ -67,7 +67,7 @@ TANDEM_HD Vec3<Real> reflected_light(const Tracer& tracer, const SceneView& scen
             threads.gather();
             const Mask<Real> lit = reflects && light.casts_shadows && norm1(light.reflected) > Real(0.0F);
             if (any(lit)) {
-                const Mask<Real> dark = is_stopped<Effects>(tracer, scene, light, at.point, lit, rays);
+                const Mask<Real> dark = is_blocked<Effects>(tracer, scene, light, at.point, lit, rays);
                 light.reflected = select(dark, black<Real>(), light.reflected);
             }
         }

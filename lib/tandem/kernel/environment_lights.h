@@ -1,4 +1,4 @@
-/// The environment at a vertex of a path: its picture or its gradient as a light.
+/// The environment as a light at a vertex of a path: its picture or its gradient.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -6,20 +6,20 @@
 
 namespace tandem {
 
-/// Is there a picture in place of the gradient?
+/// Whether a picture takes the place of the gradient.
 template <class Effects>
 TANDEM_HD bool has_environment_picture(const SceneView& scene) {
     return Effects::has(Effect::environment_picture) && scene.environment_picture.width != 0;
 }
 
-/// Does the environment light surfaces?
+/// Whether the environment lights surfaces.
 template <class Effects>
 TANDEM_HD bool has_environment_light(const SceneView& scene) {
     return Effects::has(Effect::environment_light) && scene.environment.illuminates != 0;
 }
 
-/// One direction of the picture, sampled in proportion to its brightness: unbiased together with what a path finds that
-/// follows a lobe. Phong highlights do not show it, as they do not show the gradient.
+/// A direction sampled in proportion to the brightness of the picture, weighted against paths that follow a lobe. Phong
+/// highlights do not show the picture, nor the gradient.
 /// Source: kernel/lights/environment_picture.h.
 template <class Effects, class Real>
 TANDEM_HD_STAGE IncidentLight<Real> sample_environment_picture(const SceneView& scene, const LitVertex<Real>& at) {
@@ -32,7 +32,7 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_environment_picture(const SceneView& 
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     Mask<Real> seen = drawn.pdf > zero && dot(drawn.direction, at.surface.normal) > zero;
     if (scene.area_lights_cast_shadows != 0) {
-        // as for paths that go on; where none does, the gradient also lights what looks away
+        // a path could not leave to the other side; without paths, light from there is kept, as for the gradient
         const Mask<Real> shared =
             Mask<Real>(has_indirect_light<Effects>(scene)) || scatters_locally<Effects>(at.surface.reflectance.lobes);
         seen = seen && (!shared || is_in_front(at, drawn.direction));
@@ -58,18 +58,19 @@ struct EnvironmentPictureLight {
     }
 };
 
-/// The gradient, by one direction around the normal, whichever side is visible: so the walls of a closed solid are not
-/// black from inside. Only diffuse lobes show it. For scenes without indirect light; with it, the continued path adds
-/// the background. Reflections from microfacets find it by the continued path.
+/// The gradient, by one direction around the normal, whichever side is visible, so that the walls of a closed solid are
+/// not black from inside. Only diffuse lobes show it. For scenes without indirect light: with it, the continued path
+/// adds the background. Paths that microfacets reflect find the gradient by themselves.
 template <class Effects, class Real>
 TANDEM_HD_STAGE IncidentLight<Real> sample_environment_gradient(const SceneView& scene, const LitVertex<Real>& at) {
     const auto random = at.sample.block_at_vertex(Dimension::environment, at.number);
     const auto drawn = sample_cosine_hemisphere<Real>(at.surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));
     IncidentLight<Real> result;
-    result.to = to_real<Real>(drawn.direction);
+    result.position_or_direction = to_real<Real>(drawn.direction);
     // pdf = cos / pi cancels with the cosine and Lambert's 1 / pi
-    result.reflected = diffuse_reflectance<Effects>(at, drawn.direction) * background(scene.environment, result.to);
+    result.reflected =
+        diffuse_reflectance<Effects>(at, drawn.direction) * background(scene.environment, result.position_or_direction);
     result.is_far = Mask<Real>(true);
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     return result;

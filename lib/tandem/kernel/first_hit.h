@@ -1,5 +1,5 @@
-/// What the samples of a pixel hit first: planes of a film beside its colour. A pass of its own over the camera rays of
-/// the path loop, so that the path loop does not know of it.
+/// The planes of a film beside its colour: what the samples of a pixel hit first. A separate pass over the same camera
+/// rays, so that the path loop need not know of it.
 #pragma once
 
 #include "tandem/film/film_planes.h"
@@ -7,16 +7,16 @@
 
 namespace tandem {
 
-/// Those that say where a camera ray goes, what it passes through, and what the surface is that it hits.
+/// The effects that change camera rays, what they pass through, or the surface that they hit.
 using FirstHitEffects = EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps |
                                    Effect::reflection | Effect::refraction | Effect::microfacets)
                                       .bits()>;
 
-/// Of which planes it finds the values.
+/// The planes that this pass fills.
 inline constexpr PlaneMask first_hit_planes =
     FilmPlane::albedo | FilmPlane::normal | FilmPlane::depth | FilmPlane::primitive | FilmPlane::material;
 
-/// A pixel's values, as FilmPlanes has them.
+/// A pixel's values, as in FilmPlanes.
 template <class Real>
 struct FirstHits {
     using Sum = Vec3<Wide<Real>>;
@@ -28,7 +28,7 @@ struct FirstHits {
     UInt<Real> material = UInt<Real>(no_primitive);
 };
 
-/// What a surface reflects and transmits, at most 1: the sum of the colours of its lobes.
+/// The albedo of a surface: the sum of the colours of its lobes, at most 1.
 template <class Real>
 TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
     LobeSum<Vec3<Real>> sum(black<Real>());
@@ -38,9 +38,9 @@ TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
     return {lesser(sum.value().x, one), lesser(sum.value().y, one), lesser(sum.value().z, one)};
 }
 
-/// Adds a surface that samples have hit first at `hit`, in the lanes of `drawn`. `is_first`: it is the first sample.
-/// The depth is t itself: directions of camera rays are 1 long along the view axis (kernel/camera/camera.h), and lenses
-/// move origins across it.
+/// Adds the first surface that a sample hit, in the lanes of `drawn`. `is_first`: it is the first sample. The depth is
+/// t itself: camera rays have length 1 along the view axis (kernel/camera/camera.h), and lenses move their origins
+/// across it.
 template <class Real>
 TANDEM_HD void add(const Surface<Real>& surface, const Closest<Real>& hit, const Mask<Real>& drawn, bool is_first,
                    FirstHits<Real>& hits) {
@@ -53,7 +53,8 @@ TANDEM_HD void add(const Surface<Real>& surface, const Closest<Real>& hit, const
     hits.material = select(drawn, surface.material, hits.material);
 }
 
-/// Of pixel (x, y), over all samples in their order, in the lanes of `active`; render_pixel() has the camera rays.
+/// The values of pixel (x, y), over all samples in their order, in the lanes of `active`. The camera rays are those of
+/// render_pixel().
 template <class Real, class Tracer>
 TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                           const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
@@ -78,7 +79,7 @@ TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView&
     return hits;
 }
 
-/// Writes the values of lane i to the planes that are asked for, at a pixel.
+/// Writes the values of lane i to the requested planes, at a pixel.
 template <class Real>
 TANDEM_HD void keep(const FirstHits<Real>& hits, int i, std::size_t pixel, const FilmPlanes& planes) {
     const auto of_lane = [i](const auto& sum) TANDEM_INLINE_LAMBDA {

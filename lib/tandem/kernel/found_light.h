@@ -1,5 +1,5 @@
-/// Light that a path finds by itself, and its share beside what the vertex before has sampled of it: the other half of
-/// multiple importance sampling (share_of_sample() in lit_vertex.h).
+/// Light that a path hits by itself, and its MIS weight against the light samples of the previous vertex;
+/// share_of_sample() in lit_vertex.h is the other half.
 #pragma once
 
 #include "tandem/kernel/area_lights.h"
@@ -8,22 +8,21 @@
 
 namespace tandem {
 
-/// The weight of the emission that a path finds on a surface, in the lanes of `glows`: the rest was sampled from the
-/// lights at the vertex before. `point`: where the path has hit the surface.
+/// The MIS weight of the emission of a surface that a path hits, in the lanes of `emits`. `point`: the hit point.
 ///
-/// Method: both densities of the power heuristic belong to the point that the direction was sampled from,
-/// `sampled_from`. The ray starts a little above a face, and from there a near light is larger. So the light is scaled
-/// by the ratio of its projected solid angles, as seen from `sampled_from` and from the ray's origin. For a
-/// glossy lobe, which is no longer known, the density is that with which the direction was sampled, the choice of the
-/// lobe included.
+/// Method: both densities of the power heuristic are for `sampled_from`, the point for which the direction was sampled.
+///         The ray starts slightly above a face, where a near light looks larger. So the light is scaled by the ratio
+///         of its projected solid angles, seen from `sampled_from` and from the ray's origin. For a glossy lobe, which
+///         is no longer known, the density is the one with which the direction was sampled, including the choice of the
+///         lobe.
 template <class Effects, class Real>
 TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, Real, true>& path,
-                              const Closest<Real>& hit, const SurfacePoint<Real>& point, const Mask<Real>& glows) {
+                              const Closest<Real>& hit, const SurfacePoint<Real>& point, const Mask<Real>& emits) {
     using D = Double<Real>;
     const Real whole(1.0F);
     if (!Effects::has_any(effects_of_scattering_lobes) || !Effects::has(Effect::area_lights)) return whole;
     const Mask<Real> glossy = Mask<Real>(Effects::has_any(effects_of_glossy_lobes)) && path.pdf < D(0.0);
-    const Mask<Real> shared = glows && (path.pdf > D(0.0) || glossy);
+    const Mask<Real> shared = emits && (path.pdf > D(0.0) || glossy);
     if (scene.area_light_count == 0 || !any(shared)) return whole;
     const D zero(0.0);
     const D one(1.0);
@@ -34,13 +33,13 @@ TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, R
     const D inverse = inverse_square_root(dot(way, way));
     const Vec3<D> direction = way * inverse;
     const D length2 = dot(along, along);
-    const D shorter = hit.t * square_root(length2) * inverse;  // the ray's length over that of `way`
+    const D shorter = hit.t * square_root(length2) * inverse;  // length of the ray over that of `way`
     const D cosine = path.pdf * constant<D>(pi);
     const D seen_cosine = cosine * shorter + square_root(dot(raised, raised)) * inverse;
     const D facing = dot(along, point.normal) * inverse_square_root(length2);
     const Mask<Real> faces = facing != zero;
     const D turned = select(faces, dot(direction, point.normal) / select(faces, facing, one), one);
-    // where the light is seen edge-on, the ratio has no bound
+    // for a light seen edge-on the ratio is unbounded
     const D brighter = select(glossy, one, seen_cosine / cosine);
     const D growth = (brighter * turned) * (shorter * shorter);
     const D bounded = select(growth < D(2.0), greater(growth, zero), D(2.0));
@@ -50,7 +49,8 @@ TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, R
     return select(shared, to_real<Real>(share), whole);
 }
 
-/// What a path sees that leaves the scene, less what the vertex before has sampled of it.
+/// The environment picture for a path that leaves the scene, with its MIS weight against the sample of the previous
+/// vertex.
 template <class Effects, class Real, bool bounces>
 TANDEM_HD_STAGE Vec3<Real> seen_environment_picture(const SceneView& scene,
                                                     const PathState<Effects, Real, bounces>& path) {
@@ -60,7 +60,7 @@ TANDEM_HD_STAGE Vec3<Real> seen_environment_picture(const SceneView& scene,
         const bool scatters = Effects::has_any(effects_of_scattering_lobes);
         if (!scatters || !has_environment_light<Effects>(scene)) return sight.radiance;
         const D zero(0.0);
-        const D own = select(path.pdf < zero, -path.pdf, path.pdf);  // of a glossy lobe it is negative
+        const D own = select(path.pdf < zero, -path.pdf, path.pdf);  // negative for a glossy lobe
         const D share = select(own > zero, power_heuristic(own, sight.pdf), D(1.0));
         return sight.radiance * to_real<Real>(share);
     } else {
@@ -79,7 +79,7 @@ TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, 
     if constexpr (bounces) {
         path.absorb(scene, D(__builtin_huge_val()), UInt<Real>(no_medium), missed);
         Mask<Real> shows = missed;
-        // only diffuse surfaces ask whether it illuminates
+        // `illuminates` concerns diffuse surfaces only
         if (Effects::has(Effect::indirect) && scene.environment.illuminates == 0) shows = shows && !(path.pdf > D(0.0));
         radiance = select(shows, radiance + path.throughput * seen, radiance);
     } else {

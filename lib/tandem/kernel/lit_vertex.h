@@ -1,4 +1,4 @@
-/// A vertex of a path as lights see it, and what it reflects of light from one direction.
+/// A path vertex for light sampling, and the light that it reflects from one direction.
 #pragma once
 
 #include "tandem/kernel/sampler/dimensions.h"
@@ -7,53 +7,53 @@
 
 namespace tandem {
 
-/// The lobes that a path may follow at a vertex, and then hit lights by itself.
+/// The lobes along which a path may continue from a vertex, and so hit lights by itself.
 template <class Real>
 struct FollowedLobes {
     Mask<Real> diffuse = Mask<Real>(false);
     Mask<Real> glossy = Mask<Real>(false);
-    /// With which probability the path follows each glossy lobe, by glossy_number().
+    /// The probability that the path follows each glossy lobe, by glossy_number().
     Real chance[glossy_lobe_count];
 };
 
-/// A vertex that light is sampled for.
+/// A vertex at which lights are sampled.
 template <class Real>
 struct LitVertex {
     const Surface<Real>& surface;
     const SurfacePoint<Real>& point;
-    const Vec3<Double<Real>>& position;   ///< the same before rounding, on the ray
+    const Vec3<Double<Real>>& position;   ///< the point before rounding, on the ray
     const Vec3<Double<Real>>& to_viewer;  ///< unit
     const FollowedLobes<Real>& followed;
     const SampleId<Real>& sample;
     const UInt<Real>& number;  ///< of the vertex on its path
 };
 
-/// Do diffuse surfaces receive light from other surfaces?
+/// Whether diffuse surfaces receive light from other surfaces.
 template <class Effects>
 TANDEM_HD bool has_indirect_light(const SceneView& scene) {
     return Effects::has(Effect::indirect) && scene.indirect_light != 0;
 }
 
-/// Which lobes reflect a light?
+/// The lobes that reflect a light.
 enum class LobesShown {
     all,
-    of_paths,  ///< those along which paths may continue: the others do not show what only paths see
+    of_paths,  ///< only those along which paths may continue
 };
 
-/// What the radiance of a direction is multiplied by that was sampled with density `pdf`: see reflect_light().
+/// The factor from radiance to the units of reflect_light(), for a direction that was sampled with density `pdf`.
 template <class Real>
 TANDEM_HD Real light_scale(const Double<Real>& pdf) {
     return to_real<Real>(constant<Double<Real>>(inverse_pi) / pdf);
 }
 
-/// Stands for the density of a direction that no path can find by itself.
+/// Replaces the density for light that no path can find by itself.
 struct OnlyDirection {};
 
 namespace lit_vertex_detail {
 
-/// The weight of a light's sample beside that of a path that follows `lobe`, and finds the light with the density
-/// pdf_of(lobe). The density of a glossy lobe counts the choice of the lobe; that of a diffuse one does not, and
-/// neither does share_of_found() (found_light.h).
+/// The MIS weight of a light's sample against paths that follow `lobe`, which find the light with the density
+/// pdf_of(lobe). The density of a glossy lobe includes the choice of the lobe. That of a diffuse lobe does not, here
+/// and in share_of_found() (found_light.h).
 template <class Effects, int place, class Lobe, class Real, class Density, class PdfOf>
 TANDEM_HD Real share_of_sample(const SceneView& scene, const FollowedLobes<Real>& followed, const Lobe& lobe,
                                const Density& pdf, PdfOf pdf_of) {
@@ -70,7 +70,7 @@ TANDEM_HD Real share_of_sample(const SceneView& scene, const FollowedLobes<Real>
     }
 }
 
-/// The part of the lobes that work in the local frame.
+/// The sum over the lobes that work in the local frame.
 template <class Effects, class Real, class Density>
 TANDEM_HD_STAGE Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVertex<Real>& at, const Vec3<Real>& light,
                                             const Vec3<Double<Real>>& to_light, const Density& pdf) {
@@ -93,14 +93,14 @@ TANDEM_HD_STAGE Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVer
 
 }  // namespace lit_vertex_detail
 
-/// What the surface at a vertex makes of light from one direction: pi f |cos| times `light`, summed over its lobes. In
-/// these units of Phong's model a diffuse surface reflects reflectance * cos. So `light` is the intensity id = is of a
-/// light without extent, or the radiance over pi `pdf`, the density that the direction was sampled with. Paths that
-/// follow a lobe find a share of such a light by themselves.
+/// The light from one direction that the surface at a vertex reflects: pi f |cos| times `light`, summed over its lobes.
+/// In these units, those of Phong's model, a diffuse surface reflects reflectance * cos. `light` is the intensity id =
+/// is of a punctual light, or radiance / (pi `pdf`) for a direction that was sampled with density `pdf`. In the second
+/// case the sum is weighted, since paths that follow a lobe find the rest by themselves.
 ///
 /// `to_light`: unit, world space.
 /// Source: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; docs/paper.md row 3; for the
-///         shares E. Veach, L. Guibas, 1995 (kernel/sampler/mis.h).
+///         weights E. Veach, L. Guibas, 1995 (kernel/sampler/mis.h).
 template <class Effects, LobesShown shown = LobesShown::all, class Real, class Density>
 TANDEM_HD Vec3<Real> reflect_light(const SceneView& scene, const LitVertex<Real>& at, const Vec3<Real>& light,
                                    const Vec3<Double<Real>>& to_light, const Density& pdf) {
@@ -139,7 +139,7 @@ TANDEM_HD Vec3<Real> diffuse_reflectance(const LitVertex<Real>& at, const Vec3<D
         if constexpr (!has(L::flags, LobeFlags::diffuse)) {
             return;
         } else if constexpr (ReflectsInWorld<L, Real>) {
-            sum.add(lobe.albedo(to_light));  // of any direction
+            sum.add(lobe.albedo(to_light));  // the direction does not matter
         } else if (any(lobe.scatters())) {
             const LocalView<Real> view = local_view(at.surface, at.point, at.to_viewer);
             sum.add(lobe.f(view.wo, to_frame(view.frame, to_light)) * constant<Real>(pi));

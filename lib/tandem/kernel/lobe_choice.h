@@ -1,12 +1,13 @@
-/// Which lobe of a surface a path follows.
+/// Probabilities with which a path follows the lobes of a surface.
 #pragma once
 
 #include "tandem/kernel/lit_vertex.h"
+#include "tandem/kernel/path_limits.h"
 
 namespace tandem {
 
-/// How much of the light each lobe reflects or transmits, about, by LobePlace: a path follows each with a probability
-/// in proportion. Only those of lobes that a kernel's paths follow are set.
+/// The approximate albedo of each lobe, by LobePlace: a path follows lobes with probabilities in proportion. Set only
+/// for lobes that the kernel's paths follow.
 template <class Real>
 struct LobeWeights {
     Real of[LobePlace::count];
@@ -52,7 +53,7 @@ TANDEM_HD void weigh_local_lobes(const SceneView& scene, const Surface<Real>& su
     }
 }
 
-/// The weights of the others.
+/// The weights of the other lobes.
 template <class Effects, class Real>
 TANDEM_HD void weigh_other_lobes(const SceneView& scene, const Surface<Real>& surface,
                                  const ShadingFrame<Real>& shading, LobeWeights<Real>& weights) {
@@ -64,7 +65,7 @@ TANDEM_HD void weigh_other_lobes(const SceneView& scene, const Surface<Real>& su
             Real& weight = weights.of[decltype(place)::value];
             weight = zero;
             if constexpr (!has(Lobe::flags, LobeFlags::diffuse)) {
-                weight = largest(lobe.albedo(shading.to_viewer));  // of any direction
+                weight = largest(lobe.albedo(shading.to_viewer));  // the direction does not matter
             } else if (has_indirect_light<Effects>(scene)) {
                 weight = select(shading.is_front, largest(lobe.albedo(shading.to_viewer)), zero);
             }
@@ -72,7 +73,7 @@ TANDEM_HD void weigh_other_lobes(const SceneView& scene, const Surface<Real>& su
     });
 }
 
-/// The sum of the weights, in their order.
+/// The sum of the weights, in the order of the lobes.
 template <class Effects, class Real>
 TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real>& weights) {
     LobeSum<Real> sum(Real(0.0F));
@@ -82,7 +83,7 @@ TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real
     return sum.value();
 }
 
-/// Can a path continue along more than one lobe?
+/// Whether a path can continue along more than one lobe.
 template <class Effects, class Real>
 TANDEM_HD bool has_choice(const Surface<Real>& surface) {
     int count = 0;
@@ -91,8 +92,8 @@ TANDEM_HD bool has_choice(const Surface<Real>& surface) {
     return count > 1;
 }
 
-/// The lobes that light is shared with at a vertex, in the lanes of `found`. `scatterings`, `reflections`: of the path
-/// so far. `weights` has those of the local lobes.
+/// The lobes along which the path may still continue at a vertex, so that light sampling must be weighted.
+/// `scatterings`, `reflections`: of the path so far. `weights`: those of the local lobes.
 template <class Effects, class Real>
 TANDEM_HD FollowedLobes<Real> followed_lobes(const SceneView& scene, const PathLimits& limits,
                                              const Surface<Real>& surface, const ShadingFrame<Real>& shading,

@@ -1,4 +1,4 @@
-/// The path loop: the radiance along a camera ray. One loop for all effects; those that a kernel leaves out leave
+/// The path loop: the radiance along a camera ray. One loop for all effects; an effect that a kernel leaves out costs
 /// neither code nor state.
 #pragma once
 
@@ -10,27 +10,27 @@
 
 namespace tandem {
 
-/// Counts along paths, of many together.
+/// Counters, summed over many paths.
 template <class Real>
 struct PathTally {
     UInt<Real> lost_media = UInt<Real>(0U);  ///< interfaces where the stack of media was inconsistent
-    UInt<Real> rays = UInt<Real>(0U);        ///< that were traced, with shadow rays; if counts_rays()
+    UInt<Real> rays = UInt<Real>(0U);        ///< traced rays, shadow rays included; only if counts_rays()
 };
 
-/// What a path hits.
+/// A hit point and its surface.
 template <class Real>
 struct Vertex {
     SurfacePoint<Real> point;
     Surface<Real> surface;
 };
 
-/// Finds the vertex at `hit`, which `ray` from `source` found, in the lanes of `found`.
+/// The vertex at `hit` of `ray` from `source`, in the lanes of `found`.
 template <class Effects, std::uint32_t kinds, class Real, class From>
 TANDEM_HD void find_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
                            const Mask<Real>& found, Vertex<Real>& vertex) {
     vertex.surface = surface_at<Effects, kinds>(scene, ray, source, hit, found, vertex.point);
 }
-/// The same as a step of a path that is long.
+/// The same out of line, for kernels whose loop is long.
 template <class Effects, std::uint32_t kinds, class Real, class From>
 TANDEM_HD_STAGE void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                     const Closest<Real>& hit, const Mask<Real>& found, Vertex<Real>& vertex) {
@@ -47,7 +47,7 @@ TANDEM_HD Vec3<Double<Real>> point_of(const Ray<Real>& ray, const Double<Real>& 
 
 }  // namespace path_detail
 
-/// The next hit of paths: for those that cannot continue, that of the camera ray.
+/// The next hit of each path; without bounces it is that of the camera ray.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Closest<Real> next_hit(const Tracer& tracer, const PathState<Effects, Real>& path, PathTally<Real>& tally) {
     count_rays<Effects, Real>(path.alive, tally.rays);
@@ -86,11 +86,13 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     radiance = select(found, reflected, radiance);
 }
 
-/// Follows paths from their vertex at `hit`, which next_hit() found, number `number` of theirs, to where they leave it;
-/// what they contribute is added to `radiance`. Paths that end are no longer alive. `Effects`: what is simulated
-/// (effects/effects.h); what the scene needs beyond it is left out, and what it does not need changes no bit in strict
-/// and precise. `Tracer` is a LoopTracer (kernel/traversal/intersect.h) or has its functions, and `kinds`, the
-/// PrimitiveKinds that it finds. `threads`: how they wait for each other (threads.h).
+/// Processes vertex `number` of each path, at the `hit` that next_hit() found, and samples the next ray. Adds the light
+/// of the vertex to `radiance`. Paths that end are no longer alive.
+///
+/// `Effects`: what the kernel simulates (effects/effects.h). Other effects that the scene needs are ignored; effects
+/// that it does not need change no bit in strict and precise. `Tracer` has the interface of LoopTracer
+/// (kernel/traversal/intersect.h); its `kinds` are the PrimitiveKinds that it finds. `threads`: how they wait for each
+/// other (threads.h).
 template <class Effects, class Real, class Tracer, class Threads>
 requires(can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
@@ -102,7 +104,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     path.alive = found;
     if (any(missed)) see_background(scene, missed, path, radiance);
 
-    // The surface, and what it emits
+    // Surface and emission
     threads.gather();
     if (!any(found) && !threads.wait_together()) return;
     Vertex<Real> vertex;
@@ -122,7 +124,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
         if (Effects::has(Effect::emission)) {
             const Mask<Real> emits = found && norm1(surface.emission) > Real(0.0F);
             const Real share = share_of_found<Effects>(scene, path, hit, vertex.point, emits);
-            // unlit surfaces light nothing: paths that a surface has scattered do not see their emission
+            // unlit surfaces light nothing: paths from a diffuse surface do not see their emission
             const Mask<Real> dark = Mask<Real>(Effects::has(Effect::indirect)) && surface.unlit && path.pdf > D(0.0);
             radiance = select(found && !dark, radiance + path.throughput * (surface.emission * share), radiance);
         }
@@ -131,7 +133,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
             followed_lobes<Effects>(scene, limits, surface, shading, path.scatterings, path.reflections, weights);
     }
 
-    // What it reflects of the lights
+    // Direct light
     const Vec3<D> position = path_detail::point_of(path.ray, hit.t);
     const LitVertex<Real> lit = {vertex.surface, vertex.point, position, shading.to_viewer, followed, sample, number};
     const Vec3<Real> reflected = reflected_light<Effects>(tracer, scene, lit, found, threads, tally.rays);
@@ -139,7 +141,7 @@ requires(can_bounce<Effects>()) TANDEM_HD
     if (!any(path.alive)) return;
     radiance = select(found, radiance + path.throughput * reflected, radiance);
 
-    // The way on
+    // Continuation
     if (!has_bounces<Effects>()) {
         path.alive = Mask<Real>(false);
         return;

@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// How often a path may continue, by kind; everything beyond is black. 0 to 255 each.
+/// How often a path may continue, by kind; beyond that it contributes nothing. 0 to 255 each.
 struct PathLimits {
     std::uint32_t reflection = 8;   ///< in mirrors and at dielectric interfaces
     std::uint32_t refraction = 16;  ///< through dielectric interfaces

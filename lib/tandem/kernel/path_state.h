@@ -1,4 +1,4 @@
-/// What a path carries from vertex to vertex: no more than its effects need.
+/// The state of a path between vertices: no more than its effects need.
 #pragma once
 
 #include <tuple>
@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-/// Of a path that ends at its first vertex.
+/// The state of a path that ends at its first vertex.
 template <class Effects, class Real, bool bounces = can_bounce<Effects>()>
 struct PathState {
     Ray<Real> ray;
@@ -22,7 +22,7 @@ struct PathState {
     }
 };
 
-/// Of a path that continues.
+/// The state of a path that can continue.
 template <class Effects, class Real>
 struct PathState<Effects, Real, true> {
     using Media = std::conditional_t<Effects::most.has(Effect::nested_media), MediumStack<Real>, NoMediumStack<Real>>;
@@ -34,16 +34,17 @@ struct PathState<Effects, Real, true> {
     UInt<Real> reflections = UInt<Real>(0U);
     UInt<Real> refractions = UInt<Real>(0U);
     UInt<Real> scatterings = UInt<Real>(0U);  ///< by diffuse surfaces
-    UInt<Real> holes = UInt<Real>(0U);
-    /// Of `ray`'s direction, 1/sr, if a diffuse surface sampled it; negative, if microfacets did; else 0.
+    UInt<Real> masked_hits = UInt<Real>(0U);
+    /// The density of `ray`'s direction, 1/sr, if a diffuse lobe sampled it; minus the density for a glossy lobe; else
+    /// 0.
     Double<Real> pdf = Double<Real>(0.0);
-    Vec3<Real> sampled_from{};  ///< the point for which they did; `ray` may start a little above it
+    Vec3<Real> sampled_from{};  ///< the point for which `pdf` holds; `ray` may start slightly above it
     Media media;
 
-    /// Of no path yet.
+    /// No path yet.
     TANDEM_HD PathState() : alive(false) {}
 
-    /// Begins anew with a camera ray, in the lanes of `active`.
+    /// Starts a new path with a camera ray, in the lanes of `active`.
     TANDEM_HD void begin(const SceneView& scene, const Ray<Real>& camera_ray, const Mask<Real>& active) {
         using Word = UInt<Real>;
         const Word none(0U);
@@ -53,37 +54,37 @@ struct PathState<Effects, Real, true> {
         alive = alive || active;
         source.primitive = select(active, Word(no_primitive), source.primitive);
         source.inside = source.inside && !active;
-        forget_holes(scene, active);
+        forget_masked_hits(scene, active);
         throughput = select(active, Vec3<Real>{one, one, one}, throughput);
         reflections = select(active, none, reflections);
         refractions = select(active, none, refractions);
         scatterings = select(active, none, scatterings);
-        holes = select(active, none, holes);
+        masked_hits = select(active, none, masked_hits);
         pdf = select(active, Double<Real>(0.0), pdf);
         media = select(active, media_at_camera<Effects>(scene, Media()), media);
     }
 
     /// Of a new ray, in the lanes of `active`.
-    TANDEM_HD void forget_holes(const SceneView& scene, const Mask<Real>& active) {
+    TANDEM_HD void forget_masked_hits(const SceneView& scene, const Mask<Real>& active) {
         if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) return;
-        source.passed.t = select(active, Double<Real>(0.0), source.passed.t);
-        source.passed.primitive = select(active, UInt<Real>(no_primitive), source.passed.primitive);
+        source.last_masked.t = select(active, Double<Real>(0.0), source.last_masked.t);
+        source.last_masked.primitive = select(active, UInt<Real>(no_primitive), source.last_masked.primitive);
     }
 
-    /// References to everything that has a value per lane, except what only some scenes need.
+    /// References to all values per lane, except those that only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [origin, direction] = ray;
         return std::tuple_cat(std::tie(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, alive,
                                        source.primitive, source.inside, throughput.x, throughput.y, throughput.z,
-                                       reflections, refractions, scatterings, holes, pdf),
+                                       reflections, refractions, scatterings, masked_hits, pdf),
                               media.per_lane());
     }
-    /// Those of scenes with cutouts, and of scenes that combine paths and area lights.
-    TANDEM_HD auto per_lane_of_holes() { return std::tie(source.passed.t, source.passed.primitive); }
+    /// The others: for scenes with cutouts, and for scenes that combine paths and area lights.
+    TANDEM_HD auto per_lane_of_masks() { return std::tie(source.last_masked.t, source.last_masked.primitive); }
     TANDEM_HD auto per_lane_of_lights() { return std::tie(sampled_from.x, sampled_from.y, sampled_from.z); }
 
-    /// Over the segment of `ray` from the last masked hit to t, in the lanes of `active`. `own`: the medium that the
-    /// path is in if solids are disjoint.
+    /// Applies the absorption along `ray` from the last masked hit to t, in the lanes of `active`. `own`: the current
+    /// medium if solids are disjoint.
     TANDEM_HD void absorb(const SceneView& scene, const Double<Real>& t, const UInt<Real>& own,
                           const Mask<Real>& active) {
         using D = Double<Real>;
@@ -91,8 +92,8 @@ struct PathState<Effects, Real, true> {
         const UInt<Real> medium = current_medium<Effects>(scene, media, own);
         if (!any(active && medium != UInt<Real>(no_medium))) return;
         const Vec3<D> direction = widen(ray.direction);
-        const D passed = Effects::has(Effect::cutouts) ? t - source.passed.t : t;
-        const D distance = passed * square_root(dot(direction, direction));
+        const D segment = Effects::has(Effect::cutouts) ? t - source.last_masked.t : t;
+        const D distance = segment * square_root(dot(direction, direction));
         throughput = throughput * transmittance<Real>(scene, medium, distance, active);
     }
 };

@@ -1,4 +1,4 @@
-/// Follows paths from vertex to vertex, and the samples of pixels one after the other.
+/// Follows paths from vertex to vertex, and renders the samples of a pixel one after the other.
 #pragma once
 
 #include <tuple>
@@ -7,13 +7,13 @@
 
 namespace tandem {
 
-/// A path in each lane, one vertex at a time. Has no pixel at first; when the last sample of its pixel has ended it has
-/// none again. A lane, or a thread, starts its next sample as soon as a path ends, and waits for the others at each
-/// vertex, not at each sample (docs/performance.md). Its owner adds up what the paths contribute.
+/// A path in each lane, one vertex at a time. A lane has no pixel before take(), and none after the last sample of its
+/// pixel. A lane or thread starts its next sample as soon as its path ends: it waits for the others at each vertex, not
+/// at each sample (docs/performance.md). The caller sums the radiance of the paths.
 template <class Effects, class Real>
 class PathWalk {
   public:
-    /// Takes pixel (x, y), in the lanes of `active`.
+    /// Starts pixel (x, y), in the lanes of `active`.
     TANDEM_HD void take(const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
         x_ = select(active, x, x_);
         y_ = select(active, y, y_);
@@ -21,15 +21,15 @@ class PathWalk {
         working_ = working_ || active;
     }
 
-    /// Which have a pixel, with samples left?
+    /// The lanes that have a pixel with samples left.
     [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
     [[nodiscard]] TANDEM_HD UInt<Real> pixel(const PixelJob& job) const { return y_ * UInt<Real>(job.width) + x_; }
-    /// Which have left a surface, so that their rays do not come from the camera?
-    [[nodiscard]] TANDEM_HD Mask<Real> gone_on() const { return path_.alive && vertex_ > UInt<Real>(0U); }
-    /// What the path has contributed, RGB, linear: complete when leave() says that it has ended.
+    /// The lanes whose ray starts on a surface, not at the camera.
+    [[nodiscard]] TANDEM_HD Mask<Real> leaves_surface() const { return path_.alive && vertex_ > UInt<Real>(0U); }
+    /// The radiance of the path so far, RGB, linear; complete when leave() says that it has ended.
     [[nodiscard]] TANDEM_HD const Vec3<Real>& radiance() const { return radiance_; }
 
-    /// The first half of a step: the next hit of each path. Where one has ended, the next sample's begins.
+    /// The first half of a step: the next hit of each path. Where a path has ended, it starts that of the next sample.
     template <class Tracer>
     TANDEM_HD Closest<Real> find(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                  PathTally<Real>& tally) {
@@ -38,8 +38,8 @@ class PathWalk {
         return next_hit<Effects, Real>(tracer, path_, tally);
     }
 
-    /// The second half: on from the vertex at `hit`. Returns which paths have ended. `threads`: how they wait for each
-    /// other (threads.h).
+    /// The second half: the vertex at `hit`. Returns which paths have ended. `threads`: how they wait for each other
+    /// (threads.h).
     template <class Tracer, class Threads = IndependentThreads>
     TANDEM_HD Mask<Real> leave(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                const Closest<Real>& hit, PathTally<Real>& tally, const Threads& threads = {}) {
@@ -53,12 +53,12 @@ class PathWalk {
         return ended;
     }
 
-    /// References to everything that has a value per lane, except what only some scenes need.
+    /// References to all values per lane, except those that only some scenes need.
     TANDEM_HD auto per_lane() {
         auto& [r, g, b] = radiance_;
         return std::tuple_cat(std::tie(x_, y_, sample_, vertex_, working_, r, g, b), path_.per_lane());
     }
-    TANDEM_HD auto per_lane_of_holes() { return path_.per_lane_of_holes(); }
+    TANDEM_HD auto per_lane_of_masks() { return path_.per_lane_of_masks(); }
     TANDEM_HD auto per_lane_of_lights() { return path_.per_lane_of_lights(); }
 
   private:

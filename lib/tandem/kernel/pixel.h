@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// What a kernel needs of a RenderJob.
+/// The part of a RenderJob that kernels need.
 struct PixelJob {
     CameraView camera;
     std::uint64_t seed;
@@ -24,7 +24,7 @@ TANDEM_HD Mask<Real> is_finite(const Vec3<Real>& a) {
 
 template <class Real>
 struct PixelSum {
-    Vec3<Wide<Real>> sum = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};  ///< over all samples, in their order
+    Vec3<Wide<Real>> sum = {Wide<Real>(0.0), Wide<Real>(0.0), Wide<Real>(0.0)};  ///< of all samples, in their order
     UInt<Real> invalid = UInt<Real>(0U);  ///< samples that were NaN or infinite: counted, not added
     PathTally<Real> tally;
 };
@@ -54,9 +54,9 @@ TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
     pixel.invalid = pixel.invalid + select(valid, Word(0U), Word(1U));
 }
 
-/// The sum over the samples of pixel (x, y), for paths that end at their first vertex: in double, in the order of the
-/// samples, by one owner; this order is what makes films equal. A Real of many lanes renders one pixel per lane, in the
-/// lanes of `active`. `threads`: how they wait for each other (threads.h).
+/// The sum over the samples of pixel (x, y), for paths that end at their first vertex. One thread adds them in double,
+/// in their order: so films have equal bits. A Real of many lanes renders one pixel per lane, in the lanes of `active`.
+/// `threads`: how they wait for each other (threads.h).
 template <class Effects, class Real, class Tracer, class Threads = IndependentThreads>
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active,

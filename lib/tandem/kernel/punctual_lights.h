@@ -1,4 +1,4 @@
-/// Lights without extent at a vertex of a path.
+/// Punctual lights at a vertex of a path.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -21,7 +21,7 @@ struct PunctualLights {
         result.reflected = reflect_light<Effects>(scene, at, ray.intensity, ray.to_light, OnlyDirection());
         if (Effects::has(Effect::shadows)) {
             const bool is_far = Effects::has(Effect::directional_lights) && light.kind == PunctualKind::directional;
-            result.to = is_far ? constant<Real>(-light.direction) : broadcast<Real>(light.position);
+            result.position_or_direction = is_far ? constant<Real>(-light.direction) : broadcast<Real>(light.position);
             result.is_far = Mask<Real>(is_far);
             result.casts_shadows = Mask<Real>(light.casts_shadows != 0);
             if (light.casts_shadows != 0) {

@@ -8,20 +8,20 @@
 
 namespace tandem {
 
-/// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `holes`.
+/// Continues the path along its ray, through the alpha-masked surface that it has hit, in the lanes of `masked`.
 template <class Effects, class Real>
-TANDEM_HD void continue_through_mask(const Closest<Real>& hole, const Mask<Real>& holes,
+TANDEM_HD void continue_through_mask(const Closest<Real>& hit, const Mask<Real>& masked,
                                      PathState<Effects, Real, true>& path) {
     using Word = UInt<Real>;
-    path.source.passed.t = select(holes, hole.t, path.source.passed.t);
-    path.source.passed.primitive = select(holes, hole.primitive, path.source.passed.primitive);
-    path.holes = path.holes + select(holes, Word(1U), Word(0U));
-    path.alive = path.alive || (holes && path.holes <= Word(max_masked_hits));
+    path.source.last_masked.t = select(masked, hit.t, path.source.last_masked.t);
+    path.source.last_masked.primitive = select(masked, hit.primitive, path.source.last_masked.primitive);
+    path.masked_hits = path.masked_hits + select(masked, Word(1U), Word(0U));
+    path.alive = path.alive || (masked && path.masked_hits <= Word(max_masked_hits));
 }
 
 namespace scatter_detail {
 
-/// The random numbers of a lobe. A path follows one lobe of a vertex, so lobes of one kind have the same.
+/// The random numbers of a lobe. A path follows one lobe per vertex, so lobes of one kind may share them.
 template <class Lobe, class Real>
 TANDEM_HD Vec3<Double<Real>> lobe_numbers(const SampleId<Real>& sample, const UInt<Real>& vertex,
                                           const PhiloxBlock<UInt<Real>>& random) {
@@ -37,7 +37,7 @@ TANDEM_HD Vec3<Double<Real>> lobe_numbers(const SampleId<Real>& sample, const UI
     }
 }
 
-/// A direction of `lobe`, world space.
+/// A direction sampled from `lobe`, world space.
 template <class Lobe, class Real>
 TANDEM_HD LobeSample<Real> sample_in_world(const Lobe& lobe, const ShadingFrame<Real>& shading,
                                            const Vec3<Double<Real>>& u) {
@@ -55,12 +55,13 @@ TANDEM_HD_STAGE LobeSample<Real> sample_in_frame(const Lobe& lobe, const Surface
 
 }  // namespace scatter_detail
 
-/// Continues a path along one lobe of the surface, chosen with a probability in proportion to its weight: so for a
-/// surface of one lobe only the lobe's own direction is random. `weights`: those of the local lobes. Lanes that do not
-/// continue leave path.alive; lanes not in it stay as they are. Returns the lanes whose media are lost (Interface).
+/// Samples a lobe of the surface, with a probability in proportion to its weight, and continues the path along it.
+/// `weights`: those of the local lobes. Lanes whose path ends are cleared in path.alive; lanes not in it stay as they
+/// are. Returns the lanes with a mismatch of media (Interface::lost).
 ///
 /// Paths carry L / n^2, which interfaces leave unchanged; a camera in air sees L.
-/// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at a border after E. Veach's thesis, 1997, 5.2.
+/// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at an interface after E. Veach's thesis, 1997,
+/// 5.2.
 template <class Effects, class Real>
 TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
                                    const UInt<Real>& vertex, const Surface<Real>& surface,
@@ -84,7 +85,7 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
         }
     }
 
-    // Choose a lobe, and a direction of it
+    // Sample a lobe and a direction
     PhiloxBlock<Word> random;
     const bool chooses = has_choice<Effects>(surface);
     if (chooses || Effects::has_any(effects_of_random_specular_lobes | Effect::roulette)) {
@@ -127,7 +128,7 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
         const Vec3<Real> brought = {drawn.weight.x / chance, drawn.weight.y / chance, drawn.weight.z / chance};
         path.throughput = select(takes, path.throughput * brought, path.throughput);
 
-        // Specular lobes have no density; that of glossy ones is negative, and counts the choice (PathState::pdf)
+        // Specular lobes have no density; that of glossy ones is negative and includes the choice (PathState::pdf)
         if constexpr (has(Lobe::flags, LobeFlags::diffuse)) {
             path.pdf = select(takes, drawn.pdf, path.pdf);
             path.scatterings = path.scatterings + select(takes, one, none);
@@ -137,14 +138,14 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
         if constexpr (has(Lobe::flags, LobeFlags::glossy)) {
             path.pdf = select(takes, -(drawn.pdf * widen(chance)), path.pdf);
         }
-        // where the shading normal leads through the surface there is no light
+        // no light where the shading normal leads through the surface
         if constexpr (!has(Lobe::flags, LobeFlags::specular)) {
             const Mask<Real> above = drawn.valid && dot(direction, shading.normals.geometric) > D(0.0);
             path.alive = path.alive && (!takes || above);
         }
     });
 
-    // End it, by its limits or by chance
+    // Length limits and Russian roulette
     path.alive = path.alive && chosen && path.reflections <= Word(limits.reflection) &&
                  path.refractions <= Word(limits.refraction) && path.scatterings <= Word(limits.diffuse);
     const Mask<Real> plays = active && Word(scene.roulette_from) <= vertex;
@@ -156,15 +157,14 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
                            path.throughput.z / chance_to_live};
     }
 
-    // Leave the surface. The side follows from the choice: rounding could decide that of a direction close to the
-    // surface.
+    // The new ray. Its side follows from the choice, since rounding could change the side of a grazing direction.
     const Mask<Real> inside = select(goes_through, !shading.from_inside, shading.from_inside);
     path.ray.origin = select(active, departure(point, inside), path.ray.origin);
     path.ray.direction = select(active, to_real<Real>(direction), path.ray.direction);
     path.source.primitive = select(active, point.primitive, path.source.primitive);
     path.source.inside = select(active, inside, path.source.inside);
-    path.forget_holes(scene, active);
-    // a ray of the tier fast may have left the range of float
+    path.forget_masked_hits(scene, active);
+    // in the tier fast a ray may overflow
     if (is_fast<Real>) path.alive = path.alive && is_traceable(path.ray);
     return lost && path.alive;
 }

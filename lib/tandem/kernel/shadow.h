@@ -1,4 +1,4 @@
-/// Shadow rays: is the light at a point blocked?
+/// Shadow rays: whether something blocks a light at a point.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// Are rays counted one by one? Where surfaces send no rays, there are as many as samples.
+/// Whether rays are counted one by one. Without rays from surfaces there are as many as samples.
 template <class Effects>
 TANDEM_HD constexpr bool counts_rays() {
     return Effects::has_any(counted_ray_effects);
@@ -25,11 +25,11 @@ TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> r
 
 }  // namespace shadow_detail
 
-/// Tracer::closest(), for paths and for their shadow rays.
+/// Tracer::closest() for paths and for shadow rays through alpha masks.
 ///
-/// Paths that only pass through alpha masks share one copy with their shadow rays, if the tracer tests all primitives.
-/// For other effects two copies are faster. A tracer with a hierarchy is never called: after such a call the barrier of
-/// the block stopped with "illegal instruction" on an H200 (docs/performance.md, "Barriers").
+/// Without effects that scatter, paths and shadow rays share one out-of-line copy, if the tracer tests all primitives.
+/// With such effects two copies are faster. A tracer with a hierarchy is never called out of line: after such a call
+/// the barrier of the block stopped with "illegal instruction" on an H200 (docs/performance.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active) {
@@ -42,9 +42,9 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
     return tracer.closest(ray, source, active);
 }
 
-/// Tracer::occluded(), through alpha masks. `rays`: one is added for each segment of the ray.
+/// Tracer::occluded() through alpha masks. Adds one to `rays` for each segment of the ray.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView& scene,
+TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene,
                                           const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
                                           UInt<Real>& rays) {
     count_rays<Effects, Real>(shadow.active, rays);
@@ -53,30 +53,30 @@ TANDEM_HD Mask<Real> is_stopped_by_opaque(const Tracer& tracer, const SceneView&
     }
     PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;
-    Mask<Real> stopped(false);
-    for (std::uint32_t holes = 0; holes < max_masked_hits; ++holes) {
+    Mask<Real> blocked(false);
+    for (std::uint32_t masked_hits = 0; masked_hits < max_masked_hits; ++masked_hits) {
         const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open);
-        const Mask<Real> met = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
-        if (!any(met)) return stopped;
+        const Mask<Real> found = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
+        if (!any(found)) return blocked;
         const Mask<Real> passes =
-            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, met);
-        stopped = stopped || (met && !passes);
-        open = met && passes;
-        if (!any(open)) return stopped;
+            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, found);
+        blocked = blocked || (found && !passes);
+        open = found && passes;
+        if (!any(open)) return blocked;
         count_rays<Effects, Real>(open, rays);
-        source.passed.t = select(open, hit.t, source.passed.t);
-        source.passed.primitive = select(open, hit.primitive, source.passed.primitive);
+        source.last_masked.t = select(open, hit.t, source.last_masked.t);
+        source.last_masked.primitive = select(open, hit.primitive, source.last_masked.primitive);
     }
-    return stopped || open;
+    return blocked || open;
 }
 
-/// Is `light` blocked at `point`, in the lanes of `active`? A light exactly at the point contributes nothing.
+/// Whether `light` is blocked at `point`, in the lanes of `active`. A light exactly at the point counts as blocked.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD_STAGE Mask<Real> is_stopped(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
+TANDEM_HD_STAGE Mask<Real> is_blocked(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
                                       const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
-    ShadowRay<Real> shadow = spawn_shadow_ray(point, light.to, light.primitive, light.is_far);
+    ShadowRay<Real> shadow = spawn_shadow_ray(point, light.position_or_direction, light.primitive, light.is_far);
     shadow.active = shadow.active && active;
-    return (active && !shadow.active) || is_stopped_by_opaque<Effects>(tracer, scene, light, shadow, rays);
+    return (active && !shadow.active) || is_blocked_by_opaque<Effects>(tracer, scene, light, shadow, rays);
 }
 
 }  // namespace tandem

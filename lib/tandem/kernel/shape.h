@@ -1,5 +1,5 @@
-/// What a primitive brings (kernel/shapes). The kinds of kernel/view/primitives.def are checked against this when any
-/// kernel is compiled.
+/// The interface of primitives (kernel/shapes). Every kernel checks the kinds of kernel/view/primitives.def against it
+/// at compile time.
 #pragma once
 
 #include <concepts>
@@ -10,15 +10,15 @@
 
 namespace tandem {
 
-/// A plain struct with what follows. It is checked for single rays; packets call the same templates.
-/// - its bounds;
-/// - may_touch(): the filter in float, which rejects no hit;
-/// - first_in_front(): the nearest hit in front of a ray, decided in the type of decisions; of a solid also
-///   first_or_far(), the hit of a ray that has left it;
-/// - record_hit(): what the shape finds out about a hit, for the next three;
+/// A plain struct with these functions. They are checked for single rays; packets use the same templates.
+/// - bounds();
+/// - may_touch(): the filter in float, which never rejects a hit;
+/// - first_hit(): the nearest hit in front of the ray's origin, decided in Double<Real>; for a solid also
+///   first_hit_or_exit(), the hit of a ray that starts on it;
+/// - record_hit(): what the next three need to know about a hit;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
-/// - parametrisation(): texture coordinates and how they grow;
-/// - where area_lights_detail::is_light says so, view_light() and shines(): the light that leaves it, to be sampled.
+/// - parametrisation(): texture coordinates and their derivatives;
+/// - where area_lights_detail::is_light: view_light() and shines(), to sample it as an area light.
 template <class Primitive, class Real>
 concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
@@ -26,9 +26,9 @@ concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standar
              const Vec3<Double<Real>>& v) {
     { bounds(primitive) } -> std::same_as<Aabb>;
     { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
-    { first_in_front(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
+    { first_hit(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
     requires is_face<Primitive> || requires {
-        { first_or_far(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
+        { first_hit_or_exit(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;
     };
     { record_hit(primitive, ray, t, mask, mask) } -> std::same_as<HitRecord<Real>>;
     { surface_point(primitive, record, ray, t) } -> std::same_as<SurfacePoint<Real>>;

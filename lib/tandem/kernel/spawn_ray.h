@@ -1,11 +1,11 @@
 /// Points on surfaces, and the rays that leave from them.
 ///
-/// A point is brought back onto its surface in double and then rounded to Real once: a sphere's and an ellipsoid's
-/// along the line from the centre, a face of a box by copying its coordinate, a triangle's along the normal. Rounding
-/// still leaves it off the surface, by up to half an ulp; that is harmless, because the ray carries its source
-/// (ray_source.h). But the neighbours of a face in a mesh are separate primitives: so a ray that leaves a face starts
-/// so far off its plane, on the ray's side, that rounding cannot put it behind. Everything behind the plane, and so the
-/// rest of a flat or convex mesh, is then out of its way.
+/// A hit point is projected onto its surface in double and then rounded to Real once: for spheres and ellipsoids along
+/// the line from the centre, for boxes by copying the coordinate of the face, for triangles along the normal. The
+/// rounded point is still off the surface by up to half an ulp. This is harmless for the primitive itself, because the
+/// ray carries its source (ray_source.h). But the neighbours of a face in a mesh are separate primitives. So a ray that
+/// leaves a face starts at an offset from its plane, on the ray's side, that rounding cannot undo. Then it cannot hit
+/// anything behind the plane, such as the rest of a flat or convex mesh.
 #pragma once
 
 #include <type_traits>
@@ -19,11 +19,11 @@ namespace tandem {
 template <class Real>
 struct SurfacePoint {
     Vec3<Real> position;
-    Vec3<Double<Real>>
-        normal;  ///< unit, outward, of the point before rounding; of a face its own, not that for shading
+    /// The geometric normal: unit, outward, at the point before rounding.
+    Vec3<Double<Real>> normal;
     UInt<Real> primitive = UInt<Real>(no_primitive);
-    Double<Real> clearance = Double<Real>(0.0);  ///< for a face: from its plane to where rays leave
-    Mask<Real> from_inside = Mask<Real>(false);  ///< the ray came against the outward normal
+    Double<Real> clearance = Double<Real>(0.0);  ///< for a face: distance from its plane at which rays start
+    Mask<Real> from_inside = Mask<Real>(false);  ///< the ray hit the inner side of the surface
 };
 
 namespace spawn_detail {
@@ -48,7 +48,7 @@ TANDEM_HD Vec3<Real> at_offset(const Placement& placement, const Ray<Real>& ray,
 
 }  // namespace spawn_detail
 
-// The point of a primitive at a hit, where `t` is the one that the tracer found. `record`: the shape's, of this hit.
+// The surface point at a hit. `t`: the tracer's. `record`: record_hit() of this hit.
 
 template <class Real>
 TANDEM_HD SurfacePoint<Real> surface_point(const Sphere& sphere, const HitRecord<Real>& record, const Ray<Real>& ray,
@@ -92,7 +92,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Ellipsoid& body, const HitRecor
     const ObjectRay<Real> local = to_object(body, ray);
     point.from_inside = record.from_inside;
     const Vec3<D> unit_point = spawn_detail::along<Real>(local.origin, local.direction, t);
-    // scaling the offset from the centre scales its image in object space alike
+    // a scale of the offset from the centre is the same scale in object space
     point.position = spawn_detail::at_offset(body, ray, t, inverse_square_root(dot(unit_point, unit_point)));
     return point;
 }
@@ -113,7 +113,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Hit
 
 namespace spawn_detail {
 
-/// A point of the plane through v0 with the given normal, and how far rounding may put it off that plane.
+/// A point of the plane through v0 with the given normal, and a bound on its distance from that plane by rounding.
 template <class Real>
 TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real>>& normal, const Ray<Real>& ray,
                                          const Double<Real>& t) {
@@ -124,8 +124,8 @@ TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real
     const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
     const D above = dot(hit - broadcast<D>(v0), normal);
     point.position = to_real<Real>(along<Real>(hit, normal, -above));
-    // Two roundings to Real, that of the point and that of the point off the plane, at most half a unit of each
-    // coordinate; and in the tiers whose decisions are no finer than Real, the errors of the lines above.
+    // Two roundings to Real, of the point and of the offset point, by at most half an ulp of each coordinate. In the
+    // tiers whose Double<Real> is Real, the errors of the lines above come on top.
     using Scalar = typename RealTraits<Real>::Scalar;
     const double unit = sizeof(Scalar) == sizeof(float) ? 0x1p-24 : 0x1p-53;
     const double units = std::is_same_v<Real, D> ? 16 : 3;
@@ -155,15 +155,15 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Quad& quad, const HitRecord<Rea
     return spawn_detail::plane_point(quad.v0, select(first, a, b), ray, t);
 }
 
-/// is_far_side() of primitive `id`, whatever its type.
+/// is_far_side() of primitive `id`, of any type.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray, const From& source,
                                    const Double<Real>& t, const Mask<Real>& here) {
     Mask<Real> far = leaves_inward<Real>(source, id);
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
-        if (has_no_cutouts(scene) || !any(source.passed.t > Double<Real>(0.0))) return far;
+        if (has_no_cutouts(scene) || !any(source.last_masked.t > Double<Real>(0.0))) return far;
         visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
-            // nobody has passed the near side of a body that has no holes
+            // rays pass the near side only of solids with an alpha mask
             if (!may_be_cut_out(kind_of<std::decay_t<decltype(primitive)>>)) return;
             far = is_far_side<Real>(source, primitive, id, ray, t, here);
         });
@@ -171,8 +171,8 @@ TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, con
     return far;
 }
 
-/// The point of primitive `id` at t of a ray that comes from `source` (NoSource, Source<Real> or PathSource<Real>).
-/// `kinds`: the ones that it may be of.
+/// The surface point of primitive `id` at t of a ray from `source` (NoSource, Source<Real> or PathSource<Real>).
+/// `kinds`: the possible kinds of the primitive.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
                                               const From& source, const Double<Real>& t,
@@ -186,7 +186,7 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
     return point;
 }
 
-/// Puts `own` into the lanes of `here`.
+/// Copies `own` to `point` in the lanes of `here`.
 template <class Real>
 TANDEM_HD void keep(const Mask<Real>& here, const SurfacePoint<Real>& own, SurfacePoint<Real>& point) {
     point.position = select(here, own.position, point.position);
@@ -196,7 +196,7 @@ TANDEM_HD void keep(const Mask<Real>& here, const SurfacePoint<Real>& own, Surfa
     point.primitive = select(here, own.primitive, point.primitive);
 }
 
-/// The point of a scene at `hit`, which `ray` from `source` found, in the lanes of `found`.
+/// The surface point at `hit` of `ray` from `source`, in the lanes of `found`.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STAGE SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                                  const Closest<Real>& hit, const Mask<Real>& found) {
@@ -214,7 +214,7 @@ struct SpawnedRay {
     Source<Real> source;
 };
 
-/// Where rays leave a point, to the side of `inside`.
+/// The origin of rays that leave a point, inward in the lanes of `inside`.
 template <class Real>
 TANDEM_HD Vec3<Real> departure(const SurfacePoint<Real>& from, const Mask<Real>& inside) {
     using D = Double<Real>;
@@ -223,17 +223,17 @@ TANDEM_HD Vec3<Real> departure(const SurfacePoint<Real>& from, const Mask<Real>&
     return to_real<Real>(spawn_detail::along<Real>(widen(from.position), from.normal, height));
 }
 
-/// A ray from a point of a surface. The side follows from the sign of direction . normal, in double; a direction in the
-/// tangent plane leaves outward.
+/// A ray from a surface point. Its side is the sign of direction . normal, in double; a direction in the tangent plane
+/// leaves outward.
 template <class Real>
 TANDEM_HD SpawnedRay<Real> spawn_ray(const SurfacePoint<Real>& from, const Vec3<Real>& direction) {
     const Mask<Real> inside = dot(widen(direction), from.normal) < Double<Real>(0.0);
     return {{departure(from, inside), direction}, {from.primitive, inside}};
 }
 
-/// The part at its end that a shadow ray leaves out, relative to its length. The ray's direction is rounded, so
-/// rounding would decide whether it hits a surface that the light lies on. With the gap it does not hit such a surface,
-/// if the cosine to its normal is above 1 / 16.
+/// The end of a shadow ray that does not count, relative to its length. Without it, the rounding of the direction would
+/// decide whether the ray hits a surface on which the light lies. With it, the ray does not hit such a surface if the
+/// cosine to its normal is above 1 / 16.
 template <class Real>
 inline constexpr double shadow_gap = std::is_same_v<Scalar<Real>, double> ? 0x1p-49
                                      : is_fast<Real>                      ? 0x1p-18
@@ -245,8 +245,8 @@ struct ShadowRay {
     Ray<Real> ray;
     ShadowSource<Real> source;
     Double<Real> t_max = constant<Double<Real>>(1.0 - shadow_gap<Real>);
-    /// False where the light is at the point itself, so that the ray has no direction, and where the ray cannot be
-    /// traced because it left the range of the tier fast. Both contribute no light.
+    /// False where the light is at the point itself, so that the ray has no direction, and where the ray overflows in
+    /// the tier fast. In both cases the light contributes nothing.
     Mask<Real> active;
 };
 

@@ -1,5 +1,5 @@
-/// The BSDF of a surface: the sum of the lobes of bsdf/lobes.def. Those that a surface lacks are black; those that a
-/// kernel does not simulate leave neither code nor state.
+/// The BSDF of a surface: the sum of the lobes of bsdf/lobes.def. Lobes that a surface lacks are black; lobes that a
+/// kernel does not simulate cost neither code nor state.
 #pragma once
 
 #include <type_traits>
@@ -17,7 +17,7 @@ struct SurfaceLobes {
 #undef TANDEM_LOBE
 };
 
-/// The place of each lobe in lobes.def.
+/// The index of each lobe in lobes.def.
 struct LobePlace {
     enum Place : int {
 #define TANDEM_LOBE(Type, name, needs, follows, is) name,
@@ -42,7 +42,7 @@ inline constexpr LobeUse use_of;
 
 }  // namespace lobes_detail
 
-/// Does the path loop take a lobe to its local frame?
+/// Whether the path loop evaluates a lobe in its local frame.
 template <class Lobe, class Real>
 inline constexpr bool is_local = !has(Lobe::flags, LobeFlags::specular) && !ReflectsInWorld<Lobe, Real>;
 
@@ -54,7 +54,7 @@ struct LobeKind {
     bool local;
 };
 
-/// The effects that lobes.def has for some kinds of lobes, in one of its columns.
+/// The union of one column of lobes.def over the lobes for which `is_meant`.
 constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(LobeKind)) {
     EffectMask mask;
 #define TANDEM_LOBE(Type, name, needs, follows, is)                                           \
@@ -68,11 +68,11 @@ constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(Lo
 
 }  // namespace lobes_detail
 
-/// The effects that call for lobes of the local frame.
+/// The effects that need lobes in the local frame.
 inline constexpr EffectMask effects_of_local_lobes =
     lobes_detail::effects_of(&lobes_detail::LobeUse::needs, [](lobes_detail::LobeKind kind) { return kind.local; });
 
-// The effects for which paths follow glossy lobes, lobes that are not specular, and specular lobes that draw random
+// The effects for which paths follow glossy lobes, lobes that are not specular, and specular lobes that need random
 // numbers.
 inline constexpr EffectMask effects_of_glossy_lobes = lobes_detail::effects_of(
     &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return has(kind.flags, LobeFlags::glossy); });
@@ -96,7 +96,7 @@ constexpr int glossy_lobes_before(int end) {
 
 }  // namespace lobes_detail
 
-/// Glossy lobes have numbers of their own, from 0 to glossy_lobe_count.
+/// Glossy lobes are numbered among themselves, from 0 to glossy_lobe_count - 1.
 inline constexpr int glossy_lobe_count = lobes_detail::glossy_lobes_before(LobePlace::count);
 template <int place>
 inline constexpr int glossy_number = lobes_detail::glossy_lobes_before(place);
@@ -113,18 +113,18 @@ TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
 #undef TANDEM_LOBE
 }
 
-/// Do paths of some kernel continue along the lobe at `place`?
+/// Whether paths of any kernel continue along the lobe at `place`.
 template <int place>
 inline constexpr bool is_ever_followed = !lobes_detail::use_of<place>.follows.empty();
 
-/// Can paths continue along the lobe at `place`? For types.
+/// Whether paths of this kernel can continue along the lobe at `place`, at compile time.
 template <class Effects, int place>
 TANDEM_HD constexpr bool can_follow() {
     return can_simulate<Effects>(lobes_detail::use_of<place>.needs) &&
            can_simulate<Effects>(lobes_detail::use_of<place>.follows);
 }
 
-/// The same for each lobe that paths continue along.
+/// The same for each lobe along which paths continue.
 template <class Effects, class Lobes, class Visit>
 TANDEM_HD void for_each_followed_lobe(Lobes& lobes, Visit visit) {
     for_each_lobe<Effects>(lobes, [&](auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
@@ -139,7 +139,7 @@ TANDEM_HD void for_each_followed_lobe(Lobes& lobes, Visit visit) {
 template <class T>
 class LobeSum {
   public:
-    /// `nothing`: the sum of no lobes.
+    /// `nothing`: the value of the empty sum.
     TANDEM_HD explicit LobeSum(const T& nothing) : sum_(nothing) {}
     TANDEM_HD void add(const T& addend) {
         if (empty_) {
@@ -167,7 +167,7 @@ TANDEM_HD void keep(const Mask<Real>& mask, const SurfaceLobes<Real>& lobes, Sur
 #undef TANDEM_LOBE
 }
 
-/// Do paths meet lobes that transmit light, in which lanes?
+/// The lanes whose surface transmits light.
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> transmits(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);
@@ -179,7 +179,7 @@ TANDEM_HD Mask<Real> transmits(const SurfaceLobes<Real>& lobes) {
     return result;
 }
 
-/// Can light leave a surface by a lobe that is not specular, in which lanes?
+/// The lanes whose surface has a lobe that is not specular.
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> scatters(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);
@@ -191,7 +191,7 @@ TANDEM_HD Mask<Real> scatters(const SurfaceLobes<Real>& lobes) {
     return result;
 }
 
-/// The same of lobes that work in the local frame.
+/// The same for lobes that work in the local frame.
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> scatters_locally(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);

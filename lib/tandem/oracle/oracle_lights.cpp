@@ -13,7 +13,7 @@ bool is_shadowed(const SceneView& scene, const PunctualLight& light, const Verte
     const bool directional = light.kind == PunctualKind::directional;
     const Vector to_light = directional ? to_vector(light.direction) * -1 : to_vector(light.position) - vertex.point;
     if (!is_in_front(vertex, to_light)) return true;  // behind the surface itself, or at the very point
-    return is_stopped(scene, vertex, to_light, directional ? HUGE_VALL : 1 - rounding);
+    return is_blocked(scene, vertex, to_light, directional ? HUGE_VALL : 1 - rounding);
 }
 
 /// What a light brings to a point, without regard to shadows, and the unit direction to it.
@@ -130,7 +130,7 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
         const Vector brought = reflected(material, vertex, l, facets) * (cosine * light.area / (pi * distance2));
         if (!(largest(brought) > 0) || is_behind_other_half(scene, id, vertex, way, light)) continue;
         if (scene.area_lights_cast_shadows != 0 &&
-            (!is_in_front(vertex, l) || is_stopped(scene, vertex, way, 1 - rounding, id))) {
+            (!is_in_front(vertex, l) || is_blocked(scene, vertex, way, 1 - rounding, id))) {
             continue;
         }
         sum = sum + times(brought, emission_at(scene, id, light));
@@ -145,7 +145,7 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
     if (scene.area_lights_cast_shadows != 0) {
         const bool shared = scene.indirect_light != 0 || material.has_facets;
         if (has_picture(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
-        if (is_stopped(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
+        if (is_blocked(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
     }
     Vector reflected{0, 0, 0};
     if (ends.diffuse) reflected = material.diffuse * (inner(direction, vertex.normal) * uncovered(material, direction));

@@ -71,7 +71,7 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     return vertex;
 }
 
-bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to, std::uint32_t except) {
+bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to, std::uint32_t except) {
     const Line ray = {vertex.point, way};
     const RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
     Passed passed;

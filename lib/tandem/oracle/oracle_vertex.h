@@ -46,7 +46,7 @@ struct Vertex {
 inline constexpr Real rounding = 0x1p-45L;
 
 /// Does anything but holes and `except` stand on the way from `vertex`, up to `to` times `way`?
-[[nodiscard]] bool is_stopped(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
+[[nodiscard]] bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
                               std::uint32_t except = no_primitive);
 
 /// Is a light in the direction l on the side of the surface that is looked at, and before the normal for shading?

@@ -181,7 +181,7 @@ Score normals(Random& random, std::size_t calls) {
     for (std::size_t i = 0; i < calls; ++i) {
         const test::SphereCase c = aim(random, any_unit(random), 1e-3, 10, random.uniform(0.0, 0.999));
         double t = 0;
-        if (!first_in_front(c.sphere, c.ray, t)) continue;
+        if (!first_hit(c.sphere, c.ray, t)) continue;
         const test::BigVector offset = big(c.ray.origin) - big(c.sphere.centre);
         const auto right = test::hit_ball(offset, big(c.ray.direction), test::Big(c.sphere.radius));
         const auto line = [&] { return to_literal(c.ray); };

@@ -66,17 +66,17 @@ struct Interface {
 /// Of one ray; a packet that differs counts as wrong.
 Interface cross_interface(Score& score, const Incidence& in, double eta) {
     const auto one = refract<float>(in.direction, in.normal, eta);
-    const Interface border = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
+    const Interface interface = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
     const auto many = refract<Packet>(broadcast<Wide>(in.direction), broadcast<Wide>(in.normal), Wide(eta));
     const Wide reflectance = fresnel_dielectric<Packet>(many, Wide(eta));
     const auto differs = [](double a, double b) { return bits_of(a) != bits_of(b); };
-    const bool wrong = all(many.transmits) != border.transmits || any(many.transmits) != border.transmits ||
-                       differs(reflectance[1], border.reflectance) ||
-                       (border.transmits && (differs(many.direction.x[0], border.direction.x) ||
-                                             differs(many.direction.y[1], border.direction.y) ||
-                                             differs(many.direction.z[2], border.direction.z)));
+    const bool wrong = all(many.transmits) != interface.transmits || any(many.transmits) != interface.transmits ||
+                       differs(reflectance[1], interface.reflectance) ||
+                       (interface.transmits && (differs(many.direction.x[0], interface.direction.x) ||
+                                                differs(many.direction.y[1], interface.direction.y) ||
+                                                differs(many.direction.z[2], interface.direction.z)));
     score.decide(wrong, [&] { return "a packet differs: " + in.text(eta); });
-    return border;
+    return interface;
 }
 
 /// eta sin = 1 + and - 1e-2 to 1e-12. Not judged within 2^-40, where the rounding of the vectors is as large.
@@ -87,15 +87,16 @@ Score next_to_total(Random& random, std::size_t calls) {
         const double eta = random.uniform(1.05, 2.5);
         const Incidence in = with_sine((1 + gap) / eta, random);
         const Big sine2 = Big(eta) * Big(eta) * in.sine2();
-        const Interface border = cross_interface(score, in, eta);
+        const Interface interface = cross_interface(score, in, eta);
         if (abs(Big(sine2 - 1)) > Big(0x1p-39)) {
-            score.decide(border.transmits != (sine2 < 1), [&] { return in.text(eta); });
+            score.decide(interface.transmits != (sine2 < 1), [&] { return in.text(eta); });
         } else {
             ++score.unjudged;
         }
-        if (!border.transmits || sine2 > 1) continue;
-        const Big error = abs(Big(Big(border.cosine_out) - sqrt(Big(1 - sine2))));
-        score.decide(error > Big(1e-7), [&] { return fmt::format("cosine {}: {}", border.cosine_out, in.text(eta)); });
+        if (!interface.transmits || sine2 > 1) continue;
+        const Big error = abs(Big(Big(interface.cosine_out) - sqrt(Big(1 - sine2))));
+        score.decide(error > Big(1e-7),
+                     [&] { return fmt::format("cosine {}: {}", interface.cosine_out, in.text(eta)); });
     }
     return score;
 }
@@ -106,9 +107,9 @@ Score near_the_normal(Random& random, std::size_t calls) {
     for (std::size_t i = 0; i < calls; ++i) {
         const double eta = random.uniform(0.4, 2.5);
         const Incidence in = with_sine(std::pow(10.0, random.uniform(-6.0, -0.5)), random);
-        const Interface border = cross_interface(score, in, eta);
-        score.decide(!border.transmits, [&] { return in.text(eta); });
-        const Incidence behind = {border.direction, in.normal};
+        const Interface interface = cross_interface(score, in, eta);
+        score.decide(!interface.transmits, [&] { return in.text(eta); });
+        const Incidence behind = {interface.direction, in.normal};
         const Big right = sqrt(Big(Big(eta) * Big(eta) * in.sine2()));
         score.measure(ulps_from(sqrt(behind.sine2()).convert_to<float>(), right.convert_to<double>()),
                       [&] { return in.text(eta); });
@@ -121,8 +122,8 @@ Score equal_indices(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
         const Incidence in = with_cosine(i % 3 == 0 ? 0 : std::exp2(random.uniform(-60.0, 0.0)), random);
-        const Interface border = cross_interface(score, in, 1);
-        const bool wrong = !border.transmits || border.direction != in.direction || border.reflectance != 0;
+        const Interface interface = cross_interface(score, in, 1);
+        const bool wrong = !interface.transmits || interface.direction != in.direction || interface.reflectance != 0;
         score.decide(wrong, [&] { return in.text(1); });
     }
     return score;
@@ -137,8 +138,8 @@ Score grazing(Random& random, std::size_t calls) {
         const Vec3d normal = {0, 0, 1};
         const Incidence in =
             along ? Incidence{{1, 0, 0}, normal} : with_cosine(std::exp2(random.uniform(-60.0, -2.0)), random);
-        const Interface border = cross_interface(score, in, eta);
-        const double r = border.reflectance;
+        const Interface interface = cross_interface(score, in, eta);
+        const double r = interface.reflectance;
         score.decide(!(r >= 0 && r <= 1) || (along && r != 1), [&] { return fmt::format("{}: {}", r, in.text(eta)); });
         score.nans += std::isnan(r);
     }
@@ -151,8 +152,8 @@ Score energy(Random& random, std::size_t calls) {
     for (std::size_t i = 0; i < calls; ++i) {
         const double eta = random.uniform(0.3, 3.0);
         const Incidence in = with_cosine(random.uniform(0.01, 1.0), random);
-        const Interface border = cross_interface(score, in, eta);
-        const double r = border.reflectance, t = 1 - r;
+        const Interface interface = cross_interface(score, in, eta);
+        const double r = interface.reflectance, t = 1 - r;
         score.decide(!(std::abs(r + t - 1) <= 2 * unit), [&] { return in.text(eta); });
         const Big left = 1 - Big(eta) * Big(eta) * in.sine2();
         if (left < Big(1e-4)) continue;  // next to total reflection: F1

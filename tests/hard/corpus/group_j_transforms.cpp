@@ -60,7 +60,7 @@ Score pressed_normals(Random& random, std::size_t calls) {
         const Vec3d origin = any_unit(random) * 5.0;
         const Ray<float> ray = {narrow(origin), narrow(target - origin)};
         double t = 0;
-        if (!first_in_front<float>(ellipsoid_roots(placement, ray), t)) continue;
+        if (!first_hit<float>(ellipsoid_roots(placement, ray), t)) continue;
         const test::BigVector local =
             placement.object_from_world * (test::big(ray.origin) - test::big(placement.centre));
         const test::BigVector direction = placement.object_from_world * test::big(ray.direction);

@@ -64,21 +64,21 @@ void judge_shares(const PreparedScene& scene, const std::vector<double>& powers,
                   Score& score) {
     const std::vector<AreaLight>& lights = scene.area_lights;
     const auto count = static_cast<std::uint32_t>(lights.size());
-    score.decide(lights.size() != powers.size() || lights.back().last != ~std::uint64_t{0},
+    score.decide(lights.size() != powers.size() || lights.back().range_last != ~std::uint64_t{0},
                  [&] { return fmt::format("{}: {} lights, which leave numbers over", what, count); });
     double total = 0;
     for (const double power : powers) total += power;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint64_t first = i == 0 ? 0 : lights[i - 1].last + 1;
-        const Exact numbers = Exact(lights[i].last) - Exact(first) + 1;
-        const Exact off = Exact(lights[i].chance) / numbers * pow(Exact(2), 64) - 1;
+        const std::uint64_t first = i == 0 ? 0 : lights[i - 1].range_last + 1;
+        const Exact numbers = Exact(lights[i].range_last) - Exact(first) + 1;
+        const Exact off = Exact(lights[i].probability) / numbers * pow(Exact(2), 64) - 1;
         const double wanted = 7.0 / 8 * powers[i] / total + 1.0 / 8 / count;
-        const bool is_right = abs(off) <= 0x1p-52 && std::abs(lights[i].chance / wanted - 1) <= 1e-9 &&
+        const bool is_right = abs(off) <= 0x1p-52 && std::abs(lights[i].probability / wanted - 1) <= 1e-9 &&
                               choose_area_light(lights.data(), count, first) == i &&
-                              choose_area_light(lights.data(), count, lights[i].last) == i &&
-                              chance_of(lights.data(), count, lights[i].primitive) == lights[i].chance;
+                              choose_area_light(lights.data(), count, lights[i].range_last) == i &&
+                              probability_of(lights.data(), count, lights[i].primitive) == lights[i].probability;
         score.decide(!is_right, [&] {
-            return fmt::format("{}: light {} is drawn with {} in place of {}", what, i, lights[i].chance, wanted);
+            return fmt::format("{}: light {} is drawn with {} in place of {}", what, i, lights[i].probability, wanted);
         });
     }
 }

@@ -78,8 +78,8 @@ TEST_P(Affine, DecidesRightAndIsWithinOneUlp) {
             return (is_box ? "parallelepiped " : "ellipsoid ") + std::to_string(number) + ": " + test::reproducer(ray);
         };
         double t = 0;
-        const bool hit = is_box ? first_in_front<float>(cross_parallelepiped(to_object(placement, ray)), t)
-                                : first_in_front<float>(ellipsoid_roots(placement, ray), t);
+        const bool hit = is_box ? first_hit<float>(cross_parallelepiped(to_object(placement, ray)), t)
+                                : first_hit<float>(ellipsoid_roots(placement, ray), t);
         const Object object = to_exact_object(placement, ray);
         const auto smaller = exact_hit(object, is_box, 1 - 0x1p-30);
         const auto larger = exact_hit(object, is_box, 1 + 0x1p-30);
@@ -120,7 +120,7 @@ TEST(AffineNormal, IsTheGradient) {
         const Placement placement = any_placement(random, false);
         const Ray<float> ray = any_ray(random, placement);
         double t = 0;
-        if (!first_in_front<float>(ellipsoid_roots(placement, ray), t)) continue;
+        if (!first_hit<float>(ellipsoid_roots(placement, ray), t)) continue;
         const Object object = to_exact_object(placement, ray);
         const auto exact = exact_hit(object, false, 1);
         if (!exact) continue;

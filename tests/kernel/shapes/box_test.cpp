@@ -32,7 +32,7 @@ TEST_P(BoxAgainstOracle, DecidesRightAndIsWithinOneUlp) {
         if (!is_traceable(c.ray)) continue;
         double t = 0;
         const auto crossing = cross_box(c.box, c.ray);
-        const bool hit = first_in_front<float>(crossing, t);
+        const bool hit = first_hit<float>(crossing, t);
         const auto exact = test::hit_box(test::big(c.ray.origin), test::big(c.ray.direction), test::big(c.box.lower),
                                          test::big(c.box.upper));
         if (hit != exact.has_value()) {
@@ -75,10 +75,10 @@ TEST(Box, RayInThePlaneOfAFaceHits) {
     for (const float side : {-1.0F, 1.0F}) {
         for (const float zero : {0.0F, -0.0F}) {
             double t = 0;
-            ASSERT_TRUE(first_in_front<float>(cross_box(unit, Ray<float>{{side, 0, -3}, {zero, zero, 1}}), t));
+            ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{side, 0, -3}, {zero, zero, 1}}), t));
             EXPECT_EQ(t, 2.0);
             const float outside = std::nextafter(side, 2 * side);
-            EXPECT_FALSE(first_in_front<float>(cross_box(unit, Ray<float>{{outside, 0, -3}, {zero, zero, 1}}), t));
+            EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{outside, 0, -3}, {zero, zero, 1}}), t));
         }
     }
 }
@@ -93,10 +93,10 @@ TEST(Box, TieAtACornerGoesToTheLowestAxis) {
 
 TEST(Box, OriginOnAFace) {
     double t = 0;
-    EXPECT_FALSE(first_in_front<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
-    ASSERT_TRUE(first_in_front<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
+    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
+    ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
     EXPECT_EQ(t, 2.0);
-    ASSERT_TRUE(first_in_front<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along: to the edge";
+    ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along: to the edge";
     EXPECT_EQ(t, 1.0);
 }
 
@@ -104,7 +104,7 @@ TEST(Box, OriginInsideReportsTheExitWithAnOutwardNormal) {
     const Ray<float> ray = {{0, 0, 0}, {0, -2, 0.5F}};
     const auto crossing = cross_box(unit, ray);
     double t = 0;
-    ASSERT_TRUE(first_in_front<float>(crossing, t));
+    ASSERT_TRUE(first_hit<float>(crossing, t));
     EXPECT_EQ(t, 0.5);
     EXPECT_EQ(face_normal(record_hit<float>(crossing, widen(ray.direction), false)), (Vec3d{0, -1, 0}));
 }
@@ -117,13 +117,13 @@ TEST(Box, NanAndInfinityMiss) {
             Ray<float> ray = {{0.5F, 0.25F, -3}, {0, 0, 1}};
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             double t = 0;
-            EXPECT_FALSE(is_traceable(ray) && first_in_front<float>(cross_box(unit, ray), t)) << i << " is " << bad;
+            EXPECT_FALSE(is_traceable(ray) && first_hit<float>(cross_box(unit, ray), t)) << i << " is " << bad;
         }
     }
     double t = 0;
-    EXPECT_FALSE(first_in_front<float>(cross_box(Box{{nan, -1, -1}, {1, 1, 1}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));
-    EXPECT_FALSE(first_in_front<float>(cross_box(unit, Ray<float>{{0, 0, -3}, {0, nan, 1}}), t));
-    EXPECT_FALSE(first_in_front<float>(cross_box(unit, Ray<float>{{nan, 0, -3}, {0, 0, 1}}), t));
+    EXPECT_FALSE(first_hit<float>(cross_box(Box{{nan, -1, -1}, {1, 1, 1}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));
+    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{0, 0, -3}, {0, nan, 1}}), t));
+    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{nan, 0, -3}, {0, 0, 1}}), t));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(FirstInFront, IsTheLeastPositiveParameter) {
     };
     for (const FrontCase& c : cases) {
         double t = -7;
-        EXPECT_EQ(first_in_front(c.crossing, t), c.hit) << c.crossing.t_near << " to " << c.crossing.t_far;
+        EXPECT_EQ(first_hit(c.crossing, t), c.hit) << c.crossing.t_near << " to " << c.crossing.t_far;
         if (c.hit) {
             EXPECT_EQ(t, c.t);
         }

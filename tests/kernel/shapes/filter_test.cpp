@@ -38,7 +38,7 @@ void check(const Sphere& sphere, const Ray<float>& ray, const std::string& where
     bool passes =
         may_touch_sphere(f, sphere.centre, sphere.radius) && !is_behind_sphere(f, sphere.centre, sphere.radius);
     if (!passes) ++rejected;
-    if (!first_in_front(sphere, ray, t)) return;
+    if (!first_hit(sphere, ray, t)) return;
     for (const auto& packet : packets()) passes = passes && packet.may_touch_sphere(&sphere.centre.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
@@ -49,7 +49,7 @@ void check(const Box& box, const Ray<float>& ray, const std::string& where, int&
     double t = 0;
     bool passes = may_touch_box(make_filter_ray(ray), box.lower, box.upper);
     if (!passes) ++rejected;
-    if (!first_in_front<float>(cross_box(box, ray), t)) return;
+    if (!first_hit<float>(cross_box(box, ray), t)) return;
     for (const auto& packet : packets()) passes = passes && packet.may_touch_box(&box.lower.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);
@@ -60,7 +60,7 @@ void check(const Triangle& triangle, const Ray<float>& ray, const std::string& w
     double t = 0;
     bool passes = may_touch_triangle(make_filter_ray(ray), triangle.v0, triangle.v1, triangle.v2);
     if (!passes) ++rejected;
-    if (!first_in_front(triangle, ray, t)) return;
+    if (!first_hit(triangle, ray, t)) return;
     for (const auto& packet : packets()) passes = passes && packet.may_touch_triangle(&triangle.v0.x, &ray.origin.x);
     ++hits;
     ASSERT_TRUE(passes) << "rejected a hit at t = " << t << ": " << where << ", " << test::reproducer(ray);

@@ -23,7 +23,7 @@ struct Ball {
     }
     [[nodiscard]] bool is_hit(std::size_t face, const Ray<float>& ray) const {
         double t = 0;
-        return first_in_front(corner(face, 0), corner(face, 1), corner(face, 2), ray, t);
+        return first_hit(corner(face, 0), corner(face, 1), corner(face, 2), ray, t);
     }
     Mesh mesh;
     std::vector<std::vector<std::size_t>> faces_at;  ///< by vertex

@@ -26,7 +26,7 @@ Parametrisation<double> seen(const Body& body, const Vec3d& target, const Vec3d&
                              const Vec2f* texcoords = nullptr) {
     const Ray<double> ray = {target + outside, -outside};
     double t = 0;
-    EXPECT_TRUE(first_in_front(body, ray, t));
+    EXPECT_TRUE(first_hit(body, ray, t));
     return parametrisation(body, record_hit(body, ray, t, false, true), texcoords, ray, t, true);
 }
 
@@ -169,7 +169,7 @@ TEST(Parametrisation, OfABoxFromWithinIsThatOfTheFaceThatIsSeen) {
     const Box box = {{0, 0, 0}, {1, 1, 1}};
     const Ray<double> ray = {{0.5, 0.5, 0.5}, {1, 0.25, 0}};
     double t = 0;
-    ASSERT_TRUE(first_in_front(box, ray, t));
+    ASSERT_TRUE(first_hit(box, ray, t));
     const auto found = parametrisation(box, record_hit(box, ray, t, false, true), nullptr, ray, t, true);
     EXPECT_EQ(found.u, 0.5);
     EXPECT_EQ(found.v, 0.375);
@@ -282,7 +282,7 @@ TEST(Parametrisation, GivesPacketsTheBitsOfSingleRays) {
             {Packet::from(any), Packet::from(any), Packet(9.0F)},
             {Packet(0.0F), Packet::from([&](int) { return random.uniform(-0.01F, 0.01F); }), Packet(-1.0F)}};
         Double<Packet> t;
-        ASSERT_TRUE(all(first_in_front(body, rays, t)));
+        ASSERT_TRUE(all(first_hit(body, rays, t)));
         const auto found =
             parametrisation<Packet>(body, record_hit<Packet>(body, rays, t, LaneMaskOf(false), LaneMaskOf(true)),
                                     nullptr, rays, t, LaneMaskOf(true));

@@ -37,7 +37,7 @@ TEST(Quad, IsTheNearerOfItsTwoTriangles) {
             if (hit && (!nearest || hit->t < *nearest)) nearest = hit->t;
         }
         double t = 0;
-        ASSERT_EQ(first_in_front(quad, ray, t), nearest.has_value()) << "case " << number;
+        ASSERT_EQ(first_hit(quad, ray, t), nearest.has_value()) << "case " << number;
         if (!nearest) continue;
         ++hits;
         ASSERT_LE(test::error_in_ulps(narrow(t), *nearest), 1) << "case " << number;
@@ -58,7 +58,7 @@ TEST(Quad, LetsNothingThroughItsDiagonal) {
         const Vec3f origin = narrow(v0 + cross(across, normalize(v2 - v0)) * random.uniform(0.5, 50.0));
         const Vec3d target = v0 + (v2 - v0) * random.uniform(0.05, 0.95);
         double t = 0;
-        ASSERT_TRUE(first_in_front(quad, Ray<float>{origin, narrow(target - widen(origin))}, t)) << "case " << number;
+        ASSERT_TRUE(first_hit(quad, Ray<float>{origin, narrow(target - widen(origin))}, t)) << "case " << number;
     }
 }
 
@@ -66,7 +66,7 @@ TEST(Quad, CoordinatesRunAlongItsEdges) {
     const auto at = [](const Quad& quad, float x, float y) {
         const Ray<float> ray = {{x, y, 1}, {0, 0, -1}};
         double t = 0;
-        EXPECT_TRUE(first_in_front(quad, ray, t));
+        EXPECT_TRUE(first_hit(quad, ray, t));
         const bool first = is_in_first_half(record_hit(quad, ray, t, false, true));
         const auto corners = first ? barycentrics(quad.v0, quad.v1, quad.v2, ray, true)
                                    : barycentrics(quad.v0, quad.v2, quad.v3, ray, true);

@@ -62,7 +62,7 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
                                 narrow(with_cosine(normal, cosine, random) * std::exp2(random.uniform(-30.0, 30.0)))};
         const RaySource source = {own_id, cosine < 0};
         double t = -1;
-        const bool hit = first_from<float>(source, sphere, own_id, ray, true, HUGE_VAL, t);
+        const bool hit = first_hit_from<float>(source, sphere, own_id, ray, true, HUGE_VAL, t);
         ASSERT_EQ(hit, source.inside) << "case " << number << ": " << test::reproducer(ray);
         ++(hit ? inward : outward);
         if (!hit) continue;
@@ -72,8 +72,8 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
             ADD_FAILURE() << error << " ulp, case " << number << ": " << test::reproducer(ray);
         // for another primitive in the same place, the origin is anywhere
         double t_other = 0, t_free = 0;
-        const bool other = first_from<float>(source, sphere, own_id + 1, ray, true, HUGE_VAL, t_other);
-        ASSERT_EQ(other, first_from<float>(NoSource{}, sphere, own_id + 1, ray, true, HUGE_VAL, t_free))
+        const bool other = first_hit_from<float>(source, sphere, own_id + 1, ray, true, HUGE_VAL, t_other);
+        ASSERT_EQ(other, first_hit_from<float>(NoSource{}, sphere, own_id + 1, ray, true, HUGE_VAL, t_free))
             << "case " << number;
         if (other) {
             ASSERT_EQ(t_other, t_free) << "case " << number;
@@ -113,7 +113,7 @@ TEST_P(BoxSurface, IsLeftOutwardAndCrossedInward) {
         const Ray<float> ray = {origin, narrow(direction)};
         const RaySource source = {own_id, widen(ray.direction[axis]) * side < 0};
         double t = -1;
-        const bool hit = first_from<float>(source, box, own_id, ray, true, HUGE_VAL, t);
+        const bool hit = first_hit_from<float>(source, box, own_id, ray, true, HUGE_VAL, t);
         ASSERT_EQ(hit, source.inside) << "case " << number << ": " << test::reproducer(ray);
         if (!hit) continue;
         // the earliest exit of the three slabs
@@ -139,20 +139,20 @@ TEST(ShadowSource, DoesNotSeeTheLight) {
     const Ray<float> ray = {{0, 0, 0}, {0, 0, 1}};
     ShadowSource<float> source;
     double t = 0;
-    EXPECT_TRUE(first_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
+    EXPECT_TRUE(first_hit_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
     source.light = 3;
-    EXPECT_FALSE(first_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
-    EXPECT_TRUE(first_from<float>(source, light, 4, ray, true, HUGE_VAL, t));
+    EXPECT_FALSE(first_hit_from<float>(source, light, 3, ray, true, HUGE_VAL, t));
+    EXPECT_TRUE(first_hit_from<float>(source, light, 4, ray, true, HUGE_VAL, t));
 }
 
 /// Where a ray along -z from z = 4 hits a face, as a path's; infinity for a miss.
 template <class Face>
-double first_of_path(const Face& face, bool culls, double passed = 0) {
+double first_of_path(const Face& face, bool culls, double last_masked = 0) {
     const Ray<float> ray = {{0.125F, 0.5F, 4}, {0, 0, -1}};
     PathSource<float> source;
-    if (passed > 0) source.passed = {passed, 3};
+    if (last_masked > 0) source.last_masked = {last_masked, 3};
     double t = HUGE_VAL;
-    return first_from<float>(source, face, 3, ray, true, HUGE_VAL, t, culls) ? t : HUGE_VAL;
+    return first_hit_from<float>(source, face, 3, ray, true, HUGE_VAL, t, culls) ? t : HUGE_VAL;
 }
 
 TEST(PathSource, PassesTheBackOfACulledFace) {

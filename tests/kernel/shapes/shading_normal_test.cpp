@@ -50,7 +50,7 @@ TEST(ShadingNormal, IsUnitEverywhere) {
         for (std::uint64_t number = 0; number < 2000; ++number) {
             const auto c = test::triangle_case(kind, number);
             double t = 0;
-            if (!is_traceable(c.ray) || !first_in_front(c.triangle, c.ray, t)) continue;
+            if (!is_traceable(c.ray) || !first_hit(c.triangle, c.ray, t)) continue;
             test::Random random(number);
             const Vec3f normals[] = {narrow(test::any_unit(random)), narrow(test::any_unit(random)),
                                      narrow(test::any_unit(random))};
@@ -67,7 +67,7 @@ TEST(ShadingNormal, OfAQuadIsContinuousOverTheDiagonal) {
     const Vec3f normals[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
     const auto at = [&](float x, float y) {
         double t = 0;
-        EXPECT_TRUE(first_in_front(quad, down(x, y), t));
+        EXPECT_TRUE(first_hit(quad, down(x, y), t));
         return shading_normal(quad, record_hit(quad, down(x, y), t, false, true), normals, down(x, y), true);
     };
     const Vec3d one_side = at(0.5F, 0.49999F), other_side = at(0.49999F, 0.5F);

@@ -33,11 +33,11 @@ TEST_P(SphereAgainstOracle, DecidesRightAndIsWithinOneUlp) {
         const SphereCase c = test::sphere_case(kind, number);
         if (!is_traceable(c.ray)) continue;
         double t = 0;
-        const bool hit = first_in_front(c.sphere, c.ray, t);
+        const bool hit = first_hit(c.sphere, c.ray, t);
         // the roots and both crossings say the same as this short cut
         double t_of_roots = 0, t_of_both = 0;
-        ASSERT_EQ(first_in_front(sphere_roots(c.sphere, c.ray), t_of_roots), hit) << describe(kind, number, c);
-        ASSERT_EQ(first_in_front(cross_sphere(c.sphere, c.ray), t_of_both), hit) << describe(kind, number, c);
+        ASSERT_EQ(first_hit(sphere_roots(c.sphere, c.ray), t_of_roots), hit) << describe(kind, number, c);
+        ASSERT_EQ(first_hit(cross_sphere(c.sphere, c.ray), t_of_both), hit) << describe(kind, number, c);
         if (hit) {
             ASSERT_EQ(t_of_roots, t) << describe(kind, number, c);
             ASSERT_EQ(t_of_both, t) << describe(kind, number, c);
@@ -72,7 +72,7 @@ TEST(Sphere, TangentLineHitsOnceAtTheTouchingPoint) {
     const Sphere unit = {{0, 0, 0}, 1};
     double t = 0;
     const auto crossing = cross_sphere(unit, Ray<float>{{1, 0, -5}, {0, 0, 1}});
-    ASSERT_TRUE(first_in_front(crossing, t));
+    ASSERT_TRUE(first_hit(crossing, t));
     EXPECT_EQ(crossing.t_near, 5.0);
     EXPECT_EQ(crossing.t_far, 5.0);
 }
@@ -80,15 +80,15 @@ TEST(Sphere, TangentLineHitsOnceAtTheTouchingPoint) {
 TEST(Sphere, OriginOnTheSurface) {
     const Sphere unit = {{0, 0, 0}, 1};
     double t = 0;
-    EXPECT_FALSE(first_in_front(cross_sphere(unit, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
-    EXPECT_FALSE(first_in_front(cross_sphere(unit, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along";
-    ASSERT_TRUE(first_in_front(cross_sphere(unit, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
+    EXPECT_FALSE(first_hit(cross_sphere(unit, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
+    EXPECT_FALSE(first_hit(cross_sphere(unit, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along";
+    ASSERT_TRUE(first_hit(cross_sphere(unit, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
     EXPECT_EQ(t, 2.0);
 }
 
 TEST(Sphere, OriginInsideReportsTheExit) {
     double t = 0;
-    ASSERT_TRUE(first_in_front(cross_sphere(Sphere{{0, 0, 0}, 1e7F}, Ray<float>{{0, 0, 0}, {0, -2, 0}}), t));
+    ASSERT_TRUE(first_hit(cross_sphere(Sphere{{0, 0, 0}, 1e7F}, Ray<float>{{0, 0, 0}, {0, -2, 0}}), t));
     EXPECT_EQ(t, 5e6);
 }
 
@@ -102,10 +102,10 @@ TEST(Sphere, NanAndInfinityMiss) {
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             EXPECT_FALSE(is_traceable(ray));
             double t = 0;
-            EXPECT_FALSE(first_in_front(unit, ray, t)) << "component " << i << " is " << bad;
+            EXPECT_FALSE(first_hit(unit, ray, t)) << "component " << i << " is " << bad;
         }
         double t = 0;
-        EXPECT_FALSE(first_in_front(cross_sphere(Sphere{{nan, 0, 0}, 1}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));
+        EXPECT_FALSE(first_hit(cross_sphere(Sphere{{nan, 0, 0}, 1}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));
     }
     EXPECT_FALSE(is_traceable(Ray<float>{{0, 0, 0}, {0, -0.0F, 0}}));
     EXPECT_FALSE(is_traceable(Ray<float>{{1.01e18F, 0, 0}, {0, 1, 0}}));
@@ -117,7 +117,7 @@ TEST(Sphere, NormalIsUnitAndRight) {
         for (std::uint64_t number = 0; number < 2000; ++number) {
             const SphereCase c = test::sphere_case(kind, number);
             double t = 0;
-            if (!first_in_front(cross_sphere(c.sphere, c.ray), t)) continue;
+            if (!first_hit(cross_sphere(c.sphere, c.ray), t)) continue;
             const test::BigVector offset = test::big(c.ray.origin) - test::big(c.sphere.centre);
             const test::BigVector direction = test::big(c.ray.direction);
             const auto exact = test::hit_ball(offset, direction, Big(c.sphere.radius));

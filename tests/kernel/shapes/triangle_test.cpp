@@ -1,4 +1,4 @@
-// first_in_front and barycentrics of a triangle against exact arithmetic on the same floats.
+// first_hit and barycentrics of a triangle against exact arithmetic on the same floats.
 #include "tandem/kernel/shapes/triangle.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_P(TriangleAgainstOracle, DecidesRightAndGivesTheNearestT) {
         const TriangleCase c = test::triangle_case(kind, number);
         if (!is_traceable(c.ray)) continue;
         double t = 0;
-        const bool hit = first_in_front(c.triangle, c.ray, t);
+        const bool hit = first_hit(c.triangle, c.ray, t);
         const auto exact = exact_hit(c);
         if (hit != exact.has_value()) {
             if (++wrong <= 3) ADD_FAILURE() << (hit ? "false hit: " : "missed: ") << describe(kind, number, c);
@@ -52,10 +52,10 @@ TEST_P(TriangleAgainstOracle, DecidesRightAndGivesTheNearestT) {
         }
         double t_limited = 0;
         for (const double farthest : {t, 2 * t}) {
-            ASSERT_TRUE(first_in_front(c.triangle, c.ray, t_limited, true, farthest) && t_limited == t)
+            ASSERT_TRUE(first_hit(c.triangle, c.ray, t_limited, true, farthest) && t_limited == t)
                 << "as far as " << farthest << ": " << describe(kind, number, c);
         }
-        const bool found_beyond = first_in_front(c.triangle, c.ray, t_limited, true, t / 2);
+        const bool found_beyond = first_hit(c.triangle, c.ray, t_limited, true, t / 2);
         ASSERT_TRUE(!found_beyond || t_limited == t) << describe(kind, number, c);
         const auto at = barycentrics(c.triangle.v0, c.triangle.v1, c.triangle.v2, c.ray, true);
         ASSERT_TRUE(at.u >= 0 && at.v >= 0 && at.u <= 1 && at.v <= 1 && at.u + at.v <= 1)
@@ -88,7 +88,7 @@ TEST_P(TriangleAgainstOracle, DecidesRightForRaysInDouble) {
         };
         const Ray<double> ray = {off(c.ray.origin), random.coin() ? off(c.ray.direction) : widen(c.ray.direction)};
         double t = 0;
-        const bool hit = first_in_front(c.triangle, ray, t);
+        const bool hit = first_hit(c.triangle, ray, t);
         const auto exact = test::hit_triangle(test::big(ray.origin), test::big(ray.direction), test::big(c.triangle.v0),
                                               test::big(c.triangle.v1), test::big(c.triangle.v2));
         ASSERT_EQ(hit, exact.has_value()) << describe(kind, number, c);
@@ -112,8 +112,8 @@ const Triangle unit = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 TEST(Triangle, LeavesOutWhatIsTooFar) {
     const Ray<float> ray = {{0.25F, 0.25F, 1}, {0, 0, -2}};
     double t = 0;
-    EXPECT_FALSE(first_in_front(unit, ray, t, true, 0.49));
-    EXPECT_TRUE(first_in_front(unit, ray, t, true, 0.5)) << "at the same t ids decide";
+    EXPECT_FALSE(first_hit(unit, ray, t, true, 0.49));
+    EXPECT_TRUE(first_hit(unit, ray, t, true, 0.5)) << "at the same t ids decide";
 }
 
 TEST(Triangle, IsClosedAndHasTwoSides) {
@@ -121,25 +121,24 @@ TEST(Triangle, IsClosedAndHasTwoSides) {
         for (const Vec3f& at : {Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0.5F, 0.5F, 0},
                                 Vec3f{0, 0.25F, 0}, Vec3f{0.125F, 0, 0}, Vec3f{0.25F, 0.25F, 0}}) {
             double t = 0;
-            EXPECT_TRUE(first_in_front(unit, Ray<float>{{at.x, at.y, side}, {0, 0, -2 * side}}, t))
-                << at.x << " " << at.y;
+            EXPECT_TRUE(first_hit(unit, Ray<float>{{at.x, at.y, side}, {0, 0, -2 * side}}, t)) << at.x << " " << at.y;
             EXPECT_EQ(t, 0.5);
         }
         const float beyond = std::nextafter(0.5F, 1.0F);
         double t = 0;
-        EXPECT_FALSE(first_in_front(unit, Ray<float>{{0.5F, beyond, side}, {0, 0, -side}}, t));
-        EXPECT_FALSE(first_in_front(unit, Ray<float>{{-0x1p-149F, 0.5F, side}, {0, 0, -side}}, t));
+        EXPECT_FALSE(first_hit(unit, Ray<float>{{0.5F, beyond, side}, {0, 0, -side}}, t));
+        EXPECT_FALSE(first_hit(unit, Ray<float>{{-0x1p-149F, 0.5F, side}, {0, 0, -side}}, t));
     }
 }
 
 TEST(Triangle, OriginInThePlaneAndLinesInThePlaneMiss) {
     double t = 0;
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{0.25F, 0.25F, 0}, {0, 0, 1}}, t));
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{0.25F, 0.25F, 0}, {0.3F, 0, -1e-20F}}, t));
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{-1, 0.25F, 0}, {1, 0, 0}}, t));
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{-1, 0, 0}, {1, 0, 0}}, t)) << "along an edge";
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{0.25F, 0.25F, 1}, {0, 0, 1}}, t)) << "behind";
-    EXPECT_TRUE(first_in_front(unit, Ray<float>{{0.25F, 0.25F, 0x1p-149F}, {0, 0, -1}}, t));
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0}, {0, 0, 1}}, t));
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0}, {0.3F, 0, -1e-20F}}, t));
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{-1, 0.25F, 0}, {1, 0, 0}}, t));
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{-1, 0, 0}, {1, 0, 0}}, t)) << "along an edge";
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 1}, {0, 0, 1}}, t)) << "behind";
+    EXPECT_TRUE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0x1p-149F}, {0, 0, -1}}, t));
     EXPECT_EQ(t, 0x1p-149);
 }
 
@@ -159,7 +158,7 @@ TEST(Triangle, CoplanarOnesAgreeOnT) {
         const Vec3f origin = narrow(test::any_unit(random) * 3.0);
         const Ray<float> ray = {origin, narrow(test::point_of(random, a) - widen(origin))};
         double t_a = 0, t_b = 0;
-        if (!first_in_front(a, ray, t_a) || !first_in_front(b, ray, t_b)) continue;
+        if (!first_hit(a, ray, t_a) || !first_hit(b, ray, t_b)) continue;
         ++pairs;
         ASSERT_EQ(t_a, t_b) << "case " << number;
     }
@@ -190,12 +189,12 @@ TEST(Triangle, NanAndInfinityMiss) {
             Ray<float> ray = {{0.25F, 0.25F, -3}, {0, 0, 1}};
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             double t = 0;
-            EXPECT_FALSE(is_traceable(ray) && first_in_front(unit, ray, t)) << i << " is " << bad;
+            EXPECT_FALSE(is_traceable(ray) && first_hit(unit, ray, t)) << i << " is " << bad;
         }
     }
     double t = 0;
-    EXPECT_FALSE(first_in_front(Triangle{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}, t));
-    EXPECT_FALSE(first_in_front(unit, Ray<float>{{0, nan, -3}, {0, 0, 1}}, t));
+    EXPECT_FALSE(first_hit(Triangle{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}, t));
+    EXPECT_FALSE(first_hit(unit, Ray<float>{{0, nan, -3}, {0, 0, 1}}, t));
 }
 
 TEST(Triangle, BoundsHoldTheCorners) {

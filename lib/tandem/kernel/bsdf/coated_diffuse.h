@@ -1,4 +1,4 @@
-/// A diffuse surface under a border that takes its share of the light first.
+/// The diffuse base of a dielectric, below an interface that reflects part of the light.
 #pragma once
 
 #include "tandem/kernel/bsdf/lambert.h"
@@ -6,14 +6,15 @@
 
 namespace tandem {
 
-/// f = reflectance / pi (1 - F), with F of the microfacet that would mirror wo to wi: what glTF 2.0, appendix B, leaves
-/// of a dielectric's diffuse base below the reflection (GgxReflection with the same f0). Drawn as Lambert.
+/// f = reflectance / pi (1 - F), with F of the microfacet that would mirror wo to wi: the diffuse term of a dielectric
+/// in glTF 2.0, appendix B, below the reflection (GgxReflection with the same f0). Sampled as Lambert.
 ///
-/// By itself it gives no more than it gets. With a smooth border the two together win energy at grazing angles, because
-/// F of the facet between is small there for most light: a white base under a border with f0 = 0.04 gives 1.15 at
-/// 73 degrees and 1.72 at 87 degrees. With alpha >= 1/2 it is less than 1.05. That is the appendix's own model.
+/// By itself it conserves energy. With a smooth interface the two together gain energy at grazing angles, because F of
+/// the facet in between is small there for most light: a white base under an interface with f0 = 0.04 reflects 1.15 at
+/// 73 degrees and 1.72 at 87 degrees. With alpha >= 1/2 it is less than 1.05. This is a property of the model in the
+/// appendix.
 ///
-/// Held by tests/kernel/bsdf/coated_diffuse_test.cpp and all_lobes_test.cpp.
+/// Tested by tests/kernel/bsdf/coated_diffuse_test.cpp and all_lobes_test.cpp.
 template <class Real>
 struct CoatedDiffuse {
     using D = Double<Real>;
@@ -21,7 +22,7 @@ struct CoatedDiffuse {
     static constexpr int numbers = 2;
 
     Lambert<Real> base;
-    Real f0;  ///< reflectance of the border at normal incidence, in [0, 1]
+    Real f0;  ///< reflectance of the interface at normal incidence, in [0, 1]
 
     [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return base.colour(); }
     [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return base.scatters(); }
@@ -38,7 +39,7 @@ struct CoatedDiffuse {
         return drawn;
     }
 
-    /// As if no light grazed.
+    /// Approximated without the increase of F at grazing angles.
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const { return base.albedo(wo) * (Real(1.0F) - f0); }
 
     TANDEM_HD friend CoatedDiffuse select(const Mask<Real>& mask, const CoatedDiffuse& a, const CoatedDiffuse& b) {

@@ -1,4 +1,4 @@
-/// A smooth border between two clear media.
+/// A smooth interface between two clear media.
 #pragma once
 
 #include "tandem/kernel/bsdf/fresnel.h"
@@ -6,17 +6,16 @@
 
 namespace tandem {
 
-/// Reflects or refracts: each is chosen with its share of the light, Fresnel's reflectance, so that the weight is the
-/// `share`.
-/// Radiance is followed as L / n^2, which borders leave as it is. Total internal reflection always reflects.
-/// Source: E. Veach's thesis, 1997, 5.2. Held by tests/kernel/bsdf/specular_lobes_test.cpp.
+/// Reflects with a probability of Fresnel's reflectance, else refracts, so that the weight is `share`. Paths carry L /
+/// n^2, which interfaces leave unchanged. Total internal reflection always reflects.
+/// Source: E. Veach's thesis, 1997, 5.2. Tested by tests/kernel/bsdf/specular_lobes_test.cpp.
 template <class Real>
 struct Dielectric {
     using D = Double<Real>;
     static constexpr LobeFlags flags = LobeFlags::reflection | LobeFlags::transmission | LobeFlags::specular;
     static constexpr int numbers = 1;
 
-    Real share;  ///< of the light, in [0, 1]; the rest meets the other lobes of the surface
+    Real share;  ///< of the light, in [0, 1]; the rest goes to the other lobes of the surface
     D eta;       ///< refractive index on the side of wo over that of the other side, > 0
 
     [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return {share, share, share}; }

@@ -1,4 +1,4 @@
-/// How much light an interface between two dielectrics reflects.
+/// The reflectance of an interface between two dielectrics.
 #pragma once
 
 #include "tandem/kernel/bsdf/refract.h"
@@ -21,7 +21,7 @@ TANDEM_HD Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, co
     const D perpendicular = (eta * in - out) / (eta * in + out);
     const D parallel = (in - eta * out) / (in + eta * out);
     const D reflectance = D(0.5) * (perpendicular * perpendicular + parallel * parallel);
-    // both cosines vanish only for equal indices, where the quotients are not used
+    // both cosines are 0 only for equal indices, where the quotients are not used
     return select(eta == one, zero, select(refraction.transmits, lesser(reflectance, one), one));
 }
 

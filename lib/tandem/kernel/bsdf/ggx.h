@@ -1,4 +1,4 @@
-/// The GGX distribution of microfacet normals, with Smith's masking: what rough reflection is made of.
+/// The GGX distribution of microfacet normals, with Smith's masking, for rough reflection.
 #pragma once
 
 #include "tandem/kernel/bsdf/lobe.h"
@@ -6,32 +6,32 @@
 
 namespace tandem {
 
-/// The least alpha; smaller ones count as this. A lobe of it is 0.01 degrees wide, which no pixel tells from a mirror,
-/// and wide enough for directions that were rounded to float.
+/// The least alpha; smaller ones are clamped. Its lobe is 0.01 degrees wide: too narrow to differ from a mirror in an
+/// image, and wide enough for directions rounded to float.
 inline constexpr float least_ggx_alpha = 0x1p-13F;
 
-/// Rough in x by alpha_x, in y by alpha_y: the widths of the distribution of slopes.
+/// `alpha_x` and `alpha_y` are the widths of the distribution of slopes along x and y.
 ///
 /// Needs: unit vectors in the local frame; those called w with w.z > 0.
-/// Method: everything is a function of coordinates and their squares. 1 - cos^2 and tangents, in which formulas are
-///         often written, cancel or grow without bound where the surface is smooth or the direction grazes.
+/// Method: formulas in coordinates and their squares. The usual forms with 1 - cos^2 and tangents cancel or overflow on
+///         smooth surfaces and at grazing angles.
 /// Source: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007; anisotropy and
 ///         height-correlated masking after E. Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based
-///         BRDFs", JCGT 3(2), 2014, (85), (86) and (99). Held by tests/kernel/bsdf/ggx_test.cpp.
+///         BRDFs", JCGT 3(2), 2014, (85), (86) and (99). Tested by tests/kernel/bsdf/ggx_test.cpp.
 template <class Real>
 struct Ggx {
     using D = Double<Real>;
     D alpha_x = D(1.0F), alpha_y = D(1.0F);
 
     Ggx() = default;
-    /// Alphas outside of [least_ggx_alpha, 1] count as the nearer end, NaN as the lower one.
+    /// Clamps alphas to [least_ggx_alpha, 1]; NaN becomes the lower end.
     TANDEM_HD Ggx(const D& x, const D& y) : alpha_x(in_range(x)), alpha_y(in_range(y)) {}
 
-    /// D of the normal h / |h|, 1/sr. h needs no unit length; h.z >= 0.
+    /// D of the normal h / |h|, 1/sr. h need not be a unit vector; h.z >= 0.
     [[nodiscard]] TANDEM_HD D density(const Vec3<D>& h) const {
         const D x = h.x / alpha_x;
         const D y = h.y / alpha_y;
-        // 0 / 0 for no normal at all
+        // not 0 / 0 for h = 0
         const D ratio = dot(h, h) / greater((x * x + y * y) + h.z * h.z, D(0x1p-126F));
         return ratio * ratio * constant<D>(inverse_pi) / (alpha_x * alpha_y);
     }
@@ -43,18 +43,18 @@ struct Ggx {
         return square_root((x * x + y * y) + w.z * w.z);
     }
 
-    /// Share of the microfacets that face w which are seen from there: G1 = 2 z / (z + extent).
+    /// The fraction of the microfacets facing w that are visible from w: G1 = 2 z / (z + extent).
     [[nodiscard]] TANDEM_HD D seen(const Vec3<D>& w) const { return (w.z + w.z) / (w.z + extent(w)); }
 
-    /// wo.z extent(wi) + wi.z extent(wo): the share that is seen from both is 2 wo.z wi.z over this, G2.
+    /// wo.z extent(wi) + wi.z extent(wo): the fraction that is visible from both, G2, is 2 wo.z wi.z over this.
     [[nodiscard]] TANDEM_HD D mutual_extent(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return wo.z * extent(wi) + wi.z * extent(wo);
     }
 
-    /// A normal among those that are seen from w, with the density seen(w) (w . m) density(m) / w.z; m.z > 0.
-    /// Method: stretched to alpha = 1 the visible normals are those of a hemisphere; a cap of the sphere around the
-    ///         stretched w, uniformly drawn, is where that reflects to. The cap's height is formed without its bottom,
-    ///         whose difference would be lost.
+    /// Samples a normal visible from w, with the density seen(w) (w . m) density(m) / w.z; m.z > 0.
+    /// Method: stretched to alpha = 1, the visible normals are those of a hemisphere, and w reflected at them is
+    ///         uniform in a spherical cap. So a uniform direction of the cap gives the normal. Heights are measured
+    ///         from the top or the bottom of the sphere, whichever does not cancel.
     /// Source: J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", CGF 42(8), 2023; E. Heitz,
     ///         "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018.
     [[nodiscard]] TANDEM_HD Vec3<D> sample_seen(const Vec3<D>& w, const D& u, const D& v) const {

@@ -1,4 +1,4 @@
-/// Reflection from a rough surface: of a metal, or of the border of a dielectric over something else.
+/// Reflection from a rough surface: a metal, or the interface of a dielectric above another lobe.
 #pragma once
 
 #include "tandem/kernel/bsdf/ggx.h"
@@ -8,16 +8,16 @@
 namespace tandem {
 
 /// f = F D G2 / (4 cos_o cos_i): microfacets that are mirrors, after Torrance and Sparrow, with GGX, height-correlated
-/// masking and Schlick's Fresnel term, as glTF 2.0 has them in appendix B.
+/// masking and Schlick's Fresnel term, as in glTF 2.0, appendix B.
 ///
-/// Light that meets a second microfacet is lost, as in most renderers: nothing is added for multiple scattering. A
-/// white surface (f0 = 1) reflects 1 - ln 2 = 31 % head-on with alpha = 1, 69 % with 1/2, 95 % with 1/5.
+/// Light that hits a second microfacet is lost, as in most renderers: there is no term for multiple scattering. At
+/// normal incidence a white surface (f0 = 1) reflects 1 - ln 2 = 31 % with alpha = 1, 69 % with 1/2, 95 % with 1/5.
 ///
-/// Method: directions are mirrored by visible normals: pdf = G1 D / (4 cos_o), whose integral over the whole sphere is
-///         1, and the weight F G2 / G1 <= 1. Directions below the horizon are not valid; they are part of the loss.
-/// Gives: a relative error of pdf below 2^-36 for every alpha; of f too in precise, and below 2^-21 in strict. With
-///        f0 = 0 that of Schlick's (1 - cos)^5 is added. A small alpha magnifies the rounding of wo + wi.
-/// Source: as ggx.h and schlick.h. Held by tests/kernel/bsdf/ggx_reflection_test.cpp and all_lobes_test.cpp.
+/// Method: reflects wo at a sampled visible normal: pdf = G1 D / (4 cos_o), whose integral over the whole sphere is 1,
+///         and the weight is F G2 / G1 <= 1. Directions below the horizon are not valid; they are part of the loss.
+/// Gives: a relative error of pdf below 2^-36 for every alpha; of f too in precise; of f below 2^-21 in strict. With f0
+///        = 0 the error of Schlick's (1 - cos)^5 comes on top. A small alpha magnifies the rounding of wo + wi.
+/// Source: as ggx.h and schlick.h. Tested by tests/kernel/bsdf/ggx_reflection_test.cpp and all_lobes_test.cpp.
 template <class Real>
 struct GgxReflection {
     using D = Double<Real>;
@@ -51,7 +51,7 @@ struct GgxReflection {
                 Mask<Real>(false)};
     }
 
-    /// A fit for equal alphas: within 0.13 of the share, and between 0.7 and 1.4 of it for f0 >= 0.04.
+    /// A fit for equal alphas: within 0.13 of the albedo, and 0.7 to 1.4 times the albedo for f0 >= 0.04.
     [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const {
         const Real one(1.0F);
         const Real alpha2 = to_real<Real>(facets.alpha_x * facets.alpha_y);

@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-/// f = reflectance / pi, drawn in proportion to the cosine, so that the weight is the reflectance, to the bit.
-/// Source: J. H. Lambert, "Photometria", 1760. Held by tests/kernel/bsdf/lambert_test.cpp and all_lobes_test.cpp.
+/// f = reflectance / pi, sampled in proportion to the cosine, so that the weight is exactly the reflectance.
+/// Source: J. H. Lambert, "Photometria", 1760. Tested by tests/kernel/bsdf/lambert_test.cpp and all_lobes_test.cpp.
 template <class Real>
 struct Lambert {
     using D = Double<Real>;

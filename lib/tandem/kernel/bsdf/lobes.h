@@ -1,4 +1,4 @@
-/// All lobes; each keeps to the interface.
+/// All lobes, checked against their interface.
 #pragma once
 
 #include "tandem/kernel/bsdf/coated_diffuse.h"

@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// All light that is reflected goes in the mirror direction. Held by tests/kernel/bsdf/specular_lobes_test.cpp.
+/// Reflects into the mirror direction only. Tested by tests/kernel/bsdf/specular_lobes_test.cpp.
 template <class Real>
 struct Mirror {
     using D = Double<Real>;

@@ -18,8 +18,8 @@ struct PhongMaterial {
 
 /// cos^shininess with cos clamped to [0, 1]; 0^0 is 1.
 ///
-/// Gives: within 1 ulp of float for every shininess up to 1e8: the cosine stays double, since rounding it to float
-///        first costs shininess * 2^-24, 45 % at 1e6 (docs/numerics.md).
+/// Gives: within 1 ulp of float for every shininess up to 1e8. The cosine stays double, because rounding it to float
+///        has a relative error of shininess * 2^-24, 45 % at 1e6 (docs/numerics.md).
 template <class Real>
 TANDEM_HD_SHARED Real specular_lobe(Double<Real> cosine, Real shininess) {
     using D = Double<Real>;

@@ -1,4 +1,4 @@
-/// The highlight of Phong's model, as a lobe that light can be followed along.
+/// The highlight of Phong's model as a lobe that can be sampled.
 #pragma once
 
 #include "tandem/kernel/bsdf/lobe.h"
@@ -8,19 +8,20 @@
 
 namespace tandem {
 
-/// f |cos| = specular (R.V)^shininess / pi, with R the mirror direction. This is reflected_about(), the highlight of the
-/// paper, in the units of a BSDF: there, as for light of an area, Lambert's 1 / pi is part of the intensity. So a light brings the same whether its direction is drawn by the light or by the lobe.
+/// f |cos| = specular (R.V)^shininess / pi, with R the mirror direction. This is reflected_about(), the highlight of
+/// the paper, in the units of a BSDF: there, as for area lights, Lambert's 1 / pi is part of the intensity. So a light
+/// contributes the same whether the light or the lobe samples its direction.
 ///
-/// Phong's f has the cosine of the light in its divisor, so it is not reciprocal; f |cos| is. What it reflects head-on
-/// is 2 specular / (shininess + 1), and less elsewhere: with a shininess below 1 it may win energy.
+/// Phong's f has the cosine of the light in its divisor, so it is not reciprocal; f |cos| is. The albedo at normal
+/// incidence is 2 specular / (shininess + 1), and less elsewhere; with a shininess below 1 it may exceed 1.
 ///
-/// Method: directions around the mirror direction with density (n + 1) / (2 pi) cos^n. Those below the horizon are not
-///         valid, and what they would carry is lost: no light comes through the surface. So pdf has the integral 1 only
-///         where the lobe is all above the horizon. The weight is 2 specular / (n + 1).
-/// Gives: a relative error of pdf and f below n 2^-49 + 2^-47 in precise; in strict 2^-22 is added.
+/// Method: samples directions around the mirror direction with density (n + 1) / (2 pi) cos^n. Those below the horizon
+///         are not valid, and their light is lost, since no light comes through the surface. So pdf has the integral 1
+///         only where the whole lobe is above the horizon. The weight is 2 specular / (n + 1).
+/// Gives: a relative error of pdf and f below n 2^-49 + 2^-47 in precise, and 2^-22 more in strict.
 /// Source: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975; the sampling after
 ///         E. Lafortune, Y. Willems, "Using the Modified Phong Reflectance Model for Physically Based Rendering", 1994.
-/// Held by tests/kernel/bsdf/phong_lobe_test.cpp and all_lobes_test.cpp.
+/// Tested by tests/kernel/bsdf/phong_lobe_test.cpp and all_lobes_test.cpp.
 template <class Real>
 struct PhongLobe {
     using D = Double<Real>;

@@ -8,8 +8,8 @@ namespace tandem {
 /// `direction` mirrored at the plane with normal `normal`: d - 2 (d . n) n, again a unit vector.
 ///
 /// Needs: both unit vectors to within rounding, of either orientation.
-/// Gives: length 1 within 4 units of the last place of double, however many reflections came before: an error in the
-///        length of either input is not passed on, because the result is normalised.
+/// Gives: length 1 within 4 ulp of double after any number of reflections: the result is normalised, so errors in the
+///        lengths of the inputs do not accumulate.
 /// Tested by tests/kernel/bsdf/reflect_test.cpp and group F of the corpus (tests/hard).
 template <class D>
 TANDEM_HD Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {

@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// How a ray continues behind an interface. Meaningful where `transmits`; elsewhere all light is reflected.
+/// The ray behind an interface. Valid where `transmits`; elsewhere all light is reflected.
 template <class Real>
 struct Refraction {
     Mask<Real> transmits;
@@ -19,11 +19,10 @@ struct Refraction {
 /// Needs: `direction` and `normal` unit vectors in double, the normal on the side that the ray comes from (their dot
 ///        product is not positive); `eta`, the refractive index of that side over that of the other, > 0.
 /// Gives: total internal reflection where eta sin > 1, decided correctly unless eta sin is within 2^-40 of 1; exactly
-///        at 1 the ray leaves along the interface. cosine_out within 1e-7 next to that border. Equal indices, eta = 1,
-///        leave the direction as it is, to the bit. A NaN does not transmit.
-/// Method: the sine is the length of direction x normal, formed without cancellation. 1 - eta^2 (1 - cos^2) loses it
-/// next
-///         to the border, and near the normal, where the cosine hardly tells the angle.
+///        at 1 the ray leaves along the interface. cosine_out within 1e-7 near that limit. Equal indices, eta = 1,
+///        leave the bits of the direction unchanged. A NaN does not transmit.
+/// Method: the sine is the length of direction x normal, which does not cancel. 1 - eta^2 (1 - cos^2) does, near that
+///         limit and near normal incidence, where the cosine hardly determines the angle.
 /// Tested by tests/kernel/bsdf/refract_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
 TANDEM_HD Refraction<Real> refract(const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& normal,

@@ -1,4 +1,4 @@
-/// Where specular lobes send light on surfaces whose shading normal differs from the geometric one.
+/// Directions of specular lobes where the shading normal may differ from the geometric one.
 #pragma once
 
 #include "tandem/kernel/bsdf/lobe.h"
@@ -7,7 +7,8 @@
 
 namespace tandem {
 
-/// `wo` mirrored at the shading normal; at the geometric one where that would lead through the surface.
+/// `wo` mirrored at the shading normal; at the geometric normal where the direction would otherwise go through the
+/// surface.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> mirrored(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo) {
     const Vec3<Double<Real>> direction = reflect(-wo, normals.shading);
@@ -16,8 +17,8 @@ TANDEM_HD Vec3<Double<Real>> mirrored(const LobeNormals<Real>& normals, const Ve
     return select(through, reflect(-wo, normals.geometric), direction);
 }
 
-/// As refract(), at the shading normal; at the geometric one where that would not lead through the surface. `eta`: the
-/// refractive index on the side of wo over that of the other side.
+/// refract() at the shading normal; at the geometric normal where the direction would otherwise not go through the
+/// surface. `eta`: the refractive index on the side of wo over that of the other side.
 template <class Real>
 TANDEM_HD Refraction<Real> refracted(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo,
                                      const Double<Real>& eta) {

@@ -1,4 +1,4 @@
-/// Cameras: perspective, through a pinhole or a thin lens, and orthographic.
+/// Cameras: perspective, with a pinhole or a thin lens, and orthographic.
 #pragma once
 
 #include "tandem/kernel/sampler/warp.h"
@@ -10,7 +10,7 @@ namespace tandem {
 /// left corner, x to the right and y down:
 ///   origin(x, y) = origin + x origin_dx + y origin_dy, and the same for the direction.
 /// Perspective: the origin steps are zero. Orthographic: the direction steps are zero. World space, metres, double;
-/// made once on the host (compile/prepare.h).
+/// computed once on the host (compile/prepare.h).
 struct CameraView {
     Vec3d origin;
     Vec3d origin_dx;
@@ -19,18 +19,18 @@ struct CameraView {
     Vec3d direction_dx;
     Vec3d direction_dy;
     bool orthographic;
-    // of a thin lens; not for orthographic cameras
+    // for a thin lens, which orthographic cameras do not have
     bool has_lens = false;
-    Vec3d lens_x{0, 0, 0}, lens_y{0, 0, 0};  ///< its radius, to the right and upwards
-    double inverse_focus = 0;                ///< 1 / depth of the plane in focus, 1/metres
+    Vec3d lens_x{0, 0, 0}, lens_y{0, 0, 0};  ///< radius of the lens, to the right and upwards
+    double inverse_focus = 0;                ///< 1 / depth of the focal plane, 1/metres
     double rotation = 0;                     ///< of the aperture's first corner, in turns
     std::int32_t blades = 0;                 ///< of the aperture; 0: round
 };
 
 /// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
-/// normalised. The corner of the pixel comes from double, once per pixel; the offset is added in float, apart from
-/// the pixel's number, so that a large film does not cost it digits. Within 2 ulp of the largest component. (In the
-/// tier precise the offset is added in double, in fast the corner comes from float.)
+/// normalised. The corner of the pixel is computed in double and rounded once; the offset is added separately in float,
+/// so that it stays accurate on large films. Within 2 ulp of the largest component. (The tier precise adds the offset
+/// in double; fast computes the corner in float.)
 template <class Real>
 TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x, const Double<Real>& pixel_y,
                                const Real& offset_x, const Real& offset_y) {
@@ -50,8 +50,8 @@ TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pix
     return ray;
 }
 
-/// The camera ray through the point of the lens that u and v of [0, 1) choose: it converges with the others at the
-/// plane in focus, since the directions of camera rays have a depth of 1.
+/// The camera ray through the point of the lens that u and v in [0, 1) choose. All such rays converge in the focal
+/// plane, since the directions of camera rays have depth 1.
 /// Source: R. Cook, T. Porter, L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, sec. 3.2: the thin lens.
 template <class Real>
 TANDEM_HD Ray<Real> through_lens(const CameraView& camera, const Ray<Real>& ray, const Real& u, const Real& v) {

@@ -1,4 +1,4 @@
-/// The lens of an authored camera.
+/// The lens of a camera, as authored.
 #pragma once
 
 namespace tandem {
@@ -8,7 +8,7 @@ struct Lens {
     double aperture_radius = 0;  ///< metres
     double focus_distance = 1;   ///< metres
     int blades = 0;              ///< corners of the aperture, 3 to 32; 0: round
-    double rotation = 0;         ///< of its first corner from the right to above, radians
+    double rotation = 0;         ///< of the first corner, from right towards up, radians
 };
 
 }  // namespace tandem

@@ -7,12 +7,11 @@
 
 namespace tandem {
 
-/// An emissive sphere, triangle or quad. A 64-bit number chooses one of them: each light has a range of its values,
-/// in the order of the lights, and the light's probability is exactly the length of its range over 2^64, however
-/// small.
+/// An emissive sphere, triangle or quad. A uniform 64-bit number chooses one of them: each light has a range of
+/// numbers, in the order of the lights, and its probability is exactly the length of its range over 2^64.
 struct AreaLight {
-    std::uint64_t last;  ///< of its range, which starts after that of the light before it
-    double chance;       ///< with which it is chosen
+    std::uint64_t range_last;  ///< inclusive; the range starts after that of the previous light
+    double probability;        ///< with which the light is chosen
     std::uint32_t primitive;
     std::uint32_t halves_overlap = 0;  ///< 1: of a quad, one half may occlude the other from some points
 };
@@ -23,7 +22,7 @@ TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
-        if (number <= lights[middle].last) {
+        if (number <= lights[middle].range_last) {
             last = middle;
         } else {
             first = middle + 1;
@@ -32,8 +31,8 @@ TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t
     return first;
 }
 
-/// The probability of a primitive, 0 for one that is no light. `lights` are in the order of their primitives.
-TANDEM_HD double chance_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
+/// The probability of a primitive; 0 if it is no area light. `lights` are in the order of their primitives.
+TANDEM_HD double probability_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
     std::uint32_t first = 0, end = count;
     while (first < end) {
         const std::uint32_t middle = (first + end) / 2;
@@ -43,7 +42,7 @@ TANDEM_HD double chance_of(const AreaLight* lights, std::uint32_t count, std::ui
             end = middle;
         }
     }
-    return first < count && lights[first].primitive == primitive ? lights[first].chance : 0.0;
+    return first < count && lights[first].primitive == primitive ? lights[first].probability : 0.0;
 }
 
 }  // namespace tandem

@@ -1,20 +1,20 @@
-/// The background as a light: a picture of all directions, and directions that are drawn in proportion to its radiance.
+/// The environment picture: a picture of all directions, and the sampling of directions in proportion to its
+/// brightness.
 ///
-/// The picture is equirectangular, its top at +y. Its centre is seen along -z, and its columns go on to the right: u =
-/// 3/4 is +x, and the seam is at +z. `turn` rotates the whole about +y, counter-clockwise as seen from above.
+/// The picture is equirectangular with its top at +y. Its centre is at -z, u grows to the right (u = 3/4 is +x), and
+/// the seam is at +z. `turn` rotates the picture about +y, counter-clockwise seen from above.
 ///
 /// Between the centres of its texels the radiance is linear in the azimuth and in the height y of the unit direction;
 /// above the centres of the first row, and below those of the last one, it does not change with the height. So a cell
-/// between four centres is a rectangle in two variables of which the solid angle is a constant multiple (Archimedes),
-/// and a direction can be drawn exactly in proportion to the brightness that is seen there, (r + g) + b. With linear
-/// interpolation in the angle from the pole, as other programs have it, it could not; the two differ in the first rows
-/// about the poles alone.
+/// between four centres is a rectangle in these variables, whose area is proportional to the solid angle (Archimedes),
+/// and directions can be sampled exactly in proportion to the brightness (r + g) + b. With interpolation linear in the
+/// polar angle, as in other programs, they could not. The two differ only in the first rows about the poles.
 ///
-/// The cells of a band, from top to bottom, have their chances in integers: of 2^31 each. Hence the chance that a
-/// sample is divided by is that with which it was drawn, to the last bit of a double, whatever the ratio of the
-/// brightest texel to the darkest. Every cell with light in it has a chance of at least 2^-62 (environment_tables.h).
+/// The probabilities of the bands, from top to bottom, and of the cells of each band are integers, in units of 2^-31.
+/// So the probability that divides a sample is exactly the one with which it was chosen, for any ratio of the brightest
+/// texel to the darkest. Every cell that is not black has a probability of at least 2^-62 (environment_tables.h).
 ///
-/// Held by tests/kernel/lights/environment_picture_test.cpp.
+/// Tested by tests/kernel/lights/environment_picture_test.cpp.
 #pragma once
 
 #include "tandem/kernel/sampler/philox.h"
@@ -27,20 +27,20 @@ namespace tandem {
 /// A picture has width * height texels, and (height + 1) * width cells: band 0 is the cap above the first row of
 /// centres, and band `height` that below the last one.
 struct EnvironmentPicture {
-    double turn = 0;           ///< of a full one
-    std::uint32_t width = 0;   ///< from 1 to 65536; 0: there is no picture
-    std::uint32_t height = 0;  ///< from 1 to 65536
-    float intensity = 1;       ///< factor of the texels
-    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+    double turn = 0;           ///< rotation, in full turns
+    std::uint32_t width = 0;   ///< 1 to 65536; 0: no picture
+    std::uint32_t height = 0;  ///< 1 to 65536
+    float intensity = 1;       ///< factor for the texels
+    std::uint32_t unused = 0;  ///< otherwise padding bytes, undefined
 };
 static_assert(sizeof(EnvironmentPicture) == 24, "no byte is undefined; scene_hash() reads all");
 
-/// Pointers are to memory of the side that reads them.
+/// The pointers are to memory of the reader: host or device.
 struct EnvironmentPictureView {
     EnvironmentPicture picture;
     const Vec3f* texels;    ///< linear RGB, row by row from the top; finite, not negative
-    const double* borders;  ///< (1 - y) / 2 at the upper border of band i: height / 2 + 2, as the rest is their mirror
-    const std::uint32_t* band_ends;  ///< behind the numbers below 2^31 that choose a band: height + 1
+    const double* borders;  ///< (1 - y) / 2 at the upper border of band i; height / 2 + 2, mirrored for the rest
+    const std::uint32_t* band_ends;  ///< ends (exclusive) of the ranges below 2^31 that choose a band; height + 1
     const std::uint32_t* cell_ends;  ///< the same for the cells of each band, one band after the other
 };
 
@@ -48,10 +48,10 @@ template <class Real>
 struct EnvironmentSample {
     Vec3<Double<Real>> direction;  ///< unit, towards the environment
     Vec3<Real> radiance;           ///< RGB, as seen there
-    Double<Real> pdf;              ///< with respect to solid angle, 1/sr; 0: there is nothing to see
+    Double<Real> pdf;              ///< with respect to solid angle, 1/sr; 0 for a black picture
 };
 
-/// What is seen along a direction, and with which density sample_environment() would have drawn it.
+/// The radiance along a direction, and its density in sample_environment().
 template <class Real>
 struct EnvironmentSight {
     Vec3<Real> radiance;
@@ -60,15 +60,14 @@ struct EnvironmentSight {
 
 namespace environment_detail {
 
-/// A place in a cell: how far along its columns and, from top to bottom, its rows, in [0, 1].
+/// A place in a cell: x to the right and y downwards, in [0, 1].
 template <class Real>
 struct CellPoint {
     UInt<Real> band, column;
     Double<Real> x, y;
 };
 
-/// The first of `count` ranges of whole numbers, which lie one behind the other, that holds `number`; the last one
-/// where none does.
+/// The first of `count` consecutive ranges of integers that contains `number`; the last one if none does.
 TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
@@ -81,7 +80,7 @@ TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t coun
     }
     return first;
 }
-/// How many numbers it holds.
+/// The length of a range.
 TANDEM_HD std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
     return ends[range] - (range > 0 ? ends[range - 1] : 0);
 }
@@ -90,8 +89,8 @@ TANDEM_HD std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_
     return static_cast<std::size_t>(band) * picture.width;
 }
 
-/// Where a band lies, as seen from the nearer pole, so that nothing cancels there: (1 - |y|) / 2 at the border towards
-/// that pole, and how much more at the other one.
+/// The extent of a band, from the nearer pole, so that nothing cancels there: (1 - |y|) / 2 at the border towards the
+/// pole, and the difference to the other border.
 template <class Real>
 struct BandReach {
     Mask<Real> is_southern;
@@ -114,7 +113,7 @@ TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const U
     return {middle < band, first, border(1) - first};
 }
 
-/// The cell that a direction goes through. Lanes whose direction is not finite have some cell.
+/// The cell and place of a direction. Lanes whose direction is not finite get an arbitrary cell.
 template <class Real>
 TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
@@ -128,7 +127,7 @@ TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const
 
     const D u = D(0.5F) + (constant<D>(view.picture.turn) + atan2_turns<Real>(direction.x, -direction.z));
     const TexelPair<D> columns = texels_around(u, Wrap::repeat, Filter::linear, width);
-    // the order of arguments makes a NaN `height`
+    // the order of arguments turns a NaN into `height`
     const D rows = lesser(height, atan2_turns<Real>(radius, direction.y) * (height + height) + D(0.5F));
     const D band = floor_of(rows);
     const auto word_of = [](const D& a) TANDEM_INLINE_LAMBDA {
@@ -166,7 +165,7 @@ TANDEM_HD Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, co
             -((radius + radius) * azimuth.cosine)};
 }
 
-/// The colours at the corners of a cell: of the upper row, left and right, then of the lower one.
+/// The colours at the corners of a cell: upper left, upper right, lower left, lower right.
 template <class Real>
 struct CellColours {
     Vec3<Double<Real>> corner[4];
@@ -223,21 +222,21 @@ TANDEM_HD Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellCo
     return {channel(0), channel(1), channel(2)};
 }
 
-/// What directions are drawn in proportion to.
+/// The brightness at the corners, which the density is proportional to.
 template <class Real>
 TANDEM_HD Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
     const auto sum = [](const Vec3<Double<Real>>& a) TANDEM_INLINE_LAMBDA { return (a.x + a.y) + a.z; };
     return {{sum(colours.corner[0]), sum(colours.corner[1]), sum(colours.corner[2]), sum(colours.corner[3])}};
 }
 
-/// The density of a place in a cell: the chance of the cell over its solid angle, times how much brighter than the cell
-/// the place is.
+/// The density at a place in a cell: the probability of the cell over its solid angle, times the brightness of the
+/// place relative to the mean of the cell.
 template <class Real>
 TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
                                   const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
-    const D chance = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+    const D probability = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
         const std::uint32_t band = lane(point.band, i);
         const std::uint32_t of_band = range_length(view.band_ends, band);
         const std::uint32_t of_cell = range_length(view.cell_ends + first_cell(picture, band), lane(point.column, i));
@@ -249,11 +248,12 @@ TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corn
     const Mask<Real> is_lit = mean > D(0.0F);
     const D relative = between(brightness, point.x, point.y) / select(is_lit, mean, D(1.0F));
     const D cells_per_steradian = D(to_float(picture.width)) * constant<D>(inverse_pi / 4) / extent;
-    return select(is_lit, (chance * cells_per_steradian) * relative, D(0.0F));
+    return select(is_lit, (probability * cells_per_steradian) * relative, D(0.0F));
 }
 
-/// A number in [0, 1] with a density that is linear from `a` at 0 to `b` at 1, both >= 0. 0 where both are 0.
-/// Method: the inverse of the distribution function, in the form that does not cancel and divides by no difference.
+/// Samples a number in [0, 1] with a density that is linear from `a` at 0 to `b` at 1, both >= 0. Gives 0 where both
+/// are 0.
+/// Method: inverts the distribution function, in a form that does not cancel and divides by no difference.
 template <class D>
 TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
     const D zero(0.0F);
@@ -269,12 +269,11 @@ TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
 
 /// The environment along `direction`, whose length is within [1e-15, 1e15].
 ///
-/// Gives:  the radiance, the exact interpolation of the texels for a direction that is 2^-48 (the tier fast: 2^-18)
-/// from
+/// Gives:  the radiance: the exact interpolation of the texels for a direction within 2^-48 (the tier fast: 2^-18) of
 ///         the given one, rounded once; exact where the four texels are equal. The density is that of
-///         sample_environment(), in full precision; next to a border of two cells it may be that of the other one.
-/// Method: the cell comes from the azimuth and the angle from the pole, and the place in it from (1 - |y|) / 2 =
-///         r^2 / (2 l (l + |y|)), which does not cancel at the poles.
+///         sample_environment(), in full precision; near the border of two cells it may be that of the neighbour.
+/// Method: finds the cell by the azimuth and the polar angle, and the place in it by
+///         (1 - |y|) / 2 = r^2 / (2 l (l + |y|)), which does not cancel at the poles.
 template <class Real>
 TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
                                                  const Vec3<Double<Real>>& direction) {
@@ -285,24 +284,24 @@ TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& v
             density_at<Real>(view, brightness_of<Real>(colours), point)};
 }
 
-/// Its radiance alone.
+/// Only its radiance.
 template <class Real>
 TANDEM_HD Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).radiance;
 }
 
-/// Its density alone, 1/sr.
+/// Only its density, 1/sr.
 template <class Real>
 TANDEM_HD Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).pdf;
 }
 
-/// A direction with a density in proportion to (r + g) + b of the radiance there, by four uniform words.
+/// Samples a direction in proportion to the brightness (r + g) + b, with four uniform words.
 ///
-/// Gives:  a unit vector within 2^-50; brightness / pdf is the same for all samples but for the rounding of chances to
-///         multiples of 2^-31: relative, 2^-31 over the share that the cell has of its band, or the band of the whole.
-///         Of a black picture the density is 0.
-/// Method: a band, then one of its cells, then a place in it by inversion of the bilinear density.
+/// Gives: a unit vector within 2^-50; brightness / pdf is the same for all samples, up to the rounding of probabilities
+///        to multiples of 2^-31: a relative error of 2^-31 over the probability of the cell in its band, or of the
+///        band. For a black picture the density is 0.
+/// Method: chooses a band, then one of its cells, then a place in it by inversion of the bilinear density.
 /// Source: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, sec. 14.2.4, for the two
 ///         steps from marginal to conditional distribution.
 template <class Real>

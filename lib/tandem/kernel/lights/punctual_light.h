@@ -1,4 +1,4 @@
-/// Lights without extent: point, spot and directional lights.
+/// Punctual lights: point, spot and directional lights.
 #pragma once
 
 #include "tandem/effects/effects.h"
@@ -8,26 +8,26 @@ namespace tandem {
 
 enum class PunctualKind : std::uint32_t { point, spot, directional };
 
-/// Render space, metres. `intensity`: RGB, the id and is of Phong's model. Without fall-off it reaches every surface as
-/// it is, as in the paper; with it, it is in candela over pi, and what reaches a surface is intensity / distance^2, so
+/// Render space, metres. `intensity`: RGB, the id and is of Phong's model. Without fall-off it is the same at every
+/// surface, as in the paper. With fall-off it is in candela over pi, and a surface receives intensity / distance^2, so
 /// that a surface of diffuse reflectance kd is as bright as a Lambertian one of albedo kd.
 ///
 /// Directions and cones are double: a highlight of shininess n multiplies the error of a direction's length by n, and
-/// the cosine of a narrow cone's angle is 1 in float.
+/// the cosine of a narrow cone rounds to 1 in float.
 struct PunctualLight {
     Vec3d direction;     ///< unit, the direction in which light travels; of a spot light the axis of its cone
-    double cone_height;  ///< 1 - cosine of the outer angle, at which a spot light ends (scene/light_cone.h)
+    double cone_height;  ///< 1 - cosine of the outer angle, the edge of a spot light (scene/light_cone.h)
     double cone_scale;   ///< 1 / (cosine of the inner angle - that of the outer): full intensity inside the inner one
     Vec3f position;      ///< unused for a directional light
     Vec3f intensity;
     PunctualKind kind;
     std::uint32_t inverse_square;  ///< 1: falls off with distance
     std::uint32_t casts_shadows;   ///< 1: occluders block it
-    std::uint32_t unused = 0;      ///< what alignment would leave undefined
+    std::uint32_t unused = 0;      ///< otherwise padding bytes, undefined
 };
 static_assert(sizeof(PunctualLight) == 80, "no byte of a light is undefined; scene_hash() reads all");
 
-/// How a light reaches a point.
+/// The direction and intensity of a light at a point.
 template <class Real>
 struct LightRay {
     Vec3<Double<Real>> to_light;  ///< unit; 0 at the light's own position
@@ -36,12 +36,12 @@ struct LightRay {
 
 /// The light at `position`. `Effects`: what the scene may need (effects/effects.h).
 ///
-/// Gives: 0 outside of a spot light's cone; the fall-off between its angles is the square of the cosine's share, as in
-///        KHR_lights_punctual, "inner and outer cone angles". At the light's own position there is no direction, and
-///        no light if it falls off. Tested by tests/agree/closed_forms_test.cpp (1e-6 of the law of the distance),
-///        tests/agree/effects_test.cpp (the oracle) and the cases M1, M6 and M7 of the hard corpus.
-/// Method: 1 - cosine of the angle from a spot's axis is formed as sine^2 / (1 + cosine), which does not cancel in
-///         narrow cones.
+/// Gives: 0 outside of a spot light's cone. Between its angles the factor is the square of the linearly interpolated
+///        cosine, as in KHR_lights_punctual, "inner and outer cone angles". At the light's own position there is no
+///        direction, and no light if it falls off. Tested by tests/agree/closed_forms_test.cpp (1e-6 for the inverse
+///        square law), tests/agree/effects_test.cpp (the oracle) and the cases M1, M6 and M7 of the hard corpus.
+/// Method: computes 1 - cosine of the angle to a spot's axis as sine^2 / (1 + cosine), which does not cancel in narrow
+///         cones.
 template <class Effects, class Real>
 TANDEM_HD LightRay<Real> light_at(const PunctualLight& light, const Vec3<Double<Real>>& position) {
     using D = Double<Real>;

@@ -23,8 +23,8 @@ struct QuadLightView {
 
 /// Needs and gives: as view_triangle_light() of the halves. Each half emits from its own front, or from both sides. A
 /// rectangle has a map of its own (C. Urena, M. Fajardo, A. King, "An Area-Preserving Parametrization for Spherical
-/// Rectangles", EGSR 2013); two spherical triangles do for every quad, and for one that is folded too.
-/// Tested by tests/kernel/lights/quad_light_test.cpp, also of all below, and by the case M15 of the hard corpus.
+/// Rectangles", EGSR 2013); two spherical triangles work for every quad, folded ones included. Everything here is
+/// tested by tests/kernel/lights/quad_light_test.cpp and by the case M15 of the hard corpus.
 template <class Real>
 TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
                                               const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
@@ -48,7 +48,7 @@ TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, c
 
 namespace quad_light_detail {
 
-/// Lane by lane one of two views.
+/// One of two views in each lane.
 template <class Real>
 TANDEM_HD TriangleLightView<Real> choose(const Mask<Real>& mask, const TriangleLightView<Real>& a,
                                          const TriangleLightView<Real>& b) {
@@ -66,27 +66,27 @@ TANDEM_HD TriangleLightView<Real> choose(const Mask<Real>& mask, const TriangleL
             select(mask, a.shows_front, b.shows_front)};
 }
 
-/// Probability of one half.
+/// The probability of one half.
 template <class Real>
 TANDEM_HD Double<Real> share(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     using D = Double<Real>;
     return half.solid_angle / select(view.solid_angle > D(0.0F), view.solid_angle, D(1.0F));
 }
 
-/// Two distances that differ by less than this, relative, belong to one point: on the diagonal, or where the halves
-/// coincide. Rays hit the first half there.
+/// Distances whose relative difference is below this belong to the same point, on the diagonal or where the halves
+/// coincide. There rays hit the first half.
 template <class Real>
 inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 
-/// Does a half block rays from the point? A culled back does not.
+/// Whether a half blocks rays from the point. A culled back does not.
 template <class Real>
-TANDEM_HD Mask<Real> stops_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
+TANDEM_HD Mask<Real> blocks_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
 }
 
-/// Where the other half occludes a point of one half at `distance`, metres. On the diagonal neither half occludes the
-/// other. The other half is viewed a second time here, so that a sample holds one view at a time. To keep both takes as
-/// long (`whitted.gltf` on an H200, variants in turns).
+/// Whether the other half occludes a point of one half at `distance`, metres. On the diagonal neither half occludes the
+/// other. Computes the view of the other half again, so that a sample needs one view at a time. Keeping both takes
+/// equally long (`whitted.gltf` on an H200, variants in turns).
 template <class Real>
 TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction,
                                const Double<Real>& distance, const Mask<Real>& other_is_first) {
@@ -97,7 +97,7 @@ TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Doubl
     const TriangleLightHit<Real> hit = find_on_light(other, direction, direction_slack<Real>);
     const D slack = constant<D>(same_distance<Real>);
     const D reach = distance * select(other_is_first, D(1.0F) + slack, D(1.0F) - slack);
-    return hit.meets && stops_rays(view, other) && hit.distance * other.unit < reach;
+    return hit.meets && blocks_rays(view, other) && hit.distance * other.unit < reach;
 }
 
 }  // namespace quad_light_detail
@@ -133,9 +133,9 @@ TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double
     const TriangleLightHit<Real> second = find_on_light(view.second, direction, -direction_slack<Real>);
     const D reach = first.distance * view.first.unit * (D(1.0F) - constant<D>(quad_light_detail::same_distance<Real>));
     const Mask<Real> is_nearer =
-        quad_light_detail::stops_rays(view, view.second) && second.distance * view.second.unit < reach;
+        quad_light_detail::blocks_rays(view, view.second) && second.distance * view.second.unit < reach;
     const Mask<Real> in_second =
-        second.meets && (!first.meets || is_nearer || !quad_light_detail::stops_rays(view, view.first));
+        second.meets && (!first.meets || is_nearer || !quad_light_detail::blocks_rays(view, view.first));
     const D of_first =
         triangle_light_detail::density(view.first, first.distance) * quad_light_detail::share(view, view.first);
     const D of_second =

@@ -1,4 +1,4 @@
-/// The sphere as a light, sampled by the solid angle under which it is seen.
+/// The sphere as an area light, sampled by solid angle.
 #pragma once
 
 #include "tandem/kernel/lights/light_sample.h"
@@ -7,16 +7,16 @@
 
 namespace tandem {
 
-/// A sphere as seen from a point: a cone of directions from outside, every direction from inside.
+/// A sphere as seen from a point: from outside a cone of directions, from inside all directions.
 template <class Real>
 struct SphereLightView {
     using D = Double<Real>;
     Vec3<D> centre;     ///< world space
     D radius;           ///< metres
-    Mask<Real> inside;  ///< or on the surface
+    Mask<Real> inside;  ///< the point is inside or on the surface
     Vec3<D> axis;       ///< unit, towards the centre; +z at the centre
-    D distance;         ///< of the centre
-    D power;            ///< of the point: distance^2 - radius^2
+    D distance;         ///< from the point to the centre
+    D power;            ///< power of the point: distance^2 - radius^2
     D height;           ///< of the cap: 1 - cosine of the cone's half angle; 2 from inside
     D solid_angle;      ///< sr: 2 pi height
 };
@@ -24,8 +24,8 @@ struct SphereLightView {
 /// Needs: radius >= 0; magnitudes whose squares are finite.
 /// Gives: the solid angle with a relative error of 2^-46 / (1 - radius / distance), however small the light; 0 for
 ///        radius 0, and hence no samples.
-/// Method: 1 - cos = sin^2 / (1 + cos), since the difference is lost for lights that are small or far.
-/// Tested by tests/kernel/lights/sphere_light_test.cpp, also of all below.
+/// Method: 1 - cos = sin^2 / (1 + cos), because the difference cancels for small or far lights.
+/// Everything here is tested by tests/kernel/lights/sphere_light_test.cpp.
 template <class Real>
 TANDEM_HD SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& centre,
                                                   const Double<Real>& radius) {
@@ -35,7 +35,7 @@ TANDEM_HD SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>>& poin
     const Vec3<D> offset = centre - point;
     const D distance2 = dot(offset, offset);
     const D radius2 = radius * radius;
-    // nearer to the centre than 2^-50 of the radius any axis will do
+    // nearer to the centre than 2^-50 of the radius any axis is good enough
     const Mask<Real> centred = distance2 <= radius2 * D(0x1p-100F);
     const D inverse = inverse_square_root(select(centred, one, distance2));
     SphereLightView<Real> view;
@@ -65,12 +65,13 @@ TANDEM_HD Double<Real> density(const SphereLightView<Real>& view) {
 
 }  // namespace sphere_light_detail
 
-/// Uniform among the directions that hit the sphere. The point is where they first hit it, within a few units of the
-/// last place of centre and radius; from inside it is the exit. From a point on the surface half of the directions
-/// leave at once: distance 0.
-/// Method: with theta at the point and beta at the surface, both angles between the line and a radius, the law of sines
-///         radius sin(beta) = distance sin(theta) gives the point of the sphere by a rotation. So the point is on the
-///         sphere, and no root of a difference is taken but that of cos(beta), which lies along the line of sight.
+/// Uniform among the directions that hit the sphere. The point is their first hit, within a few ulp of centre and
+/// radius; from inside it is the exit. From a point on the surface half of the directions exit at once, with distance
+/// 0.
+/// Method: let theta, at the lit point, and beta, at the surface, be the angles between the line and the direction to
+///         the centre. The law of sines, radius sin(beta) = distance sin(theta), gives the point by a rotation. So the
+///         point is on the sphere, and the only root of a difference is that for cos(beta), whose error is along the
+///         line of sight.
 /// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
 ///         1996, sec. 3.2.
 template <class Real>
@@ -92,7 +93,7 @@ TANDEM_HD LightSample<Real> sample_light(const SphereLightView<Real>& view, cons
     const D along = view.radius * (turned * cosine - sine_there * sine);
     const D across = view.radius * (sine_there * cosine + turned * sine);
 
-    // both crossings multiply to `power`; the one whose terms add up gives the other
+    // the product of both crossings is `power`; the one that does not cancel gives the other
     const D to_closest = view.distance * cosine;
     const D sum = absolute(to_closest) + view.radius * cosine_there;
     const D other = absolute(view.power) / select(sum > zero, sum, one);
@@ -110,7 +111,7 @@ template <class Real>
 TANDEM_HD Double<Real> pdf_of(const SphereLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const D slack = constant<D>(direction_slack<Real>);
-    const Vec3<D> sine = accurate_cross(direction, view.axis);  // the cosine does not tell small angles
+    const Vec3<D> sine = accurate_cross(direction, view.axis);  // the cosine is insensitive to small angles
     const D reach = view.radius + slack * view.distance;
     const Mask<Real> meets =
         dot(sine, sine) * (view.distance * view.distance) <= reach * reach && dot(direction, view.axis) >= -slack;

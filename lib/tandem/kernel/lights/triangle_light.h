@@ -1,4 +1,4 @@
-/// The triangle as a light, sampled by the solid angle under which it is seen: a spherical triangle.
+/// The triangle as an area light, sampled by solid angle: as a spherical triangle.
 #pragma once
 
 #include "tandem/kernel/lights/light_sample.h"
@@ -7,28 +7,29 @@
 namespace tandem {
 
 /// A triangle as seen from a point. Lengths are in units of the distance of the farthest corner, so that the products
-/// below neither over- nor underflow, also in float. With a, b and c the corners seen from the point:
+/// below neither overflow nor underflow, even in float. With a, b and c the corners seen from the point:
 template <class Real>
 struct TriangleLightView {
     using D = Double<Real>;
-    Vec3<D> point;   ///< from which it is seen, world space
+    Vec3<D> point;   ///< the point from which it is seen, world space
     D unit;          ///< metres
     Vec3<D> corner;  ///< a
     Vec3<D> edge1;   ///< b - a
     Vec3<D> edge2;   ///< c - a
     D volume;        ///< |a . (b x c)|
-    // of the angle at a between the planes (a, b) and (a, c), both times |a x b| |a x c|
+    // for the angle at a between the planes (a, b) and (a, c), both times |a x b| |a x c|
     D sine;
     D cosine;
     D cotangent;             ///< |a| |b| + a . b: cotangent of half the angle between a and b, times |a x b|
     D cross2;                ///< |a x c|
     D solid_angle;           ///< sr; 0 where the triangle is seen edge on
-    Mask<Real> shows_front;  ///< it is seen from the side that its normal points to
+    Mask<Real> shows_front;  ///< its front is seen
 };
 
 namespace triangle_light_detail {
 
-/// The sum |a| |b| + a . b, without cancellation where a and b point apart: product = |a| |b|, cross2 = |a x b|^2.
+/// The sum |a| |b| + a . b, without cancellation where a and b point in opposite directions: product = |a| |b|, cross2
+/// = |a x b|^2.
 template <class D>
 TANDEM_HD D one_plus_cosine(const D& product, const D& cosine, const D& cross2) {
     const D zero(0.0F);
@@ -37,9 +38,9 @@ TANDEM_HD D one_plus_cosine(const D& product, const D& cosine, const D& cross2) 
     return select(cosine < zero, by_sine, product + cosine);
 }
 
-/// Where on the segment from a to a + edge a direction stands that is turned away from a by an angle, given by
-/// multiples of its sine and cosine; `area` = |a x edge|, `length2` = |a|^2. In [0, 1]; 1 where rounding leaves no
-/// answer.
+/// The fraction of the segment from a to a + edge at which a direction rotated from a by an angle crosses it. `sine`
+/// and `cosine`: of the angle, up to a common factor; `area` = |a x edge|, `length2` = |a|^2, `along` = a . edge. In
+/// [0, 1]; 1 where rounding leaves no crossing.
 template <class D>
 TANDEM_HD D fraction_at_angle(const D& sine, const D& cosine, const D& area, const D& length2, const D& along) {
     const D numerator = sine * length2;
@@ -52,20 +53,22 @@ TANDEM_HD D fraction_at_angle(const D& sine, const D& cosine, const D& area, con
 template <class Real>
 inline constexpr double smallest_spherical = is_fast<Real> ? 0x1p-40 : 0x1p-200;
 
-/// Height over the plane, in `unit`, below which a point counts as lying in it: there rounding would move the samples.
+/// Height above the plane, in `unit`, below which a point counts as lying in it, because rounding would move the
+/// samples.
 template <class Real>
 inline constexpr double smallest_height = is_fast<Real> ? 0x1p-14 : 0x1p-40;
 
 }  // namespace triangle_light_detail
 
 /// Needs: magnitudes whose squares are finite.
-/// Gives: the solid angle with a relative error of 2^-46 over the sine under which the triangle's plane is seen. 0, and
-///        hence no samples, for a triangle without area, for a NaN, and from points of its plane: those nearer to it
-///        than 2^-40 of the distance of the farthest corner (tier fast: 2^-14). There the light is edge on, or touched.
-/// Method: tan(E/2) from two sides and the angle between them, which for small triangles does not cancel as Girard's
-///         sum of angles does; it is the formula of A. van Oosterom, J. Strackee, "The Solid Angle of a Plane
-///         Triangle", IEEE Trans. Biomed. Eng. 30(2), 1983, times |a|.
-/// Tested by tests/kernel/lights/triangle_light_test.cpp, also of all below.
+/// Gives: the solid angle with a relative error of 2^-46 over the sine of the angle between the view and the triangle's
+///        plane. 0, and so no samples, for a degenerate triangle, for a NaN, and from points in its plane: those nearer
+///        to it than 2^-40 of the distance of the farthest corner (tier fast: 2^-14). There the light is edge-on, or
+///        the point is on it.
+/// Method: tan(E/2) from two sides and the angle between them. Unlike Girard's sum of angles it does not cancel for
+///         small triangles. It is the formula of A. van Oosterom, J. Strackee, "The Solid Angle of a Plane Triangle",
+///         IEEE Trans. Biomed. Eng. 30(2), 1983, times |a|.
+/// Everything here is tested by tests/kernel/lights/triangle_light_test.cpp.
 template <class Real>
 TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> point, Vec3<Double<Real>> v0,
                                                              Vec3<Double<Real>> v1, Vec3<Double<Real>> v2) {
@@ -111,8 +114,8 @@ TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> 
 
 namespace triangle_light_detail {
 
-/// The density at a direction that meets the triangle at `distance`, in units: that of the solid angle, or that of the
-/// area times distance^2 / cosine, where cosine * 2 area * distance is the volume.
+/// The density at a direction that hits the triangle at `distance`, in `unit`: 1 / solid angle or, for tiny triangles,
+/// the density by area times distance^2 / cosine, where cosine * 2 area * distance is the volume.
 template <class Real>
 TANDEM_HD Double<Real> density(const TriangleLightView<Real>& view, const Double<Real>& distance) {
     using D = Double<Real>;
@@ -125,7 +128,7 @@ TANDEM_HD Double<Real> density(const TriangleLightView<Real>& view, const Double
     return select(seen, numerator / select(seen, denominator, one), zero);
 }
 
-/// 1 - cosine of an angle from its cosine and sine times `length`.
+/// 1 - cosine of an angle from `length` times its cosine and the square of `length` times its sine.
 template <class D>
 TANDEM_HD D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
     const D sum = length + cosine;
@@ -136,16 +139,16 @@ TANDEM_HD D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
 }  // namespace triangle_light_detail
 
 /// Uniform among the directions that hit the triangle. The point is a mean of the corners with weights in [0, 1], so it
-/// is on the triangle however the light is seen.
+/// is always on the triangle.
 ///
-/// Method: u cuts off the spherical triangle (a, b, p) with the fraction u of the area, p being on the side ac; then v
-///         chooses a point between b and p, uniform in the cosine of its distance from b.
+/// Method: u cuts off the spherical triangle (a, b, p) with the fraction u of the area, where p is on the side ac. Then
+///         v chooses a point between b and p, uniformly in the cosine of its distance from b.
 /// Source: J. Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995. His cosine of the side ap is a
-///         quotient of differences that vanish for small triangles. With E the area cut off, alpha the angle at a and c
-///         the side ab it is, without any, tan(ap / 2) = sin(E / 2) / (tan(c / 2) sin(alpha - E / 2)), and points of
-///         the sides are found as points of the flat edges. So it serves for triangles as small as numbers get. Where
-///         its squares would underflow (smallest_spherical) points are drawn uniformly over the area, by the map that
-///         the spherical one tends to.
+///         quotient of differences that cancel for small triangles. With E the area cut off, alpha the angle at a and c
+///         the side ab, our form has no such differences: tan(ap / 2) = sin(E / 2) / (tan(c / 2) sin(alpha - E / 2)).
+///         Points of the sides are computed as points of the flat edges. So it works for arbitrarily small triangles.
+///         Where its squares would underflow (smallest_spherical), points are uniform over the area, by the limit of
+///         the spherical map.
 template <class Real>
 TANDEM_HD_SHARED LightSample<Real> sample_light(TriangleLightView<Real> view, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
@@ -184,21 +187,22 @@ TANDEM_HD_SHARED LightSample<Real> sample_light(TriangleLightView<Real> view, Do
     return sample;
 }
 
-/// Where a line from the point meets a triangle.
+/// The hit of a line from the point on a triangle.
 template <class Real>
 struct TriangleLightHit {
     Mask<Real> meets;
     Double<Real> distance;  ///< in units of the view
 };
 
-/// For a unit direction. `within`: how far inside the border a hit has to be, relative; below 0 it may be outside.
+/// For a unit direction. `within`: the relative distance inside the edges that a hit needs; negative values allow hits
+/// outside.
 template <class Real>
 TANDEM_HD_SHARED TriangleLightHit<Real> find_on_light(TriangleLightView<Real> view, Vec3<Double<Real>> direction,
                                                       double within) {
     using D = Double<Real>;
     const Vec3<D> normal = accurate_cross(view.edge1, view.edge2);
     const D sign = select(view.shows_front, D(-1.0F), D(1.0F));
-    // volumes with the edges, of one sign where the line crosses the triangle, as in kernel/shapes/triangle.h
+    // the volumes with the edges, as in kernel/shapes/triangle.h: of one sign where the line crosses the triangle
     const D speed = sign * dot(direction, normal);
     const D w2 = sign * dot(direction, accurate_cross(view.corner, view.edge1));
     const D w1 = -sign * dot(direction, accurate_cross(view.corner, view.edge2));

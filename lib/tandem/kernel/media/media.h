@@ -1,5 +1,5 @@
-/// The media that a path goes through, their absorption, and their interfaces. A medium is identified by the number of
-/// the material of the solid that it fills; no_medium is outside of all solids.
+/// The media along a path, their absorption, and their interfaces. A medium is identified by the material of the solid
+/// that it fills; no_medium is outside of all solids.
 #pragma once
 
 #include "tandem/effects/effects.h"
@@ -20,7 +20,7 @@ TANDEM_HD Double<Real> refractive_index(const SceneView& scene, const UInt<Real>
     return result;
 }
 
-/// exp(-depth). A call: three of them take the registers and the code of one.
+/// exp(-depth). Out of line, so that the three calls need the registers and the code of one.
 template <class Real>
 TANDEM_HD_CALL Real attenuation(Double<Real> depth) {
     return to_real<Real>(exponential<Real>(-depth));
@@ -38,7 +38,7 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
                          [&](std::uint32_t material, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
                              const Vec3f& absorption = scene.optics[material].absorption;
                              const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
-                                 if (!(a > 0.0F)) return before;  // also over an infinite distance
+                                 if (!(a > 0.0F)) return before;  // also for an infinite distance
                                  return select(here, attenuation<Real>(D(a) * distance), before);
                              };
                              result = {channel(absorption.x, result.x), channel(absorption.y, result.y),
@@ -47,20 +47,20 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
     return result;
 }
 
-/// Replaces the stack where dielectric solids are disjoint: a ray within one can hit only that solid's own surface.
+/// Replaces the stack where dielectric solids are disjoint: there a ray inside a solid hits only this solid.
 template <class Real>
 struct NoMediumStack {
     TANDEM_HD std::tuple<> per_lane() { return {}; }
     TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
 };
 
-/// May media be nested? Then a path tracks them with its stack.
+/// Whether media may be nested, so that paths track them with the stack.
 template <class Effects>
 TANDEM_HD bool has_stack(const SceneView& scene) {
     return Effects::has(Effect::nested_media) && scene.media_overlap != 0;
 }
 
-/// The media that a camera ray starts in.
+/// The media at the camera.
 template <class Effects, class Real>
 TANDEM_HD NoMediumStack<Real> media_at_camera(const SceneView&, const NoMediumStack<Real>&) {
     return {};
@@ -76,7 +76,7 @@ TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const Medium
     return stack;
 }
 
-/// The medium that a path is in. `own`: the one if solids are disjoint.
+/// The medium that a path is in. `own`: the medium if solids are disjoint.
 template <class Effects, class Real>
 TANDEM_HD UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
     return own;
@@ -90,11 +90,11 @@ TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Re
 template <class Real>
 struct Interface {
     UInt<Real> before, behind;
-    Mask<Real> lost = Mask<Real>(false);  ///< no room in the stack, or a medium was left that was not entered
+    Mask<Real> lost = Mask<Real>(false);  ///< the stack was full, or the path left a medium that it had not entered
 };
 
-// The interface of the solid of `material`, hit from inside or from outside in the lanes of `active`. `stack` becomes
-// what it is behind the interface.
+// The interface of a solid of `material`, hit from inside or outside, in the lanes of `active`. Updates `stack` to the
+// state behind the interface.
 template <class Effects, class Real>
 TANDEM_HD Interface<Real> cross_interface(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
                                           const Mask<Real>& from_inside, const Mask<Real>&) {
@@ -109,16 +109,16 @@ TANDEM_HD Interface<Real> cross_interface(const SceneView& scene, MediumStack<Re
         NoMediumStack<Real> none;
         return cross_interface<Effects>(scene, none, material, from_inside, active);
     }
-    Interface<Real> border;
-    border.before = stack.current();
+    Interface<Real> interface;
+    interface.before = stack.current();
     Word priority(0U);
     for_each_unique_lane(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
         priority = select(here, Word(scene.optics[value].priority), priority);
     });
     const Mask<Real> no_room = stack.enter(material, priority, active && !from_inside);
-    border.lost = no_room || stack.leave(material, active && from_inside);
-    border.behind = stack.current();
-    return border;
+    interface.lost = no_room || stack.leave(material, active && from_inside);
+    interface.behind = stack.current();
+    return interface;
 }
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// Which medium fills a point where dielectric solids are nested or overlap.
+/// The medium at a point where dielectric solids are nested or overlap.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ inline constexpr std::uint32_t no_medium = 0xFFFFFFFFU;
 
 /// The media that a path has entered and not left.
 ///
-/// Every medium has a priority. Where solids overlap, the one of the highest priority fills the space; among equals the
-/// one that was entered last. So a solid within another needs no priorities. Water that overlaps the glass around it,
-/// so that no gap is left, needs the lower one. Interfaces at the same t are crossed in the order of their primitives'
-/// ids, as hits are ordered.
+/// Every medium has a priority. Where solids overlap, the medium of the highest priority fills the space; on equal
+/// priorities, the one entered last. So a solid inside another needs no priorities. Water that overlaps the glass
+/// around it, to leave no gap, needs a lower priority than the glass. Interfaces at the same t are crossed in the order
+/// of their primitives' ids, like hits.
 ///
-/// Needs: media below 2^24, priorities below 2^7. A medium is entered as often as it is left, whatever lies between;
-///        solids of one medium may overlap.
+/// Needs: media below 2^24, priorities below 2^7. Paths leave a medium as often as they enter it, in any order with
+///        other media; solids of the same medium may overlap.
 /// Source: C. Schmidt, B. Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools 7(2),
 /// 2002. Tested by tests/kernel/media/medium_stack_test.cpp and F8 of the corpus (tests/hard).
 template <class Real>
@@ -32,7 +32,7 @@ class MediumStack {
         for (Word& entry : entries_) entry = Word(empty);
     }
 
-    /// Returns the lanes of `active` that found no room; they stay as they were.
+    /// Returns the lanes of `active` whose stack is full; they stay unchanged.
     TANDEM_HD Mask<Real> enter(const Word& medium, const Word& priority, const Mask<Real>& active) {
         const Word entry = (priority << medium_bits) | medium;
         Mask<Real> waiting = active;
@@ -44,8 +44,8 @@ class MediumStack {
         return waiting;
     }
 
-    /// Removes the last entry of the medium. Returns the lanes of `active` that were not in this medium; they stay as
-    /// they were.
+    /// Removes the last entry of the medium. Returns the lanes of `active` that were not in this medium; they stay
+    /// unchanged.
     TANDEM_HD Mask<Real> leave(const Word& medium, const Mask<Real>& active) {
         const Word nowhere(static_cast<std::uint32_t>(capacity));
         Word last = nowhere;
@@ -71,7 +71,7 @@ class MediumStack {
         return select(best == Word(empty), Word(no_medium), best & Word(medium_mask));
     }
 
-    /// References to everything that has a value per lane.
+    /// References to all values per lane.
     TANDEM_HD auto per_lane() {
         auto& [a, b, c, d, e, f, g, h] = entries_;
         return std::tie(a, b, c, d, e, f, g, h);

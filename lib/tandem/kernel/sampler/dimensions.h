@@ -1,21 +1,21 @@
-/// Random numbers are keyed by dimension name and vertex: every use has its own dimension, so that an effect that is
-/// off does not shift the numbers of the others.
+/// Random numbers are keyed by dimension name and vertex: every use has its own dimension, so that an effect does not
+/// change the numbers of others.
 #pragma once
 
 #include "tandem/kernel/sampler/philox.h"
 
 namespace tandem {
 
-/// One block of four numbers each, for every vertex of a path.
+/// Each has a block of four numbers for every vertex of a path.
 enum class Dimension : std::uint32_t {
-    film = 0,         ///< numbers 0 and 1: position within the pixel. Of the path, at vertex 0.
-    scatter = 1,      ///< number 0: how a path continues; 1: reflected or refracted; 2: Russian roulette
-    lens = 2,         ///< numbers 0 and 1: point of the lens. Of the path, at vertex 0.
+    film = 0,         ///< numbers 0 and 1: position within the pixel; at vertex 0 only
+    scatter = 1,      ///< number 0: choice of a lobe; 1: reflection or refraction; 2: Russian roulette
+    lens = 2,         ///< numbers 0 and 1: point on the lens; at vertex 0 only
     area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: the point on it
-    hemisphere = 4,   ///< numbers 0 and 1: direction of a path from a diffuse surface
-    environment = 5,  ///< numbers 0 and 1: direction to the background; all four: to its picture
-    light = 6,        ///< all four: which of the lights has a shadow ray (light_reservoir.h)
-    microfacets = 7,  ///< numbers 0 and 1: direction of a path from a surface of microfacets
+    hemisphere = 4,   ///< numbers 0 and 1: direction from a diffuse lobe
+    environment = 5,  ///< numbers 0 and 1: direction to the background; all four: to the environment picture
+    light = 6,        ///< all four: the light that gets the shadow ray (light_reservoir.h)
+    microfacets = 7,  ///< numbers 0 and 1: direction from a glossy lobe
 };
 
 namespace sampler_detail {
@@ -27,7 +27,7 @@ TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std
 
 }  // namespace sampler_detail
 
-/// One sample of one pixel, of `Real`'s lanes. Its random numbers depend on nothing else.
+/// A sample of a pixel, for each lane of `Real`. Its random numbers depend on nothing else.
 template <class Real>
 struct SampleId {
     std::uint64_t seed;
@@ -36,12 +36,13 @@ struct SampleId {
     UInt<Real> sample;
 
     /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
-    /// (pixel, sample, dimension and vertex, frame) and the key the seed: each combination once, no state.
+    /// (pixel, sample, dimension and vertex, frame) and the key is the seed, so each combination has its own numbers
+    /// without any state.
     TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, const UInt<Real>& vertex = UInt<Real>(0U)) const {
         return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                       static_cast<std::uint32_t>(seed >> 32));
     }
-    /// The same as a call, on the device: for numbers that a path needs at every vertex.
+    /// The same, but out of line on the device, for numbers that a path needs at every vertex.
     TANDEM_HD PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
         return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                                           static_cast<std::uint32_t>(seed >> 32));

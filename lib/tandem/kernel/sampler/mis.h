@@ -7,7 +7,7 @@ namespace tandem {
 
 namespace mis_detail {
 
-/// pdf / other, or its reciprocal if that is smaller; 1 where they are equal, also both infinite.
+/// pdf / other or its reciprocal, whichever is smaller; 1 for equal densities, infinite ones included.
 template <class D>
 TANDEM_HD D smaller_ratio(const D& pdf, const D& other) {
     const D larger = greater(pdf, other);
@@ -24,12 +24,12 @@ TANDEM_HD D weight(const D& pdf, const D& other, const D& ratio) {
 
 }  // namespace mis_detail
 
-/// Weight of a sample that one technique drew with density `pdf` and another would have drawn with density `other`,
-/// both in the same measure and each times its number of samples.
+/// The weight of a sample from one technique, with density `pdf` there and density `other` in a second technique. Both
+/// are in the same measure and multiplied by the technique's number of samples.
 ///
-/// Needs: densities >= 0. An infinite one is a Dirac delta's: it takes all the weight, unless both are infinite.
-/// Gives: weights in [0, 1] that are 1 together; 0 for a sample that cannot have been drawn (pdf = 0). No finite
-///        density overflows.
+/// Needs: densities >= 0. An infinite one is that of a Dirac delta function and gets all the weight, unless both are
+///        infinite.
+/// Gives: weights in [0, 1] that sum to 1; 0 for an impossible sample (pdf = 0). No finite density overflows.
 /// Source: E. Veach, L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995,
 ///         sec. 3.2: the balance heuristic.
 template <class D>

@@ -10,10 +10,10 @@ struct PhiloxBlock {
     Word word[4];
 };
 
-/// Ten rounds over a 128-bit counter under a 64-bit key: for one key, a bijection of the counters, so that streams
-/// of different counters never coincide.
+/// Ten rounds over a 128-bit counter under a 64-bit key: for each key a bijection of the counters, so different
+/// counters never give the same block.
 /// Source: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel Random Numbers: As Easy as 1, 2, 3", SC 2011, sec. 3.3;
-/// checked against the known answers of its authors in tests/kernel/sampler/philox_test.cpp.
+/// checked against the authors' known answers in tests/kernel/sampler/philox_test.cpp.
 template <class Word>
 TANDEM_HD PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
     const Word multiplier0(0xD2511F53U);
@@ -32,7 +32,7 @@ TANDEM_HD PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t 
     return counter;
 }
 
-/// Uniform in [0, 1): the upper 24 bits, so that 1 is never reached and every value is a float.
+/// Uniform in [0, 1): the upper 24 bits, so that every value is exact in float and below 1.
 template <class Real>
 TANDEM_HD Real to_unit_interval(const UInt<Real>& word) {
     return from_uint<Real>(word >> 8) * Real(0x1p-24F);

@@ -1,13 +1,13 @@
-/// A sequence of random numbers that starts from a block of the counter-based generator: for uses where the scene
-/// decides how many numbers are needed.
+/// A random sequence seeded from a block of the counter-based generator, for uses that need a varying number of random
+/// numbers.
 #pragma once
 
 #include "tandem/kernel/sampler/philox.h"
 
 namespace tandem {
 
-/// Its state is 128 bits, at first four independent words, so its first three numbers are independent too. Lanes
-/// advance one by one, so that a packet's numbers are those of its rays. Source: C. Doty-Humphrey's sfc32 ("small fast
+/// Its state of 128 bits starts as four independent words, so its first three numbers are independent too. Lanes
+/// advance separately, so that a packet has the numbers of single rays. Source: C. Doty-Humphrey's sfc32 ("small fast
 /// chaotic"), of PractRand, 2010. Tested by tests/kernel/sampler/short_sequence_test.cpp.
 template <class Real>
 class ShortSequence {

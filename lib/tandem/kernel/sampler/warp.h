@@ -1,5 +1,5 @@
-/// From two uniform numbers in [0, 1) to points of a disk or polygon and to directions. Each map keeps the strata of
-/// its square: neighbours stay neighbours.
+/// Maps from two uniform numbers in [0, 1) to points of a disk or polygon and to directions. They preserve
+/// stratification: neighbours stay neighbours.
 ///
 /// Tested by tests/kernel/sampler/warp_test.cpp.
 #pragma once
@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// A direction and the density that it was drawn with.
+/// A sampled direction and its density.
 template <class Real>
 struct DirectionSample {
     Vec3<Double<Real>> direction;  ///< unit
@@ -17,8 +17,8 @@ struct DirectionSample {
 };
 
 /// Uniform in the unit disk, density 1/pi; |(x, y)| <= 1 + 2^-52.
-/// Source: P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997: squares around the
-/// centre go to circles.
+/// Source: P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997: maps squares around the
+/// centre to circles.
 template <class Real>
 TANDEM_HD Vec2<Double<Real>> sample_disk(const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;
@@ -34,7 +34,7 @@ TANDEM_HD Vec2<Double<Real>> sample_disk(const Double<Real>& u, const Double<Rea
 
 /// Uniform in the regular polygon whose corners lie on the unit circle, the first one `rotation` turns from +x towards
 /// +y. sides >= 3. Density 2 / (n sin(2 pi / n)).
-/// Method: u chooses one of the triangles around the centre, and what is left of it the distance from the centre.
+/// Method: u chooses one of the triangles around the centre, and its remainder the distance from the centre.
 template <class Real>
 TANDEM_HD Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real>& rotation, const Double<Real>& u,
                                                     const Double<Real>& v) {
@@ -44,7 +44,7 @@ TANDEM_HD Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real
     const D half(0.5F);
     const D count(static_cast<Scalar<D>>(sides));
     const D scaled = u * count;
-    // at a border rounding may choose either triangle; the rest is 1 in the one and 0 in the other
+    // at an edge rounding may choose either triangle; `rest` is then 1 in one and 0 in the other
     const D sector = greater(lesser(round_to_int(scaled - half), count - one), zero);
     const D rest = greater(lesser(scaled - sector, one), zero);
     const SineCosine<Real> half_angle = sin_cos_turns<Real>(half / count);
@@ -55,8 +55,8 @@ TANDEM_HD Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real
     return {turn.cosine * x - turn.sine * y, turn.sine * x + turn.cosine * y};
 }
 
-/// Uniform in the aperture of a thin lens of radius 1: a polygon of that many blades, a disk for 0. `rotation`: of the
-/// first corner, in turns.
+/// Uniform in the aperture of a thin lens of radius 1: a polygon with `blades` corners, or a disk for 0. `rotation`: of
+/// the first corner, in turns.
 template <class Real>
 TANDEM_HD Vec2<Double<Real>> sample_aperture(int blades, const Double<Real>& rotation, const Double<Real>& u,
                                              const Double<Real>& v) {
@@ -64,16 +64,16 @@ TANDEM_HD Vec2<Double<Real>> sample_aperture(int blades, const Double<Real>& rot
     return sample_regular_polygon<Real>(blades, rotation, u, v);
 }
 
-/// Density of sample_cosine_hemisphere() under an angle to the normal with the given cosine.
+/// Density of sample_cosine_hemisphere() for the cosine of the angle to the normal.
 template <class D>
 TANDEM_HD D cosine_hemisphere_pdf(const D& cosine) {
     return greater(cosine, D(0.0F)) * constant<D>(inverse_pi);
 }
 
-/// Directions around a unit normal with density cos / pi, never below the horizon, and with a density above 0.
+/// A direction around a unit normal with density cos / pi, which is above 0, so never below the horizon.
 /// Source: N. Malley's method (P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting
-/// Calculations", ACM TOG 15(1), 1996): points of a disk, lifted to the hemisphere. The height comes from the radius,
-/// which the concentric map knows, so that it does not cancel at the horizon.
+/// Calculations", ACM TOG 15(1), 1996): points of a disk, lifted to the hemisphere. The height is computed from the
+/// radius before the concentric map, so that it does not cancel at the horizon.
 template <class Real>
 TANDEM_HD DirectionSample<Real> sample_cosine_hemisphere(const Vec3<Double<Real>>& normal, const Double<Real>& u,
                                                          const Double<Real>& v) {
@@ -81,7 +81,7 @@ TANDEM_HD DirectionSample<Real> sample_cosine_hemisphere(const Vec3<Double<Real>
     const D one(1.0F);
     const Vec2<D> point = sample_disk<Real>(u, v);
     const D radius = greater(absolute(u + u - one), absolute(v + v - one));
-    // a cosine of 0 would have density 0; at 2^-30 the vector still is a unit vector
+    // a cosine of 0 would have density 0; with 2^-30 the vector is still a unit vector
     const D cosine = greater(square_root((one - radius) * (one + radius)), D(0x1p-30F));
     return {from_frame(frame_around(normal), point.x, point.y, cosine), cosine_hemisphere_pdf(cosine)};
 }

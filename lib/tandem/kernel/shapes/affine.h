@@ -1,5 +1,5 @@
-/// Spheres and boxes under an affine transform: an ellipsoid is the unit sphere and a parallelepiped the cube
-/// [-1, 1]^3 of its own space. The ray is taken there; t is the same in both spaces.
+/// Spheres and boxes under an affine transform: an ellipsoid is the unit sphere and a parallelepiped the cube [-1, 1]^3
+/// of its own space. The ray is transformed to that space; t is the same in both.
 #pragma once
 
 #include "tandem/kernel/shapes/box.h"
@@ -8,19 +8,19 @@
 
 namespace tandem {
 
-/// Placement of a unit solid. World points map by object_from_world * (p - centre): subtracting first keeps the digits
-/// of a small solid far from the origin. The host computes the inverse in double.
+/// Placement of a unit solid. World points map by object_from_world * (p - centre): subtracting first avoids
+/// cancellation for a small solid far from the origin. The host computes the inverse in double.
 struct Placement {
     Matrix3 object_from_world;  ///< linear part
     Vec3d centre;               ///< world space, metres
     Sphere bounding_sphere;     ///< encloses the solid; for the reject filter
     Vec3d half_extent;          ///< of its world-space bounding box, from the centre
-    double unused = 0;          ///< what alignment would leave undefined
+    double unused = 0;          ///< otherwise padding bytes, undefined
 };
 static_assert(sizeof(Placement) == 72 + 24 + 16 + 24 + 8,
               "no byte of a placement is undefined; scene_hash() reads all");
 
-/// The unit sphere, and the cube [-1, 1]^3, somewhere.
+/// The unit sphere and the cube [-1, 1]^3 under a placement.
 struct Ellipsoid : Placement {};
 struct Parallelepiped : Placement {};
 
@@ -60,16 +60,16 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     return cross_box<Real>(-one, one, local.origin, local.direction);
 }
 
-/// The nearest point of the solid in front of the origin, in the lanes of `active`.
+/// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front(ellipsoid_roots<Real>(body, ray, {active}), t);
+TANDEM_HD Mask<Real> first_hit(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit(ellipsoid_roots<Real>(body, ray, {active}), t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front<Real>(cross_parallelepiped(to_object(body, ray)), t);
+TANDEM_HD Mask<Real> first_hit(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.
@@ -78,8 +78,7 @@ TANDEM_HD Vec3<Double<Real>> to_world_normal(const Placement& placement, const V
     return normalize(multiply(transpose(placement.object_from_world), object_normal));
 }
 
-// For closed solids `from_inside` follows from where the ray starts, so that a ray that grazes a solid enters it before
-// it leaves it.
+// For closed solids `from_inside` follows from the ray's origin, so that a grazing ray enters before it leaves.
 template <class Real>
 TANDEM_HD HitRecord<Real> record_hit(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>&,
                                      const Mask<Real>& exits, const Mask<Real>&) {

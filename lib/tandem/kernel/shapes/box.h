@@ -9,8 +9,8 @@
 
 namespace tandem {
 
-/// Closed box [lower, upper], lower <= upper; world space, metres. Zero thickness is allowed. Aligned for wide loads;
-/// the padding is a member, so that equal boxes are equal bytes.
+/// Closed box [lower, upper], lower <= upper; world space, metres. Zero thickness is allowed. Aligned for wide loads.
+/// The padding is a member, so that equal boxes have equal bytes.
 struct alignas(16) Box {
     Vec3f lower;
     Vec3f upper;
@@ -19,7 +19,7 @@ struct alignas(16) Box {
 
 TANDEM_HD Aabb bounds(const Box& box) { return {box.lower, box.upper}; }
 
-/// Entry and exit of a line through a box, and the axis (0, 1, 2) of the face that it enters and leaves by.
+/// Entry and exit of a line through a box, and the axes (0, 1, 2) of the faces where it enters and leaves.
 template <class Real>
 struct BoxCrossing : Crossing<Real> {
     UInt<Real> near_axis;
@@ -28,8 +28,8 @@ struct BoxCrossing : Crossing<Real> {
 
 namespace box_detail {
 
-/// Whether the line enters every slab before it leaves any, by exact comparison of the quotients: (face - origin) as
-/// a pair of doubles, quotients multiplied out. Axes along which the line does not move do not matter.
+/// Whether the line enters every slab before it leaves any. Compares the quotients exactly: (face - origin) as a pair
+/// of doubles, cross-multiplied. Skips axes along which the line does not move.
 template <class Real>
 TANDEM_HD_COLD Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
                                             Vec3<Double<Real>> origin, Vec3<Double<Real>> direction) {
@@ -60,10 +60,10 @@ TANDEM_HD_COLD Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Doubl
 ///
 /// Needs: finite origin and direction, the direction not zero; magnitudes within coordinate_limit.
 /// Gives: the correct decision between hit and miss for float values, widened; t within 1 ulp of float after rounding.
-///        A line in the plane of a face touches it (closed). A tie between axes, after rounding to double, goes to the
-///        lowest axis. NaN in any input: no crossing.
-/// Method: slabs with IEEE division; an axis along which the line does not move is a test of the origin. A
-///         reciprocal, or b * inv - o * inv, loses rays at edges and gives NaN on faces. Rounding keeps the order of
+///        A line in the plane of a face touches it (closed box). On a tie between axes, after rounding to double, the
+///        lowest axis wins. NaN in any input: no crossing.
+/// Method: slabs with IEEE division; for an axis along which the line does not move, a test of the origin. Reciprocals,
+///         as in b * inv - o * inv, would lose rays at edges and give NaN on faces. Rounding keeps the order of
 ///         quotients but can make two of them equal, so where entry and exit nearly agree the products decide.
 /// Source: T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986; A. Williams et al., "An Efficient and Robust
 ///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Tested by tests/kernel/shapes/box_test.cpp.
@@ -105,13 +105,13 @@ requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Doubl
     if (any(doubtful)) [[unlikely]] {
         result.crosses =
             result.crosses && (!doubtful || box_detail::overlaps_in_pairs<Real>(lower, upper, origin, direction));
-        // what rounding put in the wrong order is equal
+        // rounding may have swapped the two; they are equal then
         result.t_far = greater(result.t_near, result.t_far);
     }
     return result;
 }
 
-/// The same in the tier fast: in float, with reciprocals, and inexact. A ray in the plane of a face may miss.
+/// The same in the tier fast: in float, with reciprocals, not exact. A ray in the plane of a face may miss.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
                                                               const Vec3<Double<Real>>& upper,
@@ -148,15 +148,15 @@ TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
     return cross_box<Real>(broadcast<D>(box.lower), broadcast<D>(box.upper), widen(ray.origin), widen(ray.direction));
 }
 
-/// The nearest point of the box in front of the origin.
+/// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Box& box, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front<Real>(cross_box(box, ray), t);
+TANDEM_HD Mask<Real> first_hit(const Box& box, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit<Real>(cross_box(box, ray), t);
 }
 
-/// The record of the face that the ray hits first in front of its origin, or of the one that it leaves by where `exits`
-/// says that it comes from within. Faces are numbered 2 axis + (1 for the upper one).
+/// The record of the face that the ray hits first or, in the lanes of `exits`, of the face where it leaves the box.
+/// Faces are numbered 2 axis + (1 for the upper one).
 template <class Real>
 TANDEM_HD HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
                                      const Mask<Real>& exits) {
@@ -166,7 +166,7 @@ TANDEM_HD HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Doub
     const Mask<Real> entering = c.t_near > zero && !exits;
     const Word axis = select(entering, c.near_axis, c.far_axis);
     const D along = select(axis == Word(0U), direction.x, select(axis == Word(1U), direction.y, direction.z));
-    // an entered face looks against the ray, a left one along it
+    // the normal points against the ray on entry, along it on exit
     const Mask<Real> against = along < zero;
     const Word upper = select((entering && against) || (!entering && !against), Word(1U), Word(0U));
     return {(axis << 1) | upper, !entering};
@@ -177,7 +177,7 @@ TANDEM_HD HitRecord<Real> record_hit(const Box& box, const Ray<Real>& ray, const
     return record_hit<Real>(cross_box(box, ray), widen(ray.direction), exits);
 }
 
-/// Unit outward normal of a face. Axis-aligned, hence exact.
+/// Unit outward normal of a face. Axis-aligned and so exact.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> face_normal(const HitRecord<Real>& record) {
     using D = Double<Real>;

@@ -1,11 +1,11 @@
-/// Where a line crosses a convex solid.
+/// The crossings of a line with a convex solid.
 #pragma once
 
 #include "tandem/math/real.h"
 
 namespace tandem {
 
-/// Entry and exit parameters along a ray, in double. Meaningful where `crosses`; then t_near <= t_far.
+/// Entry and exit parameters along a ray, in double. Valid where `crosses`; then t_near <= t_far.
 template <class Real>
 struct Crossing {
     Mask<Real> crosses;
@@ -16,7 +16,7 @@ struct Crossing {
 /// The first crossing in front of the origin: t_near if positive, else t_far if positive (origin inside), else a
 /// miss. `t` is written in every lane and is valid where the result is true.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Crossing<Real>& c, Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit(const Crossing<Real>& c, Double<Real>& t) {
     const Double<Real> zero(0.0);
     t = select(c.t_near > zero, c.t_near, c.t_far);
     return c.crosses && t > zero;

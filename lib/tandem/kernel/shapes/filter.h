@@ -1,16 +1,16 @@
-/// Conservative rejection in float: cheap tests whose only definite answer is "certainly a miss".
+/// Conservative filters in float: cheap tests that reject only certain misses.
 ///
-/// All but one test the line of the ray through `offset x direction`, the Pluecker moment of the line about the centre
-/// of the primitive. Its length over |direction| is the distance of the line from the centre, so that no division and
-/// no normalised direction is needed. IEEE arithmetic makes the decision the same everywhere; since only true misses
-/// are dropped, it could differ without changing the image.
+/// All but one use `offset x direction`, the Pluecker moment of the ray's line about the centre of the primitive. Its
+/// length over |direction| is the distance of the line from the centre, so the test needs neither a division nor a
+/// normalised direction. Since only true misses are rejected, filters could differ between machines without changing
+/// the image; with IEEE arithmetic they do not.
 ///
-/// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of
-/// the moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
+/// Bound: with u = 2^-24 the subtraction origin - centre errs by u |offset| per component and each component of the
+/// moment by 3 u (|f_i d_j| + |f_j d_i|); together below 4 u |offset|_1 |direction| as a length. The tests allow
 /// filter_margin u (|offset|_1 + |origin|_1). Underflow: products below 2^-149 vanish, so 1e-36 is added where it
-/// decides, and directions shorter than 1e-15 pass the sphere's filter: their square would lose digits. Overflow and
-/// NaN fail the comparison and pass the filter. A ray in double (tier precise) is rounded to float first, which adds
-/// u (|offset|_1 + |origin|_1) |direction| twice over. Tested by tests/kernel/shapes/filter_test.cpp.
+/// matters, and directions shorter than 1e-15 pass the sphere's filter, because their squares would be inaccurate. On
+/// overflow and NaN the comparison is false and the ray passes. A ray in double (tier precise) is rounded to float
+/// first, which adds twice u (|offset|_1 + |origin|_1) |direction|. Tested by tests/kernel/shapes/filter_test.cpp.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -19,7 +19,7 @@
 namespace tandem {
 
 /// Allowed error per length: 4 u by the bound above, 4 u for the roundings of the squares and of the limit, and half of
-/// that again as a margin.
+/// the sum as a margin.
 inline constexpr float filter_margin = 12.0F * float_roundoff;
 
 template <class Real>
@@ -33,7 +33,7 @@ TANDEM_HD Vec3<Real> loose_cross(const Vec3<Real>& a, const Vec3<Real>& b) {
             loose_multiply_add(a.x, b.y, -(a.y * b.x))};
 }
 
-/// What the filters need of a ray, once for all primitives.
+/// A ray and what the filters need of it, computed once for all primitives.
 template <class Real>
 struct FilterRay {
     Ray<Real> ray;
@@ -50,21 +50,21 @@ TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
     return {ray, norm1(narrow(ray.origin)), select(length2 < F(1e-30F), infinity, length2)};
 }
 
-/// May the line of the ray touch the sphere? False only if it certainly does not.
+/// Whether the line of the ray may touch the sphere; false only for certain misses.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
     using F = Float<Real>;
     const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
     const Vec3<F> moment = loose_cross(offset, narrow(f.ray.direction));
     const F reach = loose_multiply_add(F(filter_margin), norm1(offset) + f.origin_norm1, F(radius));
-    // in this order: reach^2 could underflow before the length makes up for it
+    // in this order, because reach^2 alone could underflow
     const F limit = loose_multiply_add(f.direction_length2 * reach, reach, F(1e-36F));
     return !(loose_dot(moment, moment) > limit);
 }
 
-/// Is the sphere certainly behind the ray, which starts outside of it and leads away from its centre? By the bound
-/// above offset . direction errs by less than 5 u |offset|_1 |direction|_1, and |offset|^2 by less than 8 u of itself,
-/// half of what the reach adds to radius^2 where the two are near each other.
+/// Whether the sphere is certainly behind the ray: the origin is outside, and the direction points away from the
+/// centre. By the bound above offset . direction errs by less than 5 u |offset|_1 |direction|_1, and |offset|^2 by less
+/// than 8 u of itself, half of what `reach` adds to radius^2 where the two are close.
 template <class Real>
 TANDEM_HD Mask<Real> is_behind_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
     using F = Float<Real>;
@@ -77,18 +77,18 @@ TANDEM_HD Mask<Real> is_behind_sphere(const FilterRay<Real>& f, const Vec3f& sph
            loose_dot(offset, offset) > loose_multiply_add(reach, reach, F(1e-36F));
 }
 
-/// A box as its filter wants it.
+/// A box in the form that its filter needs.
 struct BoxFilter {
     Vec3f centre;
     Vec3f half;
-    float corner_norm1;  ///< |lower|_1 + |upper|_1: what rounding centre and half is relative to
+    float corner_norm1;  ///< |lower|_1 + |upper|_1: the rounding of `centre` and `half` is relative to this
 };
 
 TANDEM_HD BoxFilter make_box_filter(const Vec3f& lower, const Vec3f& upper) {
     return {(lower + upper) * 0.5F, (upper - lower) * 0.5F, norm1(lower) + norm1(upper)};
 }
 
-/// May the line of the ray touch the box? Separating axes of a line and a box: direction x each axis.
+/// Whether the line of the ray may touch the box. Separating axes of a line and a box: direction x each axis.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& box) {
     using F = Float<Real>;
@@ -112,15 +112,15 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower,
     return may_touch_box(f, make_box_filter(lower, upper));
 }
 
-/// May the ray touch the triangle? False only if its line passes one edge certainly on one side and another certainly
-/// on the other, or if it certainly leads away from the triangle's plane. With a = v0 - origin and the edges e1 = v1 -
-/// v0, e2 = v2 - v0, the volumes that say so are (d x a) . e1, -(d x a) . e2 and, as their sum with the one that is
-/// left, d . (e1 x e2); the ray leads to the plane where that and a . (e1 x e2) have one sign.
+/// Whether the ray may touch the triangle. False only if its line certainly passes one edge on one side and another on
+/// the other side, or if it certainly leads away from the triangle's plane. With a = v0 - origin and the edges e1 = v1
+/// - v0, e2 = v2 - v0, two of the volumes are (d x a) . e1 and -(d x a) . e2; all three sum to d . (e1 x e2). The ray
+/// leads towards the plane if this sum and a . (e1 x e2) have the same sign.
 ///
 /// Bound: all differences are rounded once, so no volume errs by more than 9 u |d| (|a| + |e|) |e|, |e| = |e1| + |e2|,
-/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. a . (e1 x e2) errs
-/// by as much with |a| for |d|, and by u (|a| + |origin|) |e|^2 for the rounding of a. The terms with 1e-30 keep the
-/// limits above what underflow takes from products; where a volume overflows, its limit does too.
+/// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. a . (e1 x e2) has
+/// the same error with |a| in place of |d|, plus u (|a| + |origin|) |e|^2 for the rounding of a. The terms with 1e-30
+/// keep the limits above the loss by underflow; where a volume overflows, its limit does too.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     using F = Float<Real>;

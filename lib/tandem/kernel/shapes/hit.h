@@ -1,4 +1,4 @@
-/// Hits, and the one order among them that decides which is nearest.
+/// Hits, and the order that decides which is nearest.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,15 @@
 
 namespace tandem {
 
-/// Id of no primitive.
+/// The id that means no primitive.
 inline constexpr std::uint32_t no_primitive = 0xFFFFFFFFU;
-/// Id that says "occluded": by which primitive, a shadow ray does not ask.
+/// The id that means "occluded", by some primitive: shadow rays do not ask by which.
 inline constexpr std::uint32_t some_primitive = 0xFFFFFFFEU;
-/// From here on ids stand for no primitive of a scene.
+/// Ids from here on are not primitives of a scene.
 inline constexpr std::uint32_t first_special_id = some_primitive;
 
-/// The nearest hit found so far. t is double and positive: candidates are compared before the one rounding to
-/// float that a caller sees, so that two surfaces less than a float apart still come in their true order.
+/// The nearest hit found so far. t is double and positive. Hits are compared before callers get t rounded to float, so
+/// that surfaces less than one ulp of float apart keep their order.
 template <class Real>
 struct Closest {
     Double<Real> t;
@@ -27,22 +27,21 @@ TANDEM_HD Closest<Real> no_hit() {
     return {Double<Real>(__builtin_huge_val()), UInt<Real>(no_primitive)};
 }
 
-/// Is (t, primitive) nearer than `best`? Equal t: the lower id wins, whatever the order of discovery.
+/// Whether (t, primitive) is nearer than `best`. On equal t the lower id wins, in any order of discovery.
 template <class Real>
 TANDEM_HD Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& primitive, const Closest<Real>& best) {
     return t < best.t || (t == best.t && primitive < best.primitive);
 }
 
-/// What a shape finds out about a hit on it beside t, once, for all that is asked there: the point, the normals, the
-/// parametrisation. record_hit() of each shape makes it.
+/// What the surface point, the normals and the parametrisation of a hit need beside t. record_hit() of each shape
+/// computes it once.
 template <class Real>
 struct HitRecord {
-    UInt<Real> part = UInt<Real>(0U);            ///< of a box the face (box.h), of a quad the triangle: 0 or 1
-    Mask<Real> from_inside = Mask<Real>(false);  ///< of a body: the ray comes from within. Of a face it follows from
-                                                 ///< its normal.
+    UInt<Real> part = UInt<Real>(0U);            ///< box: the face (box.h); quad: the triangle, 0 or 1
+    Mask<Real> from_inside = Mask<Real>(false);  ///< the ray comes from inside a solid; false for faces
 };
 
-/// A hit as callers see it.
+/// A hit for callers of the library.
 struct Hit {
     float t = 0;                             ///< in lengths of the ray's direction; 0 for a miss
     std::uint32_t primitive = no_primitive;  ///< id in the prepared scene, or no_primitive

@@ -1,5 +1,5 @@
-/// Texture coordinates on solids and faces, at a ray's hit. (0, 0) is the upper left of an image and v runs down, as in
-/// glTF 2.0.
+/// Texture coordinates on solids and faces, at a ray's hit. (0, 0) is the upper left corner of an image and v points
+/// down, as in glTF 2.0.
 ///
 ///   sphere, ellipsoid     the globe: u = 1/2 + longitude / 2 pi grows to the east, seen from outside, from +z (1/2)
 ///                         towards +x (3/4); v = 0 at the pole +y, 1 at -y. At the poles u is 1/2
@@ -9,8 +9,8 @@
 ///                         v0 (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1), a triangle its half with v0, v1 (1, 0), v2 (0,
 ///                         1)
 ///
-/// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their own space, to which the
-/// unit body's transform leads; so prepare() converts textured primitives that are rotated or mirrored to these.
+/// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their object space. So
+/// prepare() converts textured primitives that are rotated or mirrored to the latter.
 #pragma once
 
 #include <type_traits>
@@ -21,14 +21,14 @@
 
 namespace tandem {
 
-/// Of a face; 0 for primitives without corners.
+/// The number of corners of a face; 0 for solids.
 template <class Primitive>
 inline constexpr std::uint32_t corner_count = std::is_same_v<Primitive, Triangle> ? 3
                                               : std::is_same_v<Primitive, Quad>   ? 4
                                                                                   : 0;
 
-/// u and v of a point, and the directions, world space, in which they grow there, of any length. Zero, or along each
-/// other, where the texture coordinates of a face span no area.
+/// u and v of a point, and the directions of their growth: world space, of any length. Zero or parallel where the
+/// texture coordinates of a face span no area.
 template <class Real>
 struct Parametrisation {
     Double<Real> u, v;
@@ -37,7 +37,8 @@ struct Parametrisation {
 
 namespace parametrisation_detail {
 
-/// `p`: from the centre to the point, of any length. Directions in the space of p; at the poles those of longitude 0.
+/// `p`: from the centre to the point, of any length. The directions are in the space of p; at the poles those of
+/// longitude 0.
 template <class Real>
 TANDEM_HD Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
     using D = Double<Real>;
@@ -53,7 +54,8 @@ TANDEM_HD Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
     return result;
 }
 
-/// `at`: the point along each axis, 0 to 1. `face`: its outward normal, along an axis. Directions in the space of both.
+/// `at`: the point along each axis, 0 to 1. `face`: the outward normal, along an axis. The directions are in the space
+/// of both.
 template <class Real>
 TANDEM_HD Parametrisation<Real> on_box(const Vec3<Double<Real>>& at, const Vec3<Double<Real>>& face) {
     using D = Double<Real>;
@@ -81,7 +83,7 @@ TANDEM_HD Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<R
     return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
 }
 
-/// From directions in object space.
+/// Transforms the directions from object space.
 template <class Real>
 TANDEM_HD Parametrisation<Real> to_world(const Placement& placement, const Parametrisation<Real>& own) {
     const Matrix3 world_from_object = inverse(placement.object_from_world);
@@ -99,7 +101,7 @@ TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3f v0, Vec3f v1, Vec3f v2, V
     Parametrisation<Real> result;
     result.u = (D(a.x) * rest + D(b.x) * at.u) + D(c.x) * at.v;
     result.v = (D(a.y) * rest + D(b.y) * at.u) + D(c.y) * at.v;
-    // The edges are e = dp_du * du + dp_dv * dv; solved for the two, but for the determinant's size.
+    // The edges are e = dp_du * du + dp_dv * dv, solved up to the magnitude of the determinant.
     const Vec3<S> e1 = Vec3<S>(v1) - Vec3<S>(v0);
     const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
     const S du1 = S(b.x) - S(a.x);
@@ -112,7 +114,8 @@ TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3f v0, Vec3f v1, Vec3f v2, V
     return result;
 }
 
-/// The values at the corners of a face; without any, those of the whole square, of which a triangle has half.
+/// The texture coordinates at the corners of a face; by default those of the whole square, or half of it for a
+/// triangle.
 template <int count>
 struct Corners {
     Vec2f uv[count];
@@ -130,11 +133,12 @@ TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
 
 }  // namespace parametrisation_detail
 
-// The parametrisation of each kind where `ray` hits it at `t`, in the lanes of `here`. `record`: the shape's, of this
-// hit. `texcoords`: the scene's (PreparedScene::texcoords), of one slot.
+// The parametrisation of each kind of primitive where `ray` hits it at `t`, in the lanes of `here`. `record`:
+// record_hit() of this hit. `texcoords`: one slot of PreparedScene::texcoords.
 //
-// Gives: u and v within 2^-21 on faces and 1e-12 on bodies, more where the ray itself moves far along the surface with
-// its last digit. In the tier fast as accurate as float. Tested by tests/kernel/shapes/parametrisation_test.cpp.
+// Gives: u and v within 2^-21 on faces and 1e-12 on solids, but less accurately where one ulp of the ray moves the hit
+//        far along the surface. In the tier fast as accurate as float. Tested by
+//        tests/kernel/shapes/parametrisation_test.cpp.
 
 template <class Real>
 TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const HitRecord<Real>&, const Vec2f*,
@@ -155,7 +159,7 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const HitRecord<
     using D = Double<Real>;
     const Vec3<D> direction = widen(ray.direction);
     const auto along = [&](const D& o, const D& d, float lower, float upper) TANDEM_INLINE_LAMBDA {
-        // a flat box has no extent across, where the value does not matter
+        // across a flat box the size is 0 and the value does not matter
         const D size = D(upper) - D(lower);
         const D from_lower = (o - D(lower)) + t * d;
         return parametrisation_detail::clamp_to_one<Real>(from_lower / select(size > D(0.0), size, D(1.0)));

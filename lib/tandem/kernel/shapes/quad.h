@@ -5,53 +5,53 @@
 
 namespace tandem {
 
-/// The triangles (v0, v1, v2) and (v0, v2, v3), flat or folded along v0 v2; neither has area zero. World space, metres.
+/// The triangles (v0, v1, v2) and (v0, v2, v3), flat or folded along v0 v2; neither is degenerate. World space, metres.
 struct alignas(16) Quad {
     Vec3f v0, v1, v2, v3;
     FaceAttributes attributes{};
-    std::uint32_t unused = 0;  ///< what alignment would leave undefined
+    std::uint32_t unused = 0;  ///< otherwise padding bytes, undefined
 };
 static_assert(sizeof(Quad) == 64, "no byte of a quad is undefined; scene_hash() reads all");
 
 TANDEM_HD Aabb bounds(const Quad& quad) { return box_around(quad.v0, quad.v1, quad.v2, quad.v3); }
 
-/// May the line of the ray touch one of the two triangles? False only if it certainly does not.
+/// Whether the ray may touch one of the two triangles; false only for certain misses.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch_quad(const FilterRay<Real>& f, const Quad& quad) {
     return may_touch_triangle(f, quad.v0, quad.v1, quad.v2) || may_touch_triangle(f, quad.v0, quad.v2, quad.v3);
 }
 
-/// The nearer of a line's hits on the two triangles, which share the diagonal, of those that count: as watertight there
-/// as two triangles of a mesh. A hit on the diagonal is one of the first triangle. `counts` takes the lanes that
-/// hit a triangle, t, and the triangle's last two corners; it says which of these lanes count. Everything else as
-/// first_in_front() of a triangle. Tested by tests/kernel/shapes/quad_test.cpp.
+/// The nearer of the hits on the two triangles that count. Watertight at the diagonal, like two triangles of a mesh; a
+/// hit on the diagonal belongs to the first triangle. `counts` takes the lanes that hit a triangle, t, and the
+/// triangle's last two corners; it returns the lanes whose hit counts. Otherwise as first_hit() of a triangle.
+/// Tested by tests/kernel/shapes/quad_test.cpp.
 template <class Real, class Counts>
 TANDEM_HD Mask<Real> first_that_counts(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
                                        const Mask<Real>& active, const Double<Real>& farthest, const Counts& counts) {
     Double<Real> t_second(0.0);
-    const Mask<Real> on_first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
-    const Mask<Real> on_second = first_in_front(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
+    const Mask<Real> on_first = first_hit(quad.v0, quad.v1, quad.v2, ray, t, active, farthest);
+    const Mask<Real> on_second = first_hit(quad.v0, quad.v2, quad.v3, ray, t_second, active, farthest);
     const Mask<Real> first = counts(on_first, t, quad.v1, quad.v2);
     const Mask<Real> second = counts(on_second && !(on_first && t == t_second), t_second, quad.v2, quad.v3);
     t = select(second && !(first && t < t_second), t_second, t);
     return first || second;
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD Mask<Real> first_hit(const Quad& quad, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     const auto all = [](const Mask<Real>& hit, const Double<Real>&, const Vec3f&, const Vec3f&)
                          TANDEM_INLINE_LAMBDA { return hit; };
     return first_that_counts(quad, ray, t, active, farthest, all);
 }
 
-/// Which of the two triangles a ray hits at t, in the lanes of `here`, where first_in_front() gave t: the first one on
-/// the diagonal.
+/// The triangle that a ray hits at t, in the lanes of `here`; t is that of first_hit(). The first triangle on the
+/// diagonal.
 template <class Real>
 TANDEM_HD HitRecord<Real> record_hit(const Quad& quad, const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&,
                                      const Mask<Real>& here) {
     Double<Real> t_first(0.0);
-    const Mask<Real> first = first_in_front(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
+    const Mask<Real> first = first_hit(quad.v0, quad.v1, quad.v2, ray, t_first, here) && t_first == t;
     return {select(first, UInt<Real>(0U), UInt<Real>(1U))};
 }
 template <class Real>
@@ -60,8 +60,8 @@ TANDEM_HD Mask<Real> is_in_first_half(const HitRecord<Real>& record) {
 }
 
 /// Coordinates on a quad, 0 to 1 along v0 v1 and v0 v3, affine in each triangle and the same on both sides of the
-/// diagonal: v0 is (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1). On a parallelogram they are its own. `at`: barycentric
-/// coordinates in the triangle of `first_half`.
+/// diagonal: v0 is (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1). On a parallelogram they are affine throughout. `at`:
+/// barycentric coordinates in the triangle that `first_half` selects.
 template <class Real>
 TANDEM_HD Barycentrics<Double<Real>> quad_coordinates(const Barycentrics<Double<Real>>& at,
                                                       const Mask<Real>& first_half) {

@@ -1,22 +1,22 @@
-/// Shading normals of a face: interpolated between its corners, or the geometric one.
+/// Shading normals of faces: interpolated between the corners, or the geometric normal.
 #pragma once
 
 #include "tandem/kernel/shapes/quad.h"
 
 namespace tandem {
 
-/// The shading normals of a face's corners; null if it has none.
+/// The shading normals of the corners of a face; null if it has none.
 TANDEM_HD const Vec3f* corner_normals(const Vec3f* normals, const FaceAttributes& attributes) {
     return attributes.normals == no_attributes ? nullptr : normals + attributes.normals;
 }
 
 /// Unit shading normal, world space, where a ray hits the triangle (v0, v1, v2), in the lanes of `here`.
 ///
-/// `normals`: of the corners, unit or 0, at 0, `second` and `second` + 1; null for a face that has none. They are
-/// interpolated linearly and normalised (Phong's interpolation), in double. Where they cancel to less than 2^-20, and
-/// where there are none, it is the triangle's own normal. On a double-sided face both turn to the side that the ray
-/// comes from: the triangle's own normal says which it is. Source: B. T. Phong, "Illumination for Computer Generated
-/// Pictures", CACM 18(6), 1975; glTF 2.0, 3.9.6 on sides.
+/// `normals`: of the corners, unit or 0, at indices 0, `second` and `second` + 1; null for a face without. They are
+/// interpolated linearly and normalised (Phong's interpolation), in double. Where the sum is shorter than 2^-20, and
+/// without normals, the result is the geometric normal. On a double-sided face it is flipped to the side of the ray's
+/// origin, which the geometric normal decides. Source: B. T. Phong, "Illumination for Computer Generated Pictures",
+/// CACM 18(6), 1975; glTF 2.0, 3.9.6 on sides.
 template <class Real>
 TANDEM_HD_CALL Vec3<Double<Real>> shading_normal(Vec3f v0, Vec3f v1, Vec3f v2, const Vec3f* normals, int second,
                                                  bool double_sided, Ray<Real> ray, Mask<Real> here) {
@@ -46,7 +46,7 @@ TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3
                                 ray, here);
 }
 
-/// The same for the triangle of the quad that the ray hits.
+/// The same for the half of the quad that the ray hits.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const HitRecord<Real>& record, const Vec3f* normals,
                                             const Ray<Real>& ray, const Mask<Real>& here) {

@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// World space, metres, radius > 0. Aligned, so that a GPU reads it in one load.
+/// World space, metres, radius > 0. Aligned, so that a GPU needs one load.
 struct alignas(16) Sphere {
     Vec3f centre;
     float radius;
@@ -22,7 +22,7 @@ TANDEM_HD Aabb bounds(const Sphere& sphere) {
 
 namespace sphere_detail {
 
-/// The coefficients of a t^2 - 2 b t + c = 0 that cancel, and the discriminant b^2 - a c, each rounded once.
+/// The coefficients of a t^2 - 2 b t + c = 0 that cancel, and the discriminant b^2 - a c, each rounded only once.
 template <class D>
 struct Quadratic {
     D discriminant;
@@ -31,7 +31,7 @@ struct Quadratic {
 };
 
 /// In pairs of doubles, to 2^-100: for a nearly tangent line and an origin nearly on the sphere. The discriminant is a
-/// r^2 - |offset x direction|^2 (Lagrange's identity), which does not cancel before its end.
+/// r^2 - |offset x direction|^2 (Lagrange's identity), which cancels in its last subtraction only.
 template <class Real>
 TANDEM_HD_COLD Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
                                                           Vec3<Double<Real>> direction, Double<Real> radius) {
@@ -57,7 +57,7 @@ TANDEM_HD_COLD Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> ori
 
 }  // namespace sphere_detail
 
-/// The terms that decide whether a line hits a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are
+/// The coefficients and roots for a line and a sphere: with b = -offset . direction, the roots of a t^2 - 2 b t + c are
 /// q / a and c / q, where q = b +- sqrt(b^2 - a c) takes the sign that does not cancel.
 template <class Real>
 struct SphereRoots {
@@ -66,15 +66,15 @@ struct SphereRoots {
     Double<Real> a, b, c, q;
 };
 
-/// The active lines when many are tested at once; only these are evaluated a second time.
+/// Which lines matter when many are tested at once; only these are evaluated a second time.
 template <class Real>
 struct SphereLines {
     Mask<Real> active = Mask<Real>(true);
-    /// The ray starts on the sphere, and its far crossing is asked for: c is 0 but for rounding, and decides nothing.
+    /// The ray starts on the sphere, and only its far crossing matters. So c is 0 up to rounding, and decides nothing.
     Mask<Real> inward = Mask<Real>(false);
 };
 
-/// The roots in double alone, from offset = origin - centre, and where these may not suffice.
+/// The roots in double only, from offset = origin - centre; `doubtful` where that may not suffice.
 template <class Real>
 TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
                                                    const Vec3<Double<Real>>& direction, const Double<Real>& radius,
@@ -93,14 +93,14 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
     const D root = square_root(absolute(discriminant));
     roots.q = roots.b + select(roots.b < zero, -root, root);
 
-    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q;
-    // c errs by 2^-52 of its terms. In doubt where the sign or 2^-26 of a root could be at stake.
+    // The discriminant errs by about 2^-50 a |offset| (radius + 2^-50 |offset|), and the roots by that over 2 root q; c
+    // errs by 2^-52 of its terms. Doubtful where the sign could be wrong, or a root by 2^-26 of itself.
     const D size2 = offset2 + radius2;
     const D error2 = (roots.a * size2) * (roots.a * multiply_add(D(0x1p-96), offset2, radius2));
     const Mask<Real> touching = discriminant * discriminant <= D(0x1p-94) * error2 ||
                                 absolute(discriminant) * (roots.q * roots.q) <= D(0x1p-44) * error2;
     const Mask<Real> on_surface = absolute(roots.c) <= D(0x1p-25) * size2;
-    // a ray that goes inward leaves by q / a, unless it looks past the centre from the start
+    // an inward ray leaves at q / a, unless the centre is behind it
     const Mask<Real> by_quotient = lines.inward && roots.b >= zero;
     roots.doubtful = lines.active && (touching || (on_surface && !by_quotient));
     return roots;
@@ -111,10 +111,10 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
 ///        of its distance; t within 1 ulp of float after rounding. A tangent line crosses (closed ball). NaN in any
 ///        input: no crossing.
 /// Method: by Lagrange's identity b^2 - a c = a r^2 - |offset x direction|^2. The moment offset x direction comes from
-///        Kahan's differences of products, so no term cancels before the end, and no division is needed to decide;
-///        the textbook b^2 - a c loses everything when the sphere is small and far. Where double may not suffice the
-///        terms are formed again in pairs of doubles: few lines are so nearly tangent, and few origins so near to the
-///        surface.
+///         Kahan's differences of products, so no term cancels before the end, and no division is needed to decide; the
+///         textbook b^2 - a c loses all digits when the sphere is small and far. Where double may not suffice, the
+///         terms are computed again in pairs of doubles; few lines are so nearly tangent, and few origins so near the
+///         surface.
 /// Source: the form with the perpendicular is E. Haines, J. Guenther, T. Akenine-Moeller, "Precision Improvements for
 ///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound tested
 ///        by tests/kernel/shapes/sphere_test.cpp.
@@ -162,7 +162,7 @@ requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Doub
     return roots;
 }
 
-/// Both crossings.
+/// Entry and exit.
 template <class Real>
 TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
@@ -173,11 +173,11 @@ TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
     return {roots.crosses, lesser(t_small, t_large), greater(t_small, t_large)};
 }
 
-/// first_in_front(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
-/// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a looking past the centre (b >= 0), else
-/// c / q. An origin on the surface (c = 0) looking in leaves by q / a; looking out, c / q = 0 is no hit.
+/// first_hit(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
+/// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a if the centre is ahead (b >= 0), else c
+/// / q. From the surface (c = 0) an inward ray leaves at q / a; for an outward one c / q = 0 is no hit.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const SphereRoots<Real>& roots, Double<Real>& t) {
+TANDEM_HD Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
     using D = Double<Real>;
     const D zero(0.0);
     const Mask<Real> by_product = roots.c > zero || roots.b < zero;
@@ -200,28 +200,27 @@ TANDEM_HD Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray
 
 namespace sphere_detail {
 
-/// first_in_front() of the exact roots, infinite for a miss.
+/// first_hit() of the exact roots, infinite for a miss.
 template <class Real>
-TANDEM_HD_COLD Double<Real> exact_first_in_front(Sphere sphere, Ray<Real> ray) {
+TANDEM_HD_COLD Double<Real> exact_first_hit(Sphere sphere, Ray<Real> ray) {
     Double<Real> t;
-    const Mask<Real> hit = first_in_front(sphere_roots(sphere, ray), t);
+    const Mask<Real> hit = first_hit(sphere_roots(sphere, ray), t);
     return select(hit, t, Double<Real>(__builtin_huge_val()));
 }
 
 }  // namespace sphere_detail
 
-/// The nearest point of the sphere in front of the origin, in the lanes of `active`:
-/// first_in_front(sphere_roots(sphere, ray), t), with the rare cases out of line.
+/// The nearest hit in front of the ray's origin, in the lanes of `active`: first_hit(sphere_roots(sphere, ray),
+/// t), with the rare cases out of line.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray,
-                                                             Double<Real>& t,
-                                                             const Mask<Real>& active = Mask<Real>(true)) {
+requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                        const Mask<Real>& active = Mask<Real>(true)) {
     using D = Double<Real>;
     const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
                                                                  widen(ray.direction), D(sphere.radius), {active});
-    Mask<Real> hit = active && first_in_front(roots, t);
+    Mask<Real> hit = active && first_hit(roots, t);
     if (any(roots.doubtful)) [[unlikely]] {
-        const D exact = sphere_detail::exact_first_in_front(sphere, ray);
+        const D exact = sphere_detail::exact_first_hit(sphere, ray);
         hit = select(roots.doubtful, exact < D(__builtin_huge_val()), hit);
         t = select(roots.doubtful, exact, t);
     }
@@ -229,9 +228,9 @@ requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& spher
 }
 
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD Mask<Real> first_in_front(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
-                                                            const Mask<Real>& active = Mask<Real>(true)) {
-    return active && first_in_front(sphere_roots(sphere, ray), t);
+requires(is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
+                                                       const Mask<Real>& active = Mask<Real>(true)) {
+    return active && first_hit(sphere_roots(sphere, ray), t);
 }
 
 /// From the centre to the point at parameter t of the ray.
@@ -243,15 +242,15 @@ TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>
     return {offset.x + t * direction.x, offset.y + t * direction.y, offset.z + t * direction.z};
 }
 
-/// Unit outward normal at parameter t of the ray, which is on the sphere. Double; normalising the offset from the
-/// centre re-projects the point, so the error of t does not tilt the normal.
+/// Unit outward normal, in double, at parameter t of the ray, which is on the sphere. Normalising the offset from the
+/// centre projects the point onto the sphere, so the error of t does not tilt the normal.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
     return normalize(sphere_offset(sphere, ray, t));
 }
 
-/// `exits`: the ray left the sphere inward, so it comes from within, whatever rounding has done to its origin. For
-/// others it follows from where they start, so that a ray that grazes a sphere enters it before it leaves it.
+/// `exits`: the ray left the sphere inward, so it comes from inside, even if rounding moved its origin outside. For
+/// other rays the origin decides, so that a grazing ray enters before it leaves.
 template <class Real>
 TANDEM_HD HitRecord<Real> record_hit(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>&,
                                      const Mask<Real>& exits, const Mask<Real>&) {

@@ -5,12 +5,12 @@
 
 namespace tandem {
 
-/// Orthogonal unit vectors around the unit `normal`: the tangent where u grows, the bitangent where v falls, which is
-/// up in the image. Left-handed where the image is mirrored.
+/// An orthonormal frame around the unit `normal`: the tangent in the direction of growing u, the bitangent in that of
+/// falling v, which is up in the image. Left-handed where the image is mirrored.
 ///
-/// `dp_du`, `dp_dv`: where the coordinates grow on the surface, of any length; they need not be orthogonal to the
-/// normal or to each other. Where dp_du is zero or along the normal, the frame is frame_around(). The tangent is dp_du
-/// without its part along the normal, as E. Lengyel does it, "Mathematics for 3D Game Programming and Computer
+/// `dp_du`, `dp_dv`: the directions of growing u and v on the surface, of any length, not necessarily orthogonal to the
+/// normal or to each other. Where dp_du is zero or parallel to the normal, the frame is frame_around(). The tangent is
+/// dp_du without its component along the normal, after E. Lengyel, "Mathematics for 3D Game Programming and Computer
 /// Graphics", 7.8. Tested by tests/kernel/shapes/parametrisation_test.cpp.
 template <class D>
 TANDEM_HD Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, const Vec3<D>& dp_dv) {

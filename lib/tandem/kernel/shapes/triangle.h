@@ -10,11 +10,11 @@
 
 namespace tandem {
 
-/// For a face without normals or texture coordinates.
+/// The index of a face that has no normals or no texture coordinates.
 inline constexpr std::uint32_t no_attributes = 0xFFFFFFFFU;
 
-/// What a face carries beside its corners. Values of its corners stand in their order in arrays of the scene. Of
-/// texture coordinates there may be several sets: a slot has a pair for each corner, and one slot follows the other.
+/// The attributes of a face. Values at its corners are in arrays of the scene, in the order of the corners. There may
+/// be several slots of texture coordinates, one after the other, with a pair for each corner.
 struct FaceAttributes {
     std::uint32_t normals = no_attributes;    ///< index of the first corner's shading normal
     std::uint32_t texcoords = no_attributes;  ///< index of the first corner's texture coordinates, in slot 0
@@ -23,15 +23,15 @@ struct FaceAttributes {
 
 TANDEM_HD bool is_double_sided(const FaceAttributes& attributes) { return attributes.sides == FaceSides::double_sided; }
 
-/// World space, metres; counter-clockwise seen from the side that its normal points to. The area is not zero. Aligned,
-/// so that a GPU reads it in three loads.
+/// World space, metres; counter-clockwise seen from the front. Not degenerate. Aligned, so that a GPU needs three
+/// loads.
 struct alignas(16) Triangle {
     Vec3f v0, v1, v2;
     FaceAttributes attributes{};
 };
 static_assert(sizeof(Triangle) == 48, "no byte of a triangle is undefined; scene_hash() reads all");
 
-/// The smallest box around points.
+/// The bounding box of points.
 template <class... Points>
 TANDEM_HD Aabb box_around(const Points&... points) {
     Aabb box;
@@ -41,7 +41,7 @@ TANDEM_HD Aabb box_around(const Points&... points) {
 
 TANDEM_HD Aabb bounds(const Triangle& triangle) { return box_around(triangle.v0, triangle.v1, triangle.v2); }
 
-/// Where a point of a triangle is: v0 + u (v1 - v0) + v (v2 - v0); u and v in [0, 1], u + v <= 1.
+/// Barycentric coordinates: the point v0 + u (v1 - v0) + v (v2 - v0); u and v in [0, 1], u + v <= 1.
 template <class D>
 struct Barycentrics {
     D u, v;
@@ -49,14 +49,14 @@ struct Barycentrics {
 
 namespace triangle_detail {
 
-/// Relative to their bounds: what the volumes below err by at most in double, and from where on pairs of doubles may
-/// not tell the sign, or the nearest double, of a quotient.
+/// Relative to their bounds: the largest error of the volumes below in double, and the size below which pairs of
+/// doubles may not give the right sign, or the nearest double, of a quotient.
 inline constexpr double volume_error = 0x1p-49;
 inline constexpr double pair_doubt = 0x1p-30;
 
-/// A triangle and a line seen from the line's origin, in double: d . (p x q) for the edges that face v0, v1 and v2, p
-/// and q being the corners of the edge, less the origin. All have one sign, or are zero, where the line crosses the
-/// triangle, which they divide as its barycentric coordinates do. They come from one moment d x a, as in
+/// The volumes of a line with the edges of a triangle, in double: d . (p x q) for the edges opposite v0, v1 and v2,
+/// with p and q the corners of the edge minus the line's origin. Where the line crosses the triangle, all have one sign
+/// or are zero, and they are in proportion to the barycentric coordinates. They come from one moment d x a, as in
 /// may_touch_triangle(), and with the same bound.
 template <class Real>
 struct Volumes {
@@ -85,7 +85,7 @@ struct Volumes {
         above_error = D(volume_error) * ((reach * D(size)) * D(size));
     }
 
-    /// Where the line crosses the triangle, is that certainly behind the origin, or beyond `farthest`?
+    /// Whether a crossing is certainly behind the origin or beyond `farthest`.
     [[nodiscard]] TANDEM_HD Mask<Real> is_out_of_reach(const D& farthest) const {
         const Mask<Real> turned = speed < D(0.0);
         const D height = select(turned, -above, above);
@@ -94,7 +94,7 @@ struct Volumes {
     }
 };
 
-/// Where a line crosses a triangle, in float: for the tier fast.
+/// The crossing of a line with a triangle, in float, for the tier fast.
 /// Source: T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
 template <class Real>
 struct RoughCrossing {
@@ -127,7 +127,7 @@ TANDEM_HD Vec3<Pair<D>> broadcast_pairs(const Vec3<Pair<Scalar>>& a) {
     return {Pair<D>{D(a.x.high), D(a.x.low)}, Pair<D>{D(a.y.high), D(a.y.low)}, Pair<D>{D(a.z.high), D(a.z.low)}};
 }
 
-/// Where a line crosses the plane of a triangle, in pairs of doubles.
+/// The crossing of a line with the plane of a triangle, in pairs of doubles.
 template <class Real>
 struct PlaneCrossing {
     using D = Double<Real>;
@@ -153,7 +153,7 @@ struct PlaneCrossing {
     }
 };
 
-/// The same and the volumes without rounding, for one ray. `T` is its scalar.
+/// The same, and the volumes, without rounding, for one ray. `T` is its scalar.
 template <class T>
 class ExactCrossing {
   public:
@@ -187,7 +187,7 @@ class ExactCrossing {
     }
 
   private:
-    /// det(d, p - o, q - o) for the edge p, q that faces a corner.
+    /// det(d, p - o, q - o) for the edge p, q opposite a corner.
     TANDEM_HD ExactSum<T> weight(int corner) const {
         const Vec3<T>& p = v_[(corner + 1) % 3];
         const Vec3<T>& q = v_[(corner + 2) % 3];
@@ -225,7 +225,7 @@ TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
 
-/// The parameter of the hit, or infinity for a miss, in the lanes of `active`: others are not evaluated a second time.
+/// The parameter of the hit, or infinity for a miss, in the lanes of `active`; others are not evaluated a second time.
 /// A hit beyond `farthest` may count as a miss.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray,
@@ -252,7 +252,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
     return t;
 }
 
-/// The same in the tier fast: in float, evaluated once. A line through an edge may miss both of its triangles.
+/// The same in the tier fast: in float, not watertight. A line through an edge may miss both of its triangles.
 template <class Real>
 requires(is_fast<Real>) TANDEM_HD Real
     parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&, const Real&) {
@@ -263,7 +263,7 @@ requires(is_fast<Real>) TANDEM_HD Real
     return select(inside, crossing.t, Real(__builtin_huge_valf()));
 }
 
-/// In the lanes of `active`, within 2^-22; they may be as much out of range.
+/// In the lanes of `active`, within 2^-22; they may be out of range by as much.
 template <class Real>
 TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
                                                        const Ray<Real>& ray, const Mask<Real>& active) {
@@ -285,43 +285,42 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 
 }  // namespace triangle_detail
 
-/// Where a line, in the lanes of `active`, hits the closed triangle (v0, v1, v2) in front of its origin; `t` is valid
-/// where the result is true. A hit beyond `farthest` may be left out, and costs less if it is.
+/// The hit of a ray on the closed triangle (v0, v1, v2) in front of its origin, in the lanes of `active`; `t` is valid
+/// where the result is true. A hit beyond `farthest` may be omitted, to save time.
 ///
 /// Needs: finite vertices, a traceable ray (is_traceable()).
-/// Gives: the correct decision between hit and miss, always, in the tiers strict and precise: triangles that
-/// share an edge or a vertex let no line through. A line through an edge or a vertex hits, whatever the
-/// winding; a line in the plane misses, and so does every line where the area is zero. t is the double nearest
-/// to the exact quotient, save within 2^-16 of a unit of its last place of a middle between two, so that
-/// triangles that one line meets in one point agree on it and the lower id gets the hit. NaN in any input: no
-/// hit.
+/// Gives: always the correct decision between hit and miss, in the tiers strict and precise: triangles that share an
+///        edge or a vertex are watertight. A line through an edge or a vertex hits, with either winding; a line in the
+///        plane misses, and so does every line if the triangle is degenerate. t is the double nearest to the exact
+///        quotient, except within 2^-16 ulp of a midpoint between two doubles. So triangles that a line hits in the
+///        same point give the same t, and the lower id wins. NaN in any input: no hit.
 /// Method: the signs of the three volumes between the line and the edges, which are equal and opposite for the two
-///        triangles at an edge. They are formed in double, with differences of products that do not cancel, and where
-///        a sign is within its error of zero, without rounding; so is t > 0. No shear and no reciprocal is needed for
-///        that. t comes from the plane in pairs of doubles: double alone loses t to cancellation for an origin just
-///        above a large triangle, and the last bit, which would give shared edges now to one id, now to the other.
+///         triangles at an edge. They are computed in double, with differences of products that do not cancel, and
+///         exactly where a sign is within its error of zero; so is the sign of t. This needs no shear and no
+///         reciprocal. t comes from the plane, in pairs of doubles. In double alone it would cancel for an origin just
+///         above a large triangle, and its last bit would give shared edges now to one id, now to the other.
 /// Source: the volumes are those of S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
 ///        2013, before their shear; W. Kahan for the differences of products; J. R. Shewchuk, "Adaptive Precision
 ///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by
 ///        tests/kernel/shapes/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
-                                    Double<Real>& t, const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD Mask<Real> first_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     if (!any(active)) return active;
     t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active, farthest);
     return active && t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_in_front(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
-                                    const Mask<Real>& active = Mask<Real>(true),
-                                    const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
-    return first_in_front(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
+TANDEM_HD Mask<Real> first_hit(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
+                               const Mask<Real>& active = Mask<Real>(true),
+                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+    return first_hit(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
 }
 
-/// Where the line of a ray, in the lanes of `active` that hit the triangle, crosses it. Within 2^-22 of the exact
-/// coordinates, but in the tier fast.
+/// The barycentric coordinates of a hit, in the lanes of `active`, whose rays hit the triangle. Within 2^-22 of the
+/// exact ones, except in the tier fast.
 template <class Real>
 TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
                                                   const Ray<Real>& ray, const Mask<Real>& active) {
@@ -340,7 +339,7 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
 
 namespace triangle_detail {
 
-/// The triangle's area, twice, seen along a coordinate axis, without rounding: (v1 - v0) x (v2 - v0), one component.
+/// One component of (v1 - v0) x (v2 - v0), along a coordinate axis, without rounding.
 TANDEM_HD ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec3f& axis) {
     ExactSum<float> sum;
     add_determinant(sum, v0, v1, axis);
@@ -349,7 +348,7 @@ TANDEM_HD ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& 
     return sum;
 }
 
-/// The direction of (v1 - v0) x (v2 - v0), from exact components; below 2^33 in size. Zero where the area is.
+/// The direction of (v1 - v0) x (v2 - v0), from exact components; below 2^33 in size. Zero for a degenerate triangle.
 TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
     ScaledPair parts[3];
     TANDEM_KEEP_LOOP
@@ -368,17 +367,17 @@ TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
 
 }  // namespace triangle_detail
 
-/// Unit normal, on the side from which the corners run counter-clockwise. Within 2^-28; the area is not zero.
+/// Unit geometric normal, on the front. Within 2^-28. Needs a triangle that is not degenerate.
 TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     const Vec3d e1 = widen(v1) - widen(v0);
     const Vec3d e2 = widen(v2) - widen(v0);
     const Vec3d direction = accurate_cross(e1, e2);
-    // the edges' own rounding, 2^-53 of each, is all of the error, until the edges are all but parallel
+    // unless the edges are nearly parallel, the rounding of the edges, 2^-53 of each, is the whole error
     if (norm1(direction) > 0x1p-20 * (norm1(e1) * norm1(e2))) return normalize(direction);
     return normalize(triangle_detail::exact_normal_direction(v0, v1, v2));
 }
 
-/// The same for all lanes; in the tier fast in float.
+/// The same for all lanes; in float in the tier fast.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     using D = Double<Real>;
@@ -389,13 +388,13 @@ TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, 
     }
 }
 
-/// Does a ray come from behind a face? `normal`: its geometric_normal().
+/// Whether a ray comes from behind a face. `normal`: its geometric_normal().
 template <class Real>
 TANDEM_HD Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<Real>>& normal) {
     return dot(widen(ray.direction), normal) > Double<Real>(0.0);
 }
 
-/// Is its area zero, exactly? No ray hits such a triangle.
+/// Whether the area is exactly zero. No ray hits such a triangle.
 [[nodiscard]] TANDEM_HD bool is_degenerate(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     const Vec3d e1 = widen(v1) - widen(v0);
     const Vec3d e2 = widen(v2) - widen(v0);

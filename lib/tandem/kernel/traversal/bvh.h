@@ -1,4 +1,4 @@
-/// A bounding volume hierarchy of two-child nodes, as the CUDA backend traverses it.
+/// The binary BVH of the CUDA backend.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace tandem {
 
-/// Boxes of both children and where they are, 64 bytes: one traversal step reads it in four 16-byte loads.
+/// The boxes and indices of both children, 64 bytes: one traversal step reads it with four 16-byte loads.
 struct alignas(16) BvhNode {
     float xy[2][4];         ///< by child: lower x, upper x, lower y, upper y
     float z[4];             ///< lower z, upper z of child 0, then of child 1
-    std::int32_t child[2];  ///< 0 or more: index of a node; below: ~leaf_code
+    std::int32_t child[2];  ///< 0 or more: index of a node; negative: ~code of a leaf
     std::int32_t unused[2];
 };
 static_assert(sizeof(BvhNode) == 64);
@@ -28,7 +28,7 @@ TANDEM_HD constexpr std::int32_t leaf_child(std::uint32_t first, std::uint32_t c
 TANDEM_HD std::uint32_t leaf_first(std::int32_t child) { return static_cast<std::uint32_t>(~child) >> 3; }
 TANDEM_HD std::uint32_t leaf_count(std::int32_t child) { return (static_cast<std::uint32_t>(~child) & 7U) + 1; }
 
-/// No path from the root is longer, so a traversal stack of this size cannot overflow.
+/// The depth limit of build_bvh(), so a traversal stack of this size cannot overflow.
 inline constexpr int max_bvh_depth = 64;
 
 }  // namespace tandem

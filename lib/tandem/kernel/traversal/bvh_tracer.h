@@ -1,4 +1,4 @@
-/// Tracing through the two-child hierarchy: nearer child first, stack in local memory.
+/// Traverses the binary BVH: nearer child first, with a stack in local memory.
 /// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// The arrays of a Bvh in the memory of the side that traverses it.
+/// A Bvh. The pointers are to memory of the traversing side: host or device.
 struct BvhView {
     const BvhNode* nodes;
     const Sphere* entry_spheres;
@@ -24,7 +24,7 @@ struct alignas(16) Float4 {
     float a, b, c, d;
 };
 
-/// 16 bytes at once; on the GPU through the read-only cache.
+/// Loads 16 bytes at once; on the GPU through the read-only cache.
 TANDEM_HD Float4 load_float4(const void* address) {
 #if TANDEM_ON_DEVICE
     const float4 v = __ldg(static_cast<const float4*>(address));
@@ -45,10 +45,9 @@ TANDEM_HD void count(unsigned long long* counter) {
 #endif
 }
 
-/// A hierarchy from build_bvh() is never too deep for the stack. With one from elsewhere, a ray that finds the stack
-/// full tests every primitive, which is slow but correct. A function of its own, so that it costs other rays no
-/// registers. Kernels that are linked for a scene do not contain it: their hierarchies are from build_bvh() alone, and
-/// a ray that finds the stack full all the same is counted.
+/// Tests every primitive, for a ray whose stack overflowed: slow but correct. That cannot happen with a BVH from
+/// build_bvh(). A separate function, so that other rays need no registers for it. Kernels that are linked for a scene
+/// do not contain it, because their BVHs always come from build_bvh(); an overflow is still counted.
 template <std::uint32_t kinds, class Real, class From>
 TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source, Closest<Real> best) {
     const FilterRay<Real> filter = make_filter_ray(ray);
@@ -60,7 +59,7 @@ TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source
 
 }  // namespace bvh_detail
 
-/// `kind_set` as with LoopTracerFor.
+/// `kind_set`: as for LoopTracerFor.
 template <std::uint32_t kind_set>
 struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
@@ -76,13 +75,13 @@ struct BvhStructure {
         const FilterRay<Real> filter = make_filter_ray(ray);
         const SlabRay slab = make_slab_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
         const Double<Real> t_max = best.t;
-        // a constant for other rays: through start_for() nvcc spills more, and nearest hits take 6 % longer
+        // a constant for other rays: with start_for() nvcc spills more, and nearest hits take 6 % longer
         constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
         const float start = may_start_late ? to_plain(proposal.start_for(source)) : 0.0F;
         float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
         std::int32_t stack[max_bvh_depth];
         int depth = 0;
-        bool overflow = false;  // checked after the loop: one more branch in it makes the rays of a warp diverge
+        bool overflow = false;  // checked after the loop, because another branch in the loop would make warps diverge
         std::int32_t at = 0;
         while (true) {
             if (at >= 0) {
@@ -133,7 +132,7 @@ struct BvhStructure {
         for (std::uint32_t i = first; i < end; ++i) {
             const bvh_detail::Float4 q = bvh_detail::load_float4(&bvh.entry_spheres[i]);
             const Sphere around = {{q.a, q.b, q.c}, q.d};
-            if constexpr (!is_fast<Real>) {  // for fast, the test costs hardly more than its filter
+            if constexpr (!is_fast<Real>) {  // in the tier fast the test costs hardly more than the filter
                 if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
             }
             const std::uint32_t id = bvh.entry_ids[i];

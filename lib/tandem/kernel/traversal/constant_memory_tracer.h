@@ -1,5 +1,5 @@
-/// Traces a handful of spheres and boxes on a GPU: the data of the filters is in the kernel's parameters, at addresses
-/// known to the compiler, so that no filter loads anything.
+/// Traces a few spheres and boxes on a GPU. The data of the filters is in the kernel's parameters, at addresses known
+/// at compile time, so the filters need no loads.
 #pragma once
 
 #include "tandem/kernel/traversal/ray_tracer.h"
@@ -56,14 +56,14 @@ struct ConstantMemoryStructure {
 };
 using ConstantMemoryTracer = RayTracer<ConstantMemoryStructure>;
 
-/// Has the scene so few primitives, and of such kinds?
+/// Whether the scene has few enough primitives, and only of these kinds.
 TANDEM_HD bool fits_constant_memory(const SceneView& scene) {
     return scene.sphere_count <= ConstantMemoryTracer::max_spheres &&
            scene.box_count <= ConstantMemoryTracer::max_boxes &&
            primitive_count(scene) == scene.sphere_count + scene.box_count;
 }
 
-/// `on_host`: the scene in host memory, to copy from; `scene`: where the tracer will read it.
+/// `on_host`: the scene in host memory, to copy from; `scene`: the view that the tracer reads.
 [[nodiscard]] inline ConstantMemoryTracer make_constant_memory_tracer(const SceneView& on_host,
                                                                       const SceneView& scene) {
     ConstantMemoryTracer tracer{};

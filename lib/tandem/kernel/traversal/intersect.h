@@ -1,4 +1,4 @@
-/// A ray against one primitive of a scene, and against all of them.
+/// Intersects a ray with one primitive of a scene, and with all of them.
 #pragma once
 
 #include "tandem/kernel/shapes/filter.h"
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// Keeps the nearer of `best` and a point at t, in the lanes of `hit`.
+/// Keeps the nearer of `best` and a hit at t, in the lanes of `hit`.
 template <class Real>
 TANDEM_HD void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive,
                             Closest<Real>& best) {
@@ -17,29 +17,29 @@ TANDEM_HD void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const 
     best.primitive = select(closer, primitive, best.primitive);
 }
 
-/// Keeps the nearer of `best` and the first point in front of a ray that comes from `source`, in the lanes of
-/// `candidate`, which passed the filter. `From` is NoSource, Source<Real> or ShadowSource<Real>.
+/// Keeps the nearer of `best` and the hit of a ray from `source` on the primitive, in the lanes of `candidate`, which
+/// passed the filter. `From` is NoSource or one of the sources of ray_source.h.
 template <class Real, class From, class Primitive>
 TANDEM_HD void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
                               const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
     Mask<Real> hit;
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
-        // a body that rays do not pass, neither through a mask nor as the light of a shadow ray, would have stopped the
-        // ray if it lay before the last hit that was passed
+        // rays pass only masked primitives and the light of a shadow ray; any other solid in front of the last masked
+        // hit would have stopped the ray
         const bool culls = may_be_cut_out(kind_of<Primitive>);
-        const bool is_passed = is_face<Primitive> || culls || may_glow(kind_of<Primitive>);
+        const bool is_passed = is_face<Primitive> || culls || may_emit_light(kind_of<Primitive>);
         const Source<Real>& surface = source;
-        hit = is_passed ? first_from(source, primitive, id, ray, candidate, best.t, t, culls)
-                        : first_from(surface, primitive, id, ray, candidate, best.t, t);
+        hit = is_passed ? first_hit_from(source, primitive, id, ray, candidate, best.t, t, culls)
+                        : first_hit_from(surface, primitive, id, ray, candidate, best.t, t);
     } else {
-        hit = first_from(source, primitive, id, ray, candidate, best.t, t);
+        hit = first_hit_from(source, primitive, id, ray, candidate, best.t, t);
     }
     keep_nearest<Real>(hit, t, UInt<Real>(id), best);
 }
 
-// The filter of each kind. A ray that leaves a surface passes that of its own primitive: the error of its origin is
-// less than the filter allows.
+// The filter of each kind of primitive. A ray that leaves a surface passes the filter of its own primitive, because the
+// error of its origin is less than the filter allows.
 template <class Real>
 TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
     return may_touch_sphere(f, sphere.centre, sphere.radius);
@@ -61,7 +61,7 @@ TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
     return may_touch_quad(f, quad);
 }
 
-/// Is a primitive certainly behind a ray? Its filter may know already.
+/// Whether a primitive is certainly behind a ray. False for kinds that do not test this, or whose may_touch() does.
 template <class Real>
 TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Sphere& sphere) {
     return is_behind_sphere(f, sphere.centre, sphere.radius);
@@ -75,11 +75,12 @@ TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
     return Mask<Real>(false);
 }
 
-/// In the tier fast the decision costs hardly more than the filter, except for solids with a transform.
+/// Whether the filter pays. In the tier fast the decision costs hardly more than the filter, except for solids with a
+/// transform.
 template <class Real, class Primitive>
 inline constexpr bool has_filter = !is_fast<Real> || std::is_base_of_v<Placement, Primitive>;
 
-/// One primitive: the float filter first, then the decision.
+/// Intersects one primitive: first the float filter, then the decision.
 template <class Real, class From, class Primitive>
 TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
                          const Mask<Real>& active, Closest<Real>& best) {
@@ -91,7 +92,7 @@ TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const Fil
     }
 }
 
-/// A primitive of any kind, by its id; `kinds`: the ones that the scene may have.
+/// Intersects primitive `id`, of any kind. `kinds`: the kinds that the scene may have.
 template <class Real, std::uint32_t kinds = PrimitiveKinds::all, class From>
 TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
                                    const From& source, const Mask<Real>& active, Closest<Real>& best) {
@@ -100,18 +101,18 @@ TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, con
     visit_primitive<kinds>(scene, id, as_itself);
 }
 
-/// What a tracer looks for: the nearest hit, or any one nearer than where the search starts.
+/// The kind of search: the nearest hit, or any hit nearer than t_max.
 enum class Search { nearest, any };
 
-/// Where a search for any hit with t < t_max starts: nothing at t_max counts, whatever its id.
+/// The initial hit of a search for any hit with t < t_max. No hit at t_max itself replaces it.
 template <class Real>
 TANDEM_HD Closest<Real> closest_starting_at(const Double<Real>& t_max) {
     return {t_max, UInt<Real>(0U)};
 }
 
-/// Traces by testing every primitive: no acceleration structure, best for a few. Rays must be traceable (math/ray.h) in
-/// the lanes of `active`, here and with the other tracers. `kind_set`: the PrimitiveKinds that the scene may have; a
-/// kernel for few of them needs fewer registers.
+/// Traces by testing every primitive: without an acceleration structure, best for few primitives. Rays must be
+/// traceable (math/ray.h) in the lanes of `active`, for all tracers. `kind_set`: the PrimitiveKinds that the scene may
+/// have; with fewer kinds a kernel needs fewer registers.
 template <std::uint32_t kind_set>
 struct LoopTracerFor {
     static constexpr std::uint32_t kinds = kind_set;
@@ -119,7 +120,7 @@ struct LoopTracerFor {
 
     SceneView scene;
 
-    /// The nearest hit of a ray that comes from `source` (NoSource or Source<Real>).
+    /// The nearest hit of a ray from `source`, of any type that test_primitive() takes.
     template <class Real, class From>
     TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
         Closest<Real> best = no_hit<Real>();
@@ -127,7 +128,7 @@ struct LoopTracerFor {
         return best;
     }
 
-    /// Is anything hit at some t < t_max? The comparison is exact, in the type of decisions.
+    /// Whether the ray hits anything at t < t_max. The comparison is exact, in Double<Real>.
     template <class Real, class From>
     TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
                                   const Mask<Real>& active) const {
@@ -151,8 +152,8 @@ struct LoopTracerFor {
                        may_touch(f, primitives[i]);
             };
             if constexpr (has_filter<Real, Primitive> && RealTraits<Real>::lanes == 1) {
-                // first all filters, then the few decisions: threads of a warp that differ in what they may hit decide
-                // at the same time
+                // first all filters, then the few decisions, so that the threads of a warp decide at the same time even
+                // about different primitives
                 for (std::uint32_t first = 0; first < count; first += 32) {
                     std::uint32_t candidates = 0;
                     for (std::uint32_t i = first; i < count && i < first + 32; ++i) {

@@ -1,11 +1,11 @@
-/// How rays query an acceleration structure. It only proposes candidates; the primitive tests decide, on the true ray.
-/// So that no candidate is lost, the boxes are padded, and the ray of the query is moved to where float arithmetic is
-/// accurate: near the scene, with a unit direction.
+/// Proposals: the queries of rays to an acceleration structure. The structure only returns candidates; the tests of
+/// primitives decide, with the original ray. So that no candidate is lost, the boxes are padded, and the query ray is
+/// moved to where float is accurate: near the scene, with a unit direction.
 ///
 /// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
-/// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md); moving the
-/// origin adds 2 u S (it may come to lie up to 2^-6 S beyond S), rounding it 1 u S and rounding the direction 3 u S
-/// along a path of length 2 S. Boxes are padded by 32 u S. Tested by tests/agree/structure_test.cpp.
+/// reciprocals (Embree's, or ours) moves the planes by at most 13 u S when |o| <= S (docs/numerics.md). Moving the
+/// origin adds 2 u S (it may end up to 2^-6 S beyond S), rounding it 1 u S, and rounding the direction 3 u S along a
+/// path of length 2 S. Boxes are padded by 32 u S. Tested by tests/agree/structure_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
@@ -20,28 +20,27 @@ struct StructureFrame {
 
 /// `scene_bounds`: merged bounds of all primitives, not padded.
 TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
-    // the floor keeps the margin a normal number, so that flush-to-zero inside Embree does not remove it
+    // the term 1e-30 keeps the margin a normal number, so that flush-to-zero inside Embree does not remove it
     const float margin = 32.0F * float_roundoff * reach(scene_bounds) + 1e-30F;
     return {pad(scene_bounds, 2.0F * margin), margin};
 }
 
-/// The ray for the structure: parameter s = (t - t_offset) * length along a unit direction.
+/// The query ray: parameter s = (t - t_offset) * length along a unit direction.
 template <class Real>
 struct Proposal {
     Ray<Float<Real>> ray;
     Real length;
     Double<Real> t_offset;
-    Mask<Real> active;  ///< lanes whose ray can touch the bounds at all
+    Mask<Real> active;  ///< lanes whose ray may hit the bounds
 
-    /// A float not below the parameter of true parameter t: where traversal may stop.
+    /// A float not below the query parameter of t: traversal may stop there.
     TANDEM_HD Float<Real> limit(const Double<Real>& t) const {
         const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
         const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
 
-    /// A float in [0, parameter of true parameter t]: where traversal may start for a ray that has passed a masked hit
-    /// at t.
+    /// A float in [0, query parameter of t]: traversal may start there for a ray whose last masked hit is at t.
     TANDEM_HD Float<Real> start(const Double<Real>& t) const {
         using D = Double<Real>;
         const D zero(0.0);
@@ -53,36 +52,36 @@ struct Proposal {
     template <class From>
     TANDEM_HD Float<Real> start_for(const From& source) const {
         if constexpr (std::is_base_of_v<PathSource<Real>, From>) {
-            if (any(source.passed.t > Double<Real>(0.0))) [[unlikely]]
-                return start(source.passed.t);
+            if (any(source.last_masked.t > Double<Real>(0.0))) [[unlikely]]
+                return start(source.last_masked.t);
         }
         return Float<Real>(0.0F);
     }
 
-    /// The true parameter of a hit that the structure itself found at s, roughly: the rounding of t_offset stays.
+    /// The approximate t of a hit that the structure itself found at s; the rounding of t_offset remains.
     TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 };
 
 namespace proposal_detail {
 
-/// For rays that are moved to the bounds in float: how far from the origin they may start, in reaches of the bounds,
-/// and how long their direction has to be. For a shorter one the t of the bounds may exceed a float.
+/// Limits for rays that are moved to the bounds in float: the largest coordinate of the origin, relative to the reach
+/// of the bounds, and the least length of the direction. With a shorter direction the t of the bounds may overflow.
 inline constexpr float near_by = 8192;
 inline constexpr float least_length = 1e-15F;
 
-/// Where rays that start outside the bounds cross them. In float for origins `near_by`: each t errs by less than 4 u t;
-/// 16 u t is allowed for, so that no ray that may touch anything is lost and the entry lies up to 2^-6 of the reach
+/// The crossing of the bounds for rays that start outside. In float for origins `near_by`: the error of each t is below
+/// 4 u t, and the margin is 16 u t. So no ray that may hit anything is lost, and the entry is at most 2^-6 of the reach
 /// before the bounds, never behind them.
 template <class Real>
 TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, bool is_near_by) {
-    // A processor divides twice as many floats as doubles at a time, and this is done for every camera ray. On a GPU it
-    // is done in double; the other way has not been timed there. Rays in double are not narrowed.
+    // A CPU divides twice as many floats as doubles at a time, and this runs for every camera ray. GPUs use double;
+    // float has not been timed there. Rays in double are not narrowed.
     constexpr bool in_float = !TANDEM_ON_DEVICE && std::is_same_v<Scalar<Real>, float>;
     if (!in_float || !is_near_by) return cross_box(Box{bounds.lower, bounds.upper}, ray);
     const Real infinity(__builtin_huge_valf());
     Real t_near = -infinity, t_far = infinity;
     const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
-        // d = 0 gives infinities of the right signs, or NaN exactly on the border, where nothing is
+        // d = 0 gives infinities with the right signs, or NaN exactly on the padded bounds, where there is no primitive
         const Real a = (Real(lower) - o) / d;
         const Real b = (Real(upper) - o) / d;
         t_near = greater(lesser(a, b), t_near);
@@ -125,7 +124,7 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
         const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)) || is_short);
         const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
         const D zero(0.0);
-        // in the tier fast t may be infinite: then the bounds are out of reach
+        // in the tier fast t may overflow to infinity: the bounds are too far away
         const Mask<Real> in_reach = c.t_near < D(__builtin_huge_val());
         proposal.active = active && (!outside || (c.crosses && c.t_far > zero && in_reach));
         const Mask<Real> move = outside && proposal.active && c.t_near > zero;

@@ -1,5 +1,5 @@
-/// Ray against the boxes of a node, for proposals only: the boxes are padded for these roundings
-/// (kernel/traversal/proposal.h), so speed matters here and not the last bit. The only place in kernel code where fminf
+/// Ray-box tests of BVH nodes, for proposals only. The padding of the boxes covers the rounding
+/// (kernel/traversal/proposal.h), so speed matters more than the last bit. The only place in kernel code where fminf
 /// and fmaxf are allowed.
 #pragma once
 
@@ -7,14 +7,14 @@
 
 namespace tandem {
 
-/// A proposal ray, ready for slabs.
+/// A query ray in the form that slab_entry() needs.
 struct SlabRay {
     Vec3f inverse_direction;
     Vec3f origin_over_direction;
 };
 
-/// `direction` is a unit vector. A component too small to invert is replaced: over the path through the scene this
-/// moves the ray by less than the boxes are padded.
+/// `direction` is a unit vector. A component too small to invert is replaced, which moves the ray inside the scene by
+/// less than the padding of the boxes.
 TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
     const auto invert = [](float d) {
         const float safe = absolute(d) < 1e-18F ? (d < 0.0F ? -1e-18F : 1e-18F) : d;
@@ -24,7 +24,7 @@ TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
     return {inverse, origin * inverse};
 }
 
-/// Entry into the box within [start, limit]; above `limit` if it is not entered there.
+/// The entry into the box within [start, limit]; above `limit` if there is none.
 TANDEM_HD float slab_entry(const SlabRay& ray, float lower_x, float upper_x, float lower_y, float upper_y,
                            float lower_z, float upper_z, float start, float limit) {
     const float x0 = loose_multiply_add(lower_x, ray.inverse_direction.x, -ray.origin_over_direction.x);

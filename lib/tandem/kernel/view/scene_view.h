@@ -119,7 +119,7 @@ TANDEM_HD bool may_be_cut_out(std::uint32_t kinds) {
 }
 
 /// Can a light with an area be of one of these kinds?
-TANDEM_HD bool may_glow(std::uint32_t kinds) {
+TANDEM_HD bool may_emit_light(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_LIGHT_KINDS & kinds) != 0;
 #else
