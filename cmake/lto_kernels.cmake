@@ -1,5 +1,5 @@
-# Kernels that are specialised at load (cuda/jit_link.h): compiled to LTO-IR, whose bytes become part of a target. By a
-# command of its own, because CMake 3.25 has no rule that compiles CUDA to a fat binary.
+# Kernels that are specialised for scenes (cuda/jit_link.h): compiled to LTO-IR that is embedded in a target. A custom
+# command, because CMake 3.25 has no rule that compiles CUDA to a fat binary.
 
 # The lowest of CMAKE_CUDA_ARCHITECTURES, as a number: its LTO-IR can be linked for all the later ones.
 function(tandem_lowest_architecture result)
@@ -18,8 +18,8 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# Optimised as far as can be without the facts, so that a link begins there
-# (docs/performance.md). Not every toolkit that the build takes is known to have the option.
+# Optimised as far as possible without the facts, so that a link starts from there (docs/performance.md). Not every
+# supported toolkit may have the option.
 execute_process(
   COMMAND ${CMAKE_CUDA_COMPILER} --help
   OUTPUT_VARIABLE tandem_nvcc_help
@@ -31,13 +31,13 @@ if(tandem_nvcc_help MATCHES "--gen-opt-lto")
 endif()
 
 # tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
-# [DEFINES NAME=VALUE...]): compiles FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to TARGET
-# the function
+# [DEFINES NAME=VALUE...]): compiles FILE with the flags of TIER's other kernels (cuda/CMakeLists.txt) and adds to
+# TARGET the function
 #
 #   std::span<const std::byte> NAMESPACE::FUNCTION()    // declare it where you use it; the namespace is tandem::cuda
 #
-# whose bytes are a fat binary for JitInput::code. TARGET has to be made in the folder that calls this; for what goes into
-# the library itself that is an object library.
+# whose bytes are a fat binary for JitInput::code. TARGET must be defined in the calling folder; for the library itself
+# it is an object library.
 function(tandem_add_lto_kernels target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES;DEFINES")
   list(TRANSFORM arg_DEFINES PREPEND -D)

@@ -14,7 +14,7 @@ LoadedCode::LoadedCode(std::span<const std::byte> cubin, const std::string& kern
     check(code, "finding a specialised kernel");
 }
 
-// a failure to unload cannot be answered
+// a failure to unload cannot be handled
 LoadedCode::~LoadedCode() { (void)cudaLibraryUnload(library_); }
 
 void LoadedCode::start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,

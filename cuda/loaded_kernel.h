@@ -1,6 +1,5 @@
-/// A kernel from a cubin, through the runtime's library interface: like all of the runtime it opens the driver only
-/// when it is used, so that programs start without one. The only other way to launch a kernel than launch.h; host code
-/// can use it.
+/// A kernel from a cubin, through the library interface of the CUDA runtime, which opens the driver only when it is
+/// used, so that programs start without one. Besides launch.h the only way to launch a kernel; host code can use it.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -11,10 +10,10 @@
 
 namespace tandem::cuda {
 
-/// A cubin that is loaded, for the device that is current, and its kernel.
+/// A cubin, loaded for the current device, and its kernel.
 class LoadedCode {
   public:
-    /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the cubin.
+    /// The bytes are copied. Throws as check() does: EnvironmentError for a machine that cannot run the cubin.
     LoadedCode(std::span<const std::byte> cubin, const std::string& kernel);
     ~LoadedCode();
     LoadedCode(const LoadedCode&) = delete;
@@ -23,8 +22,8 @@ class LoadedCode {
     /// For the runtime's functions that take a kernel: cudaFuncGetAttributes(), cudaOccupancy...().
     [[nodiscard]] const void* function() const { return kernel_; }
 
-    /// Starts it, and throws if that failed. `doing` completes "CUDA failed while ...". The parameters must be of the
-    /// types of the kernel's source: nothing checks it.
+    /// Launches the kernel, and throws on failure. `doing` completes "CUDA failed while ...". The parameters must have
+    /// the types in the kernel's source: nothing checks this.
     template <class... Parameters>
     void launch(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,
                 Parameters... arguments) const {

@@ -39,7 +39,7 @@ KernelFacts render_kernel_facts(const DeviceSceneView& scene) {
     });
 }
 
-/// For one of `variants`.
+/// The kernel of one of `variants`.
 template <std::size_t variant, class Real>
 RenderKernel compiled_render_kernel() {
     using Effects = EffectSet<variants[variant].effects.bits()>;

@@ -42,10 +42,10 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
     return {};
 }
 
-/// Are they kernels for long paths? Their threads take pixels from a queue, a block together.
+/// Whether the effects need a kernel for long paths, whose threads take pixels from a queue.
 bool has_queue(const LinkedFacts& facts) { return EffectMask::from_bits(facts.effects).has_any(synchronising_effects); }
 
-/// More lights than these are a loop whose length is no constant: it would not be unrolled.
+/// With more lights than this their number is not a constant, since the loop over them would not be unrolled anyway.
 constexpr std::uint32_t most_linked_lights = 4;
 
 }  // namespace
@@ -97,11 +97,10 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
             place->second.reset(new SceneKernel{LoadedCode(made.cubin, input.kernel), has_queue(facts)});
-            if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
+            if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
-            warn(fmt::format(
-                "a kernel that was compiled ahead of time draws, because none can be made for the scene: {}",
-                error.what()));
+            warn(fmt::format("a kernel compiled ahead of time is used, because none can be linked for the scene: {}",
+                             error.what()));
         }
         found.seconds = watch.seconds();
     }
@@ -113,8 +112,8 @@ void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, cons
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch("rendering with a kernel made for the scene", grid.blocks, grid.threads, stream, tracer, job,
-                           height, sums, counters);
+        kernel.code.launch("rendering with a kernel linked for the scene", grid.blocks, grid.threads, stream, tracer,
+                           job, height, sums, counters);
     };
     switch (structure_of(scene)) {
         case Structure::few:

@@ -15,10 +15,10 @@
 namespace tandem::cuda {
 
 /// The facts of a scene and a job for the kernel that renders them. Unused facts are left out, so that scenes that
-/// differ only in them share a kernel.
+/// differ only in these share a kernel.
 [[nodiscard]] LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits);
 
-/// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
+/// The input for linking a kernel with these facts; needs no GPU. `architecture`: as in JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
 /// A kernel that is linked for a scene.
@@ -29,15 +29,15 @@ struct SceneKernel {
 
 class SceneKernels {
   public:
-    /// Takes the user's cache (kernel_cache_folder()).
+    /// Uses the user's cache (kernel_cache_folder()).
     explicit SceneKernels(int architecture);
 
     struct Found {
-        const SceneKernel* kernel = nullptr;  ///< lives as long as this; null if there can be none
-        double seconds = 0;                   ///< that it took to make or to fetch; 0 if it was there
-        std::string warning;                  ///< why there is no kernel, or why the cache did not work; reported once
+        const SceneKernel* kernel = nullptr;  ///< owned by this; null if none can be linked
+        double seconds = 0;                   ///< to link or to fetch it; 0 if it was loaded already
+        std::string warning;                  ///< why there is no kernel, or why the cache failed; reported once
     };
-    /// Not for several threads at once.
+    /// Not safe from several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
   private:
@@ -47,7 +47,7 @@ class SceneKernels {
     std::map<std::tuple<Tier, Structure, LinkedFacts>, std::unique_ptr<SceneKernel>> kernels_;
 };
 
-/// Starts a kernel that SceneKernels gave for this scene: as TierKernels::render.
+/// Starts a kernel that SceneKernels returned for this scene, like TierKernels::render.
 void launch_linked(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
 

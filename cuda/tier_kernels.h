@@ -3,7 +3,7 @@
 #pragma once
 
 #if !defined(TANDEM_SHORT_PATHS)
-#error "compile it with TANDEM_SHORT_PATHS: the kernels that trace rays are slower by a tenth without"
+#error "compile this file with TANDEM_SHORT_PATHS: without it the kernels that trace rays are a tenth slower"
 #endif
 
 #include "cuda/render_kernels.h"
@@ -11,7 +11,7 @@
 
 namespace tandem::cuda {
 
-// With all effects: in kernels_*_full.cu, without TANDEM_SHORT_PATHS.
+// The variant with all effects is in kernels_*_full.cu, compiled without TANDEM_SHORT_PATHS.
 #define TANDEM_TIER(name, promise) RenderKernel full_##name##_kernel();
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
