@@ -1,5 +1,5 @@
-# The libraries that Tandem stands on. One list for two readers: the build, and the installed package, whose users link
-# the same libraries where the library is static.
+# The libraries that Tandem depends on, for the build and for the installed package, whose users link the same libraries
+# if Tandem is static.
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)
 find_dependency(TBB)
@@ -7,7 +7,7 @@ find_dependency(fmt)
 find_dependency(OpenSSL COMPONENTS Crypto)
 find_dependency(PNG)
 
-# Optional. Quietly, because Debian's package of Imath reports at each configuration that its Python module is missing.
+# Optional. Quiet, because Debian's package of Imath reports at each configuration that its Python module is missing.
 block()
   set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
   find_package(OpenEXR 3.1.3 CONFIG QUIET)
@@ -19,8 +19,9 @@ if(NOT embree_FOUND)
   find_dependency(embree 3.13)
 endif()
 
-# By name, because FindCUDAToolkit of CMake 3.25 asks for a library that CUDA 13 has not.
-# tandem_find_library(TARGET LIBRARIES... [HEADER FILE] [HINTS DIRS...]): an imported target, or nothing when a part is missing.
+# By name, because FindCUDAToolkit of CMake 3.25 needs a library that CUDA 13 lacks.
+# tandem_find_library(TARGET LIBRARIES... [HEADER FILE] [HINTS DIRS...]): an imported target, or nothing when a part is
+# missing.
 function(tandem_find_library target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "HEADER" "HINTS")
   if(TARGET ${target})
@@ -49,7 +50,7 @@ endfunction()
 
 tandem_find_library(Tandem::jpeg jpeg HEADER jpeglib.h)
 
-# Only where the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS says where the toolkit was.
+# Only if the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS is the location of the toolkit.
 macro(tandem_find_cudart)
   tandem_find_library(Tandem::cudart cudart_static HINTS ${TANDEM_CUDA_LIBRARY_DIRS} /usr/local/cuda/lib64)
   if(TARGET Tandem::cudart)

@@ -1,7 +1,7 @@
-# How our own code is compiled. Equal bits rest on this file: no contraction of a * b + c unless fma is written, no
-# fast-math, no flush-to-zero (docs/numerics.md). tests/lint checks what came out.
+# The flags of our own code. Equal bits depend on them: no contraction of a * b + c unless fma is written, no fast-math,
+# no flush-to-zero (docs/numerics.md). tests/lint checks the resulting code.
 
-# The language and the arithmetic; every target of ours links this.
+# The language and the arithmetic; all of our targets link this.
 add_library(tandem_exact_flags INTERFACE)
 target_compile_features(tandem_exact_flags INTERFACE cxx_std_20)
 target_compile_options(
@@ -9,9 +9,9 @@ target_compile_options(
   INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno;-fno-trapping-math>
 )
 
-# The instruction set that every x86-64 machine of the last decade has. Kernels for newer ones: cpu/CMakeLists.txt.
-# With sanitizers g++ compiles a function into which everything is inlined for more than ten minutes, so inlining is not forced for them, and
-# without that all files have to be for one instruction set (lib/tandem/math/host_device.h).
+# The instruction set of every x86-64 machine of the last decade; cpu/CMakeLists.txt adds kernels for newer ones. With
+# sanitizers g++ would take more than ten minutes to compile a function with forced inlining, so inlining is not forced;
+# then all files must be compiled for one instruction set (lib/tandem/math/host_device.h).
 add_library(tandem_baseline_isa INTERFACE)
 if(TANDEM_SANITIZE)
   target_compile_definitions(tandem_baseline_isa INTERFACE TANDEM_ONE_INSTRUCTION_SET)
@@ -28,7 +28,7 @@ target_compile_options(
             $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${TANDEM_WERROR}>>:-Werror>
 )
 if(TANDEM_SANITIZE)
-  # g++ 12 takes the sanitizers' own code in the standard library for uses of uninitialised variables
+  # g++ 12 reports the sanitizers' own code in the standard library as uses of uninitialised variables
   target_compile_options(
     tandem_diagnostics
     INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${TANDEM_SANITIZE};-fno-sanitize-recover=all;-g1>

@@ -1,5 +1,5 @@
-# The CUDA language, and what the host side of its backend links: Tandem::cudart, the static runtime. It opens the driver
-# at run time, so that one program starts with and without one.
+# The CUDA language, and Tandem::cudart, the static runtime that the backend links. The runtime opens the driver at run
+# time, so that programs also start without one.
 enable_language(CUDA)
 if(CMAKE_CUDA_COMPILER_VERSION VERSION_LESS TANDEM_NVCC_MINIMUM)
   message(FATAL_ERROR "Tandem: ${CMAKE_CUDA_COMPILER} is version ${CMAKE_CUDA_COMPILER_VERSION}, but the CUDA backend "

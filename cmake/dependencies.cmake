@@ -1,4 +1,4 @@
-# Libraries that Tandem stands on; scripts/setup installs their Debian and Ubuntu packages.
+# The libraries that Tandem depends on; scripts/setup installs their Debian and Ubuntu packages.
 set(CMAKE_FIND_PACKAGE_NAME Tandem)
 set(Tandem_FIND_REQUIRED ON)
 include(${CMAKE_CURRENT_LIST_DIR}/TandemDependencies.cmake)

@@ -2,7 +2,7 @@
 #
 #   std::span<const std::byte> NAMESPACE::NAME()
 #
-# that gives the bytes of the input file.
+# that returns the bytes of the input file.
 file(READ ${INPUT} digits HEX)
 string(REGEX REPLACE "(..)" "0x\\1," bytes "${digits}")
 string(REPEAT "." 80 line)

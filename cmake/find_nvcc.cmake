@@ -1,5 +1,5 @@
-# Which nvcc: the first one new enough among CUDACXX, PATH, the usual folder, and what scripts/setup --with-cuda fetched.
-# As a script (cmake -P) it prints the path, or an empty line.
+# Finds nvcc: the first one that is new enough among CUDACXX, PATH, the usual folder, and the download of scripts/setup
+# --with-cuda. As a script (cmake -P) it prints the path, or an empty line.
 set(TANDEM_NVCC_MINIMUM 12.8)
 
 function(tandem_find_nvcc result)
@@ -15,7 +15,7 @@ function(tandem_find_nvcc result)
       continue()
     endif()
     if(CMAKE_MATCH_1 VERSION_LESS TANDEM_NVCC_MINIMUM)
-      message(STATUS "Tandem: ${nvcc} is version ${CMAKE_MATCH_1}, older than ${TANDEM_NVCC_MINIMUM}; passing over it")
+      message(STATUS "Tandem: ${nvcc} is version ${CMAKE_MATCH_1}, older than ${TANDEM_NVCC_MINIMUM}; skipping it")
     else()
       set(${result} ${nvcc} PARENT_SCOPE)
       return()

@@ -1,5 +1,5 @@
-# cmake -DSOURCE_DIR=... -DOUTPUT=... -P git_commit.cmake: writes a header with the commit that is checked out. Runs in
-# every build; the file changes only when the commit does.
+# cmake -DSOURCE_DIR=... -DOUTPUT=... -P git_commit.cmake: writes a header with the current commit. Runs in every build;
+# the file changes only when the commit does.
 execute_process(
   COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12 --exclude=*
   OUTPUT_VARIABLE commit

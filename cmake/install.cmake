@@ -14,7 +14,7 @@ install(
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
 )
 
-# tandem_install_header(HEADER): a header under lib/, and all that it includes of ours.
+# tandem_install_header(HEADER): installs a header under lib/, and our headers that it includes.
 function(tandem_install_header header)
   get_property(known GLOBAL PROPERTY tandem_installed_headers)
   if(header IN_LIST known)

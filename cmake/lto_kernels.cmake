@@ -25,8 +25,8 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# Optimised as far as can be without the facts, so that a link begins there
-# (docs/performance.md). Not every toolkit that the build takes is known to have the option.
+# Optimised as far as possible without the facts, so that a link starts from there (docs/performance.md). Not every
+# supported toolkit may have the option.
 execute_process(
   COMMAND ${CMAKE_CUDA_COMPILER} --help
   OUTPUT_VARIABLE tandem_nvcc_help

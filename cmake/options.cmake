@@ -1,4 +1,4 @@
-# What can be switched when configuring; docs/building.md has the list.
+# The options of the build; docs/building.md lists them.
 option(TANDEM_APPS "Build tandem-render, tandem-bench and tandem-gltf" ${PROJECT_IS_TOP_LEVEL})
 option(TANDEM_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(TANDEM_INSTALL "Install the library, its headers and its CMake package" ${PROJECT_IS_TOP_LEVEL})
@@ -6,8 +6,8 @@ option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(TANDEM_WERROR "Treat warnings in Tandem's own code as errors" OFF)
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 
-# TANDEM_CUDA: unless it is given, whether there is an nvcc that works with this C++ compiler. Only an ON is remembered, so
-# that an nvcc that is installed later is found.
+# TANDEM_CUDA: by default ON if there is an nvcc that works with this C++ compiler. Only ON is cached, so that an nvcc
+# installed later is found.
 include(${CMAKE_CURRENT_LIST_DIR}/find_nvcc.cmake)
 if(NOT CMAKE_CUDA_COMPILER AND (NOT DEFINED TANDEM_CUDA OR TANDEM_CUDA))
   tandem_find_nvcc(nvcc)

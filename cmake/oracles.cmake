@@ -1,5 +1,5 @@
-# What the exact oracles of the tests and of tandem-bench hard stand on: MPFR, GMP and the headers of Boost.Multiprecision.
-# The target tandem_oracles is there if all of them are.
+# The libraries of the exact oracles of the tests and of tandem-bench hard: MPFR, GMP and the headers of
+# Boost.Multiprecision. The target tandem_oracles exists if all of them do.
 find_path(TANDEM_MPFR_INCLUDE_DIR mpfr.h)
 find_library(TANDEM_MPFR_LIBRARY mpfr)
 find_library(TANDEM_GMP_LIBRARY gmp)

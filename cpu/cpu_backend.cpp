@@ -30,7 +30,7 @@ namespace tandem {
 
 namespace {
 
-/// Up to here a packet tests every primitive; beyond, it queries Embree (docs/performance.md: the crossing point).
+/// Up to this number of primitives a packet tests all of them; for more, it queries Embree (docs/performance.md).
 constexpr std::size_t loop_limit = 24;
 
 /// Owns an Embree handle.
@@ -111,7 +111,7 @@ class CpuScene final : public ResidentScene {
         view_.embree = embree_.get();
     }
 
-    /// Primitives [0, count) as ours.
+    /// Primitives [0, count) as user geometry.
     void add_primitives(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
         if (count == 0) return;
         const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
@@ -125,7 +125,7 @@ class CpuScene final : public ResidentScene {
         rtcAttachGeometryByID(embree_.get(), geometry.get(), our_primitives);
     }
 
-    /// Faces as Embree's own. It reads their corners in place.
+    /// Faces as Embree's own geometry, which reads their corners in place.
     template <class Face>
     void add_faces(RTCDevice device, const TierKernels& kernels, GeometryId id, const std::vector<Face>& faces) {
         if (faces.empty()) return;
@@ -164,7 +164,7 @@ class CpuScene final : public ResidentScene {
     }
 
     PreparedScene scene_;
-    std::vector<PrimitiveCopy> copies_;  ///< that it is without
+    std::vector<PrimitiveCopy> copies_;  ///< removed from the scene
     CpuSceneView view_;
     EmbreeScene embree_;
     PhaseTimes times_;
@@ -176,14 +176,14 @@ class CpuBackend final : public Backend {
         : set_(choose_instruction_set(options.instruction_set)), tile_size_(checked_tile_size(options.tile_size)) {
         const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
         if (options.threads < 0) throw InputError("the number of threads must be 0 (one per core) or more");
-        // more threads than cores are allowed: results must not depend on their number, and tests try it
+        // more threads than cores are allowed: results do not depend on their number, as tests check
         parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                              static_cast<std::size_t>(threads));
         arena_.initialize(threads);
         // TBB starts here, before Embree's first commit can set flush-to-zero in its workers
         arena_.execute([] { tbb::parallel_for(0, 64, [](int) { const DefaultFpEnvironment guard; }); });
         device_ = EmbreeDevice(rtcNewDevice(nullptr));
-        if (device_.get() == nullptr) throw EnvironmentError("Embree cannot make a device on this machine");
+        if (device_.get() == nullptr) throw EnvironmentError("Embree cannot create a device on this machine");
     }
 
     [[nodiscard]] std::string name() const override { return "cpu"; }
@@ -279,8 +279,8 @@ class CpuBackend final : public Backend {
     }
 
   private:
-    /// The samples of a tile, each by a call of its own, so that their squares can be added. `one_sample`: a film of
-    /// work for the call, draw(job, film). The sums get the same bits as by one call for all.
+    /// Renders the samples of a tile one by one, so that their squares can be added. `one_sample`: a temporary film for
+    /// the calls of draw(job, film). The sums have the same bits as from one call for all samples.
     template <class Draw>
     static void draw_one_by_one(const PixelJob& job, const Tile& tile, Draw draw, Vec3d* one_sample, Vec3d* sums,
                                 Vec3d* squares) {
@@ -306,7 +306,8 @@ class CpuBackend final : public Backend {
     }
 
     static int checked_tile_size(int size) {
-        if (size < 1 || size > 4096) throw InputError(fmt::format("a tile of {} pixels; take 1 to 4096", size));
+        if (size < 1 || size > 4096)
+            throw InputError(fmt::format("the tile size is {}, but must be from 1 to 4096 pixels", size));
         return size;
     }
 
@@ -324,7 +325,7 @@ std::unique_ptr<Backend> make_cpu_backend(const BackendOptions& options) {
 }
 
 std::string why_cpu_unavailable() {
-    return instruction_sets().front().is_supported() ? "" : "this processor lacks SSE4.2 (x86-64-v2)";
+    return instruction_sets().front().is_supported() ? "" : "this processor lacks SSE4.2, which x86-64-v2 includes";
 }
 
 }  // namespace tandem

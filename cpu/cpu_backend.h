@@ -9,7 +9,7 @@ namespace tandem {
 
 [[nodiscard]] std::unique_ptr<Backend> make_cpu_backend(const BackendOptions& options);
 
-/// Empty if this processor can run it.
+/// Why this processor cannot run it; empty if it can.
 [[nodiscard]] std::string why_cpu_unavailable();
 
 }  // namespace tandem

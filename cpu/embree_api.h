@@ -15,7 +15,7 @@ using QueryContext = RTCRayQueryContext;
 using QueryContext = RTCIntersectContext;
 #endif
 
-/// Prepares the head of a context that extends QueryContext. `coherent`: the rays of a packet are similar.
+/// Prepares the QueryContext of a context that extends it. `coherent`: the rays of a packet are similar.
 inline void init_context(QueryContext& context, bool coherent) {
 #if TANDEM_EMBREE_MAJOR == 4
     rtcInitRayQueryContext(&context);
@@ -64,7 +64,7 @@ inline void occluded1(RTCScene scene, QueryContext& context, RTCRay& ray) {
 #endif
 }
 
-/// Packets of 4, 8 and 16 by the type of the ray. `valid`: -1 for lanes that take part, aligned as the packet.
+/// Packets of 4, 8 or 16 rays, by the type of the packet. `valid`: -1 for active lanes, aligned like the packet.
 #if TANDEM_EMBREE_MAJOR == 4
 #define TANDEM_EMBREE_PACKET(n)                                                                         \
     inline void intersect(const int* valid, RTCScene scene, QueryContext& context, RTCRayHit##n& ray) { \

@@ -1,5 +1,5 @@
-/// Tracing through Embree: it proposes primitives, and the shared intersectors decide. In the tier fast Embree itself
-/// decides on faces.
+/// Traces through Embree: Embree proposes primitives, and the shared intersectors decide. In the tier fast Embree
+/// itself decides on faces.
 #pragma once
 
 #include <cstring>
@@ -12,7 +12,7 @@
 
 namespace tandem {
 
-/// What travels with a query. The head must come first: Embree hands its address to the callback.
+/// The data of a query. The QueryContext must come first: Embree passes its address to the callback.
 template <class Real>
 struct QueryContext {
     embree::QueryContext head;
@@ -32,7 +32,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
         const Double<One> before = query.best.t;
         intersect_primitive<One>(view.scene, args->primID, query.filter, *query.source, true, query.best);
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
-        // never beyond a face that Embree found
+        // not beyond a face that Embree found
         if (query.best.t < before) ray.tfar = lesser(to_plain(query.proposal.limit(query.best.t)), ray.tfar);
         return;
     }
@@ -48,7 +48,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     }
 }
 
-/// As intersect_callback() for any hit before best.t. Embree and its caller take a tfar of -infinity for "occluded".
+/// As intersect_callback(), for any hit before best.t. A tfar of -infinity means "occluded" to Embree and its caller.
 template <class One, class Packet>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
@@ -82,7 +82,7 @@ TANDEM_HD Word primitive_of(const CpuSceneView& view, const Word& geometry, cons
                           Word(view.first_id[embree_quads]));
 }
 
-/// Is primitive `id` a culled face that the ray hits from behind at `t`, in the lanes of `valid`?
+/// The lanes of `valid` in which primitive `id` is a culled face that the ray hits from behind at `t`.
 template <class Real>
 TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, const Double<Real>& t,
                                const UInt<Real>& id, const Mask<Real>& valid) {
@@ -99,7 +99,7 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, con
     return culled;
 }
 
-/// Which of Embree's hits on its own faces do not count. `s`: their parameter, `id`: their primitive.
+/// Which of Embree's hits on its own faces to ignore. `s`: their parameter, `id`: their primitive.
 template <Search search, class Real>
 TANDEM_HD Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real>& query, const Float<Real>& s,
                                  const UInt<Real>& id, const Mask<Real>& valid) {
@@ -122,8 +122,8 @@ TANDEM_HD T load(const void* field) {
 
 }  // namespace embree_detail
 
-/// Embree's filter for hits on its own faces: rejects the face that a ray leaves, the backs of culled faces, and the
-/// light that a shadow ray aims at and everything beyond it.
+/// Embree's filter for hits on its own faces: rejects the face that a ray leaves, the backs of culled faces, the light
+/// at the end of a shadow ray, and everything beyond it.
 template <Search search, class One, class Packet>
 void filter_callback(const RTCFilterFunctionNArguments* args) {
     using embree_detail::is_excluded;
@@ -238,7 +238,7 @@ struct EmbreeTracer {
     }
 
   private:
-    /// Fills the part common to all queries; false if no lane can hit anything.
+    /// Fills the common part of all queries; false if no lane can hit anything.
     template <class Real>
     TANDEM_HD bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,
                          bool coherent) const {
@@ -263,7 +263,7 @@ struct EmbreeTracer {
         const auto set = [](auto* field, const auto& value) { std::memcpy(field, &value, sizeof(value)); };
         const Ray<F>& p = query.proposal.ray;
         const F zero(0.0F);
-        // lanes that take no part still hold numbers: Debian's Embree asserts that every ray is valid
+        // inactive lanes need valid rays too, because Debian's Embree asserts that
         const Vec3<F> origin = select(query.proposal.active, p.origin, Vec3<F>{zero, zero, zero});
         const Vec3<F> direction = select(query.proposal.active, p.direction, Vec3<F>{zero, zero, F(1.0F)});
         set(ray.org_x, origin.x);

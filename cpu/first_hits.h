@@ -1,4 +1,4 @@
-/// The CPU's kernels of the planes of first hits, compiled once per tier and instruction set.
+/// The CPU kernels for the planes of first hits, compiled once per tier and instruction set.
 #pragma once
 
 #include "cpu/kernels.h"
@@ -6,10 +6,10 @@
 
 namespace tandem {
 
-/// Writes those of `planes` that tell of first hits, for the tile's pixels (rows of job.width).
+/// Writes the planes of first hits among `planes`, for the tile's pixels (rows of job.width).
 using FirstHitKernel = void(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, const FilmPlanes& planes);
 
-/// In a file of its own (cpu/kernels/first_hits.cpp).
+/// Defined in cpu/kernels/first_hits.cpp.
 template <class Isa, Tier tier>
 void write_first_hits(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, const FilmPlanes& planes);
 

@@ -66,16 +66,17 @@ const InstructionSet& choose_instruction_set(const std::string& name) {
     const InstructionSet* best = nullptr;
     for (const InstructionSet& set : sets) {
         if (name == set.name && !set.is_supported()) {
-            throw EnvironmentError(fmt::format("this processor does not have the instruction set {}", name));
+            throw EnvironmentError(fmt::format("this processor lacks the instruction set {}", name));
         }
         if (set.is_supported() && (name.empty() || name == set.name)) best = &set;
     }
     if (best != nullptr) return *best;
     if (name.empty()) {
         throw EnvironmentError(
-            "this processor lacks SSE4.2; the CPU backend needs x86-64-v2, which all have since 2009");
+            "this processor lacks SSE4.2; the CPU backend needs x86-64-v2 (processors since about 2009)");
     }
-    throw InputError(fmt::format("no instruction set is named '{}'; there are x86-64-v2, x86-64-v3, x86-64-v4", name));
+    throw InputError(fmt::format(
+        "there is no instruction set '{}'; the instruction sets are x86-64-v2, x86-64-v3, x86-64-v4", name));
 }
 
 }  // namespace tandem

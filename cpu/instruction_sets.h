@@ -1,4 +1,4 @@
-/// Which compiled kernels this processor can run.
+/// The compiled kernels that this processor can run.
 #pragma once
 
 #include <span>
@@ -24,8 +24,8 @@ struct InstructionSet {
 /// From the least to the most capable.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
 
-/// Empty name: the best of this machine. Throws InputError for an unknown name, EnvironmentError for a set that this
-/// processor lacks.
+/// An empty name selects the best of this machine. Throws InputError for an unknown name, EnvironmentError for a set
+/// that this processor lacks.
 [[nodiscard]] const InstructionSet& choose_instruction_set(const std::string& name);
 
 }  // namespace tandem

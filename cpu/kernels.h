@@ -1,4 +1,4 @@
-/// The CPU's kernels, compiled once per tier and instruction set.
+/// The CPU kernels, compiled once per tier and instruction set.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,11 @@
 
 namespace tandem {
 
-/// The geometries of an Embree scene, by geomID: our primitives, which are all in the exact tiers; in the tier fast
-/// faces are Embree's own.
+/// The geometries of an Embree scene, by geomID: user geometry, which holds all primitives in the exact tiers; in the
+/// tier fast, faces are Embree's own geometry.
 enum GeometryId : std::uint32_t { our_primitives, embree_triangles, embree_quads, geometry_count };
 
-/// A scene as the kernels read it. `embree` is null for a scene of few primitives, which are tested one by one.
+/// A scene as kernels read it. `embree` is null for a scene of few primitives, which are tested one by one.
 struct CpuSceneView {
     SceneView scene;
     StructureFrame frame;
@@ -38,7 +38,7 @@ struct Tile {
 /// Statistics of one tile.
 struct TileStats {
     RenderCounters counters;
-    std::uint64_t rays = 0;  ///< if the path loop counts them (counted_ray_effects)
+    std::uint64_t rays = 0;  ///< only if the path loop counts them (counted_ray_effects)
 
     template <class Real>
     TANDEM_HD void add(const PathTally<Real>& tally) {
@@ -49,8 +49,8 @@ struct TileStats {
     }
 };
 
-/// The sets of effects that the path loop is compiled for: chosen by the cost of effects that the scenes of
-/// assets/scenes do not need (docs/performance.md, "CPU").
+/// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
+/// assets/scenes (docs/performance.md, "CPU").
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
     {"direct", all_effects - bouncing_effects},
@@ -58,7 +58,7 @@ inline constexpr KernelVariant variants[] = {
 };
 inline constexpr std::size_t variant_count = std::size(variants);
 
-/// The number of a variant.
+/// The index of a variant.
 [[nodiscard]] consteval std::size_t variant_named(std::string_view name) {
     for (std::size_t i = 0; i < variant_count; ++i) {
         if (variants[i].name == name) return i;
@@ -75,22 +75,22 @@ struct CpuKernels {
     static TileStats render_tile(const CpuSceneView& scene, const PixelJob& job, const Tile& tile, Vec3d* sums);
     /// Returns how many rays were not traceable.
     static std::uint64_t trace(const CpuSceneView& scene, const TraceJob& job);
-    // Embree's callbacks for primitives. The geometry's user pointer is a CpuSceneView.
+    // Embree's callbacks for user geometry, whose user pointer is a CpuSceneView.
     static void intersect(const RTCIntersectFunctionNArguments* args);
     static void occluded(const RTCOccludedFunctionNArguments* args);
-    // Embree's filters of hits on its own faces, in the tier fast.
+    // Embree's filters for hits on its own faces, in the tier fast.
     static void filter_nearest(const RTCFilterFunctionNArguments* args);
     static void filter_any(const RTCFilterFunctionNArguments* args);
 };
 
-/// The same as plain function pointers.
+/// The kernels as plain function pointers.
 struct TierKernels {
     TileStats (*render_tile[variant_count])(const CpuSceneView& scene, const PixelJob& job, const Tile& tile,
                                             Vec3d* sums);
     std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
     RTCIntersectFunctionN intersect;
     RTCOccludedFunctionN occluded;
-    RTCFilterFunctionN filter_nearest;  ///< null but in the tier fast
+    RTCFilterFunctionN filter_nearest;  ///< null except in the tier fast
     RTCFilterFunctionN filter_any;      ///< the same
 };
 

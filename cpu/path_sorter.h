@@ -1,4 +1,4 @@
-/// Re-sorts paths between packets by what they hit, to reduce divergence.
+/// Sorts paths between packets by what they hit, to reduce divergence.
 #pragma once
 
 #include <bit>
@@ -11,14 +11,14 @@
 
 namespace tandem {
 
-/// Which lane of which packet, for each lane of one.
+/// For each lane of a packet, a lane of some packet.
 template <class Isa>
 struct LanePlaces {
     using Word = Lanes<std::uint32_t, Isa>;
-    Word packet;  ///< bytes from the first packet
+    Word packet;  ///< offset from the first packet, in bytes
     Word lane;
 
-    /// The numbers at these places. `first`: the member of the first packet.
+    /// Gathers the numbers at these places. `first`: the member of the first packet.
     template <class T>
     [[nodiscard]] TANDEM_HD Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
         return Lanes<T, Isa>::gather(&first, packet + (lane << (sizeof(T) == 8 ? 3 : 2)));
@@ -28,14 +28,14 @@ struct LanePlaces {
     }
 };
 
-/// Several packets of paths. A packet runs the code for everything that any of its paths hits, and paths that have left
-/// a surface diverge. So once the next hit of each path is known, the paths are sorted by it. Moving a path changes no
-/// bit: tested by tests/agree/effects_test.cpp, with packets of 4, 8 and 16 and the GPU.
-/// Source: after S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
+/// Several packets of paths. A packet runs the code for everything that any of its paths hits, and paths diverge after
+/// their first hit. So once the next hit of each path is known, the paths are sorted by it. Moving a path to another
+/// lane changes no bit: tested by tests/agree/effects_test.cpp, with packets of 4, 8 and 16 and the GPU. Source: S.
+/// Laine, T. Karras, T. Aila, "Megakernels Considered Harmful", HPG 2013, who sort by material.
 template <class Effects, class Real>
 class PathSorter {
   public:
-    /// Fills lanes that have no pixel: take(free, x, y) sets x and y in lanes of `free` and returns which it has set.
+    /// Fills lanes without a pixel: take(free, x, y) sets x and y in lanes of `free` and returns the lanes that it set.
     template <class Take>
     TANDEM_HD void take(const PixelJob& job, Take take) {
         UInt<Real> x(0U), y(0U);
@@ -48,8 +48,8 @@ class PathSorter {
         }
     }
 
-    /// Follows all paths to their next vertex and from there, and adds the radiance of those that end to `sums`, by
-    /// pixel. False if there was no path.
+    /// Advances all paths by one vertex, and adds the radiance of those that end to `sums`, by pixel. False if there
+    /// was no path.
     template <class Tracer>
     TANDEM_HD bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
                         TileStats& stats) {
@@ -59,8 +59,8 @@ class PathSorter {
             leaves_surface = leaves_surface || now_[i].walk.leaves_surface();
         }
         if (!any(working)) return false;
-        // camera rays are neighbours anyway
-        const bool sorts = any(leaves_surface);
+        // camera rays are coherent anyway
+        const bool sorts = any(gone_on);
         const int together = sorts ? packet_count : 1;
         PathTally<Real> tally;
         for (int first = 0; first < packet_count; first += together) {
@@ -94,8 +94,7 @@ class PathSorter {
         TANDEM_HD auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
     };
 
-    // First paths that hit the same primitive or, if there are many, the same material; then those that hit nothing,
-    // and lanes without a path.
+    // Sorts by primitive or, if there are many, by material; paths that hit nothing and lanes without a path come last.
     static constexpr std::uint32_t bucket_count = 64;
     static constexpr std::uint32_t no_path = bucket_count - 1;
     static constexpr std::uint32_t nothing = bucket_count - 2;

@@ -1,11 +1,12 @@
-/// The source and target of a ray of the CPU's tracers: one type for all rays, so that each decision is compiled once.
+/// The source and end of a ray in the CPU's tracers: one type for all rays, so that each decision is compiled once.
 #pragma once
 
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
 
-/// A PathSource that is a ShadowSource too: no hit on `light` counts. For paths, culled faces are not hit from behind.
+/// A PathSource that is also a ShadowSource: hits on `light` do not count. For paths, culled faces are not hit from
+/// behind.
 template <class Real>
 struct QuerySource : PathSource<Real> {
     UInt<Real> light = UInt<Real>(no_primitive);
@@ -20,8 +21,7 @@ struct QuerySource : PathSource<Real> {
 
 namespace query_detail {
 
-/// first_hit_from() of rays that start on the primitive itself, that have passed a masked hit, or that meet a culled
-/// face.
+/// first_from() for rays that start on the primitive itself, that have passed a masked hit, or that hit a culled face.
 template <class Real, class Primitive>
 TANDEM_HD_CALL Mask<Real> first_hit_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                                                  const PathSource<Real>& source, const Mask<Real>& active,
@@ -31,7 +31,7 @@ TANDEM_HD_CALL Mask<Real> first_hit_from_surface(const Primitive& primitive, std
 
 }  // namespace query_detail
 
-/// test_primitive() as a call: it has so many callers that the compiler would take minutes to inline it everywhere.
+/// test_primitive() as a call: inlining it into its many callers would take the compiler minutes.
 template <class Real, class Primitive>
 TANDEM_HD_CALL void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                                    const QuerySource<Real>& source, const Mask<Real>& candidate, Closest<Real>& best) {

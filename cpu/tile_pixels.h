@@ -1,4 +1,4 @@
-/// The pixels of a tile, for lanes to take.
+/// Distributes the pixels of a tile to lanes.
 #pragma once
 
 #include "cpu/kernels.h"
@@ -6,14 +6,14 @@
 
 namespace tandem {
 
-/// The pixels of a tile in the order in which lanes take them: in nearly square blocks of as many pixels as a packet
-/// has lanes, so that its rays are coherent.
+/// The pixels of a tile in nearly square blocks, of as many pixels as a packet has lanes, so that its rays are
+/// coherent.
 template <class Real>
 class TilePixels {
   public:
     TANDEM_HD explicit TilePixels(const Tile& tile) : tile_(tile), x_(tile.x0), y_(tile.y0) {}
 
-    /// Puts the next pixels into the lanes of `free`; returns the lanes for which there was one.
+    /// Assigns the next pixels to the lanes of `free`; returns the lanes that got one.
     TANDEM_HD Mask<Real> next(const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
         UInt<Real> got(0U);
         for (int i = 0; i < Real::size; ++i) {

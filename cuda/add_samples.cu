@@ -1,4 +1,4 @@
-// Adds samples that were drawn one by one, and their squares. One for all tiers: it is compiled as strict is.
+// Adds samples that were rendered one by one, and their squares. One kernel for all tiers, compiled like strict.
 #include "cuda/block_shape.h"
 #include "cuda/launch.h"
 #include "cuda/plane_kernels.h"

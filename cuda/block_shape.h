@@ -1,4 +1,4 @@
-/// The thread layout of kernels: one per pixel, or as many as the GPU holds, which take pixels from a queue.
+/// The thread layout of kernels: one thread per pixel, or as many as the GPU can hold, which take pixels from a queue.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -8,7 +8,7 @@
 
 namespace tandem::cuda {
 
-// A block covers 16 x 8 pixels as four warps of 8 x 4: so that the rays of a warp are coherent.
+// A block covers 16 x 8 pixels as four warps of 8 x 4, so that the rays of a warp are coherent.
 inline constexpr unsigned int warp_width = 8;
 inline constexpr unsigned int warp_height = 4;
 inline constexpr unsigned int block_width = 16;

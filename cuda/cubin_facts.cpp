@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-/// The part of the bytes that is asked for; empty where it would leave them.
+/// A range of the bytes; empty if it would exceed them.
 Bytes part(Bytes bytes, std::uint64_t offset, std::uint64_t size) {
     if (offset > bytes.size() || size > bytes.size() - offset) return {};
     return bytes.subspan(offset, size);
@@ -27,7 +27,7 @@ std::optional<T> read(Bytes bytes, std::uint64_t offset) {
     return value;
 }
 
-/// The text that starts at an offset of a string table.
+/// The text at an offset in a string table.
 std::string_view text_at(Bytes table, std::uint64_t offset) {
     if (offset >= table.size()) return {};
     const auto* first = reinterpret_cast<const char*>(table.data()) + offset;
@@ -86,7 +86,7 @@ constexpr std::uint8_t format_sized = 4;
 constexpr std::uint8_t kind_registers = 0x2F;
 constexpr std::uint8_t kind_least_stack = 0x12;
 
-/// An attribute of a function, which is a pair of words: the function's symbol and the value.
+/// An attribute of a function: a pair of words, the function's symbol and the value.
 std::optional<int> attribute_of(const Elf& elf, std::uint8_t kind, std::string_view function) {
     const auto section = elf.section(".nv.info");
     if (!section) return std::nullopt;

@@ -25,7 +25,7 @@ using namespace cuda;
 /// Memory and events of one frame in flight.
 struct FrameMemory {
     Buffer<DeviceMemory> film;
-    Buffer<DeviceMemory> one_sample;  ///< of each pixel, where squares of samples are added
+    Buffer<DeviceMemory> one_sample;  ///< one sample of each pixel, if squares of samples are added
     Buffer<DeviceMemory> counters;
     Buffer<PinnedMemory> counters_on_host;
     Event render_start, render_end, download_start, download_end;
@@ -61,7 +61,7 @@ class CudaFrame final : public PendingFrame {
     CudaFrame(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, RenderResult result)
         : scene_(std::move(scene)), memory_(std::move(memory)), result_(std::move(result)) {}
 
-    /// The GPU may still be writing; memory must not return to its pool before.
+    /// Waits for the GPU, which may still be writing, before the memory returns to its pool.
     ~CudaFrame() override { (void)cudaEventSynchronize(memory_->download_end.get()); }
 
     RenderResult get() override {
@@ -87,11 +87,11 @@ class CudaBackend final : public Backend {
   public:
     explicit CudaBackend(Specialise specialise) : specialise_(specialise) {
         check(cudaSetDevice(0), "choosing the GPU");
-        check(cudaGetDeviceProperties(&properties_, 0), "reading what the GPU is");
+        check(cudaGetDeviceProperties(&properties_, 0), "reading the properties of the GPU");
         kernels_.emplace(properties_.major * 10 + properties_.minor);
     }
 
-    /// Nothing may be running when the streams are destroyed.
+    /// Waits for all work before the streams are destroyed.
     ~CudaBackend() override { (void)cudaDeviceSynchronize(); }
 
     [[nodiscard]] std::string name() const override { return "cuda"; }
@@ -135,6 +135,7 @@ class CudaBackend final : public Backend {
         const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? pixels * sizeof(Vec3d) : 0;
         constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
 
+        // Reserve memory
         auto memory = frames_->lease();
         memory->film.reserve(bytes);
         memory->one_sample.reserve(sample_bytes);
@@ -142,6 +143,7 @@ class CudaBackend final : public Backend {
         memory->counters_on_host.reserve(counter_bytes);
         std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
 
+        // Select the kernel: linked for the scene, or compiled ahead of time
         const EffectMask effects = resident.effects();
         const std::size_t variant = variant_for(variants, effects);
         SceneKernels::Found linked;
@@ -172,6 +174,7 @@ class CudaBackend final : public Backend {
         }
         memory->render_end.record(compute_.get());
 
+        // Start the download
         download_.wait_for(memory->render_end);
         memory->download_start.record(download_.get());
         check(cudaMemcpyAsync(sums.get(), memory->film.data(), bytes, cudaMemcpyDeviceToHost, download_.get()),
@@ -203,7 +206,7 @@ class CudaBackend final : public Backend {
 
   private:
     /// Starts the samples one by one, so that their squares can be added; draw(job, film) starts those of a job. The
-    /// sums get the same bits as by one kernel for all.
+    /// sums have the same bits as from one kernel for all samples.
     template <class Draw>
     void draw_one_by_one(const PixelJob& job, Draw draw, const FrameMemory& memory, std::size_t pixels,
                          Vec3d* squares) {
@@ -218,7 +221,7 @@ class CudaBackend final : public Backend {
             one.first_sample = job.first_sample + i;
             check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_pixel), 0,
                                   sizeof(DeviceCounters::next_pixel), compute_.get()),
-                  "opening the queue of pixels");
+                  "resetting the queue of pixels");
             draw(one, sample);
             add_samples(sample, sums, squares, pixels, compute_.get());
         }
@@ -255,7 +258,7 @@ class CudaBackend final : public Backend {
     static void check(const TraceJob& job) { tandem::check(job); }
     static void check(const RenderJob& job, Tier loaded_for) { tandem::check(job, loaded_for); }
 
-    /// Starts a copy to the device and returns its address; null for nothing.
+    /// Starts a copy to the device and returns its address; null for an empty span.
     template <class T>
     const T* upload(std::span<const T> from, Buffer<DeviceMemory>& to) {
         if (from.empty()) return nullptr;

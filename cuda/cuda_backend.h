@@ -9,7 +9,7 @@ namespace tandem {
 
 [[nodiscard]] std::unique_ptr<Backend> make_cuda_backend(const BackendOptions& options);
 
-/// Empty if there is a GPU with a driver that can run this build. The call itself needs neither.
+/// Why the backend cannot run; empty if there is a GPU with a driver that can run this build. Needs neither itself.
 [[nodiscard]] std::string why_cuda_unavailable();
 
 }  // namespace tandem

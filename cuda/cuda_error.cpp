@@ -11,7 +11,7 @@ namespace tandem::cuda {
 const char* advice(cudaError_t code) {
     switch (code) {
         case cudaErrorMemoryAllocation:
-            return "the GPU or the page-locked memory is full; render a smaller film or scene, or end other programs";
+            return "GPU memory or page-locked memory is full; render a smaller film or scene, or end other programs";
         case cudaErrorInsufficientDriver:
             return "the driver is missing or older than this build's CUDA; install a newer one";
         case cudaErrorNoDevice:
@@ -19,7 +19,7 @@ const char* advice(cudaError_t code) {
         case cudaErrorNoKernelImageForDevice:
             return "this build has no code for this GPU; configure with -DCMAKE_CUDA_ARCHITECTURES=native";
         case cudaErrorDevicesUnavailable:
-            return "the GPU is in use by another program that does not share it";
+            return "another program uses the GPU exclusively; end that program";
         case cudaErrorSystemDriverMismatch:
         case cudaErrorCompatNotSupportedOnDevice:
         case cudaErrorUnsupportedPtxVersion:

@@ -12,13 +12,13 @@ namespace tandem::cuda {
 
 namespace {
 
-/// Up to this number a kernel tests every primitive (docs/performance.md has the crossing point).
+/// Up to this number of primitives a kernel tests all of them (docs/performance.md).
 constexpr std::size_t loop_limit = 12;
 
-/// Lays arrays out one after another, each aligned for 16-byte loads.
+/// Lays out arrays one after another, each aligned for 16-byte loads.
 class Layout {
   public:
-    /// `pointer` is to point at the array's copy on the GPU.
+    /// `pointer` will point to the array's copy on the GPU.
     template <class T>
     void add(const std::vector<T>& array, const T*& pointer) {
         parts_.push_back({bytes_, array.data(), array.size() * sizeof(T),
@@ -26,7 +26,7 @@ class Layout {
         bytes_ += (array.size() * sizeof(T) + alignment - 1) / alignment * alignment;
     }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
-    /// Copies the arrays to `staging`, and sets the pointers to where they will be on the GPU.
+    /// Copies the arrays to `staging`, and sets the pointers to their addresses on the GPU.
     void place(std::byte* staging, std::byte* device) const {
         for (const Part& part : parts_) {
             if (part.bytes > 0) std::memcpy(staging + part.offset, part.data, part.bytes);

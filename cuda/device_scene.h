@@ -10,7 +10,7 @@
 
 namespace tandem::cuda {
 
-/// Memory for one scene: on the GPU, and page-locked beside it to copy from.
+/// Memory for one scene: on the GPU, and page-locked staging memory on the host.
 struct SceneMemory {
     Buffer<DeviceMemory> device;
     Buffer<PinnedMemory> staging;
@@ -20,20 +20,20 @@ struct SceneMemory {
 
 class DeviceScene final : public ResidentScene {
   public:
-    /// Starts the upload on `stream`. A scene of many primitives gets a hierarchy, built here on the host.
+    /// Starts the upload on `stream`. For a scene of many primitives, builds a BVH on the host first.
     DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream);
 
     /// Waits for the upload, to measure its time.
     [[nodiscard]] PhaseTimes load_times() const override;
     [[nodiscard]] const DeviceSceneView& view() const { return view_; }
     [[nodiscard]] const Event& uploaded() const { return memory_->upload_end; }
-    // Of the prepared scene, which is not kept:
+    // From the prepared scene, which is not kept:
     [[nodiscard]] const PreparedCamera& camera() const { return camera_; }
     [[nodiscard]] EffectMask effects() const { return effects_; }
     [[nodiscard]] std::uint64_t dropped_primitives() const { return dropped_primitives_; }
     [[nodiscard]] std::uint64_t dropped_lights() const { return dropped_lights_; }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
-    /// Copies that had been taken out of the scene; none unless set_copies() was called.
+    /// Copies that were removed from the scene; empty unless set_copies() was called.
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     void set_copies(std::vector<PrimitiveCopy> copies) { copies_ = std::move(copies); }
 

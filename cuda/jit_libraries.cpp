@@ -16,12 +16,12 @@ namespace {
 
 constexpr ToolkitVersion built_with = {CUDART_VERSION / 1000, CUDART_VERSION % 1000 / 10};
 
-/// At least `oldest`, and of its major version.
+/// Whether a version is at least `oldest`, with the same major version.
 bool serves(const ToolkitVersion& version, const ToolkitVersion& oldest) {
     return version.major == oldest.major && version.minor >= oldest.minor;
 }
 
-/// Finds functions by name, and remembers whether one was missing.
+/// Looks up functions by name, and remembers a missing one.
 class Symbols {
   public:
     explicit Symbols(void* library) : library_(library) {}
@@ -41,7 +41,7 @@ class Symbols {
 constexpr const char* stem(const JitLinker&) { return "libnvJitLink.so"; }
 constexpr const char* stem(const JitCompiler&) { return "libnvrtc.so"; }
 
-/// Empty, or what the library lacks.
+/// What the library lacks; empty if it is complete.
 std::string load(void* handle, JitLinker& linker) {
     Symbols symbols(handle);
     int (*version)(unsigned int* major, unsigned int* minor) = nullptr;
@@ -76,7 +76,7 @@ std::string load(void* handle, JitCompiler& compiler) {
     return "";
 }
 
-/// The first library in the folders that `fits`; null, and the reasons are added to `problems`, if there is none.
+/// The first library in the folders that `fits`; null if there is none, with the reasons added to `problems`.
 template <class Library, class Fits>
 std::unique_ptr<const Library> open_first(const std::vector<std::string>& folders, std::vector<std::string>& problems,
                                           Fits fits) {
@@ -130,7 +130,7 @@ JitLibraries open_jit_libraries(const std::vector<std::string>& folders) {
     if (libraries.compiler == nullptr) {
         libraries.problem = fmt::format(
             "kernels cannot be specialised: no {} of CUDA {} or a later {}.x was found{}{}; install the CUDA toolkit's "
-            "runtime libraries, or name their folder in TANDEM_CUDA_LIBRARIES",
+            "runtime libraries, or set TANDEM_CUDA_LIBRARIES to their folder",
             libraries.linker == nullptr ? "nvJitLink" : "NVRTC", to_string(built_with), built_with.major,
             problems.empty() ? "" : ": ", fmt::join(problems, "; "));
     }

@@ -1,7 +1,6 @@
-/// The libraries of the CUDA toolkit that specialise kernels at load: nvJitLink, which links LTO-IR, and NVRTC, which
-/// compiles the constants. Opened at run time, so that programs start without them. Their functions are declared here
-/// by hand, so that a toolkit without their headers can build Tandem too (nvJitLink.h, nvrtc.h: plain C, results are
-/// enums, handles are pointers).
+/// The CUDA libraries that specialise kernels: nvJitLink, which links LTO-IR, and NVRTC, which compiles the constants.
+/// They are opened at run time, so that programs start without them. Their functions are declared here by hand, so that
+/// Tandem can be built without their headers (nvJitLink.h, nvrtc.h: plain C, results are enums, handles are pointers).
 #pragma once
 
 #include <cstddef>
@@ -45,19 +44,19 @@ struct JitCompiler {
     int (*log)(void* program, char* text);
 };
 
-/// Both libraries, or why not. They stay open until the program ends.
+/// Both libraries, or why they are not available. They stay open until the program ends.
 struct JitLibraries {
     std::unique_ptr<const JitLinker> linker;
     std::unique_ptr<const JitCompiler> compiler;
-    std::string problem;  ///< empty if both are there: what is missing, where it was looked for, what to do
+    std::string problem;  ///< what is missing, where it was searched, and what to do; empty if both are there
 };
 
-/// The folders to search: those of TANDEM_CUDA_LIBRARIES (separated by colons) and no others, if that is set; else the
-/// loader's own path, written "", the toolkit that built Tandem, and /usr/local/cuda.
+/// The folders to search: only those in TANDEM_CUDA_LIBRARIES (separated by colons) if that is set; else the loader's
+/// path, written as "", the toolkit that built Tandem, and /usr/local/cuda.
 [[nodiscard]] std::vector<std::string> jit_folders();
 
-/// The first of each library that is of the release that built Tandem's kernels, or a later one of the same major
-/// version: LTO-IR is not read by an older linker. The linker must not be older than the compiler.
+/// The first of each library from the CUDA release that built Tandem's kernels, or a later one of the same major
+/// version: an older linker cannot read the LTO-IR. The linker must not be older than the compiler.
 [[nodiscard]] JitLibraries open_jit_libraries(const std::vector<std::string>& folders);
 
 /// open_jit_libraries(jit_folders()), once.

@@ -18,7 +18,7 @@ namespace {
 /// nvJitLinkInputType.
 enum class InputKind { ltoir = 3, fatbin = 4 };
 
-/// A handle of one of the libraries, released in the end.
+/// A handle of one of the libraries, released at the end.
 class Handle {
   public:
     explicit Handle(int (*destroy)(void**)) : destroy_(destroy) {}
@@ -36,7 +36,7 @@ class Handle {
     void* value_ = nullptr;
 };
 
-/// What a library gives as a size and then as a text that ends with a zero; empty if it gives none.
+/// A text that a library returns as a size and a zero-terminated string; empty if there is none.
 template <class Size, class Text>
 std::string text_of(void* handle, Size size, Text text) {
     std::size_t bytes = 0;
@@ -58,7 +58,7 @@ const JitLibraries& available_libraries() {
     return libraries;
 }
 
-/// LTO-IR that defines the facts. From source: nvJitLink folds no constant that comes as PTX.
+/// Compiles LTO-IR that defines the facts. nvJitLink does not fold constants that come as PTX.
 std::vector<char> compile_facts(const JitCompiler& compiler, const JitInput& input) {
     const std::string declaration =
         fmt::format("__device__ const unsigned int {}[{}]", input.facts_name, input.facts.size());
@@ -98,7 +98,7 @@ std::vector<std::string> link_options(const JitInput& input) {
     options.push_back(fmt::format("-ftz={}", fast));
     options.push_back(fmt::format("-prec-div={}", 1 - fast));
     options.push_back(fmt::format("-prec-sqrt={}", 1 - fast));
-    options.emplace_back("-split-compile=0");  // functions side by side, on all processors
+    options.emplace_back("-split-compile=0");  // compile functions in parallel, on all processors
     return options;
 }
 
@@ -125,14 +125,14 @@ std::vector<std::byte> link(const JitInput& input) {
           "reading its facts");
     check(linker.complete(handle.get()), "linking");
 
-    // some errors leave a result that looks good: a constant in another memory space ...
+    // some errors still give a result: a constant in another memory space ...
     if (!log().empty()) fail("linking", 0, log());
 
     std::size_t bytes = 0;
     check(linker.cubin_size(handle.get(), &bytes), "fetching the result");
     std::vector<std::byte> cubin(bytes);
     check(linker.cubin(handle.get(), cubin.data()), "fetching the result");
-    // ... or one that nothing defines, which is then zero; the linker's remark on that is not always there
+    // ... or an undefined one, which becomes zero; the linker does not always report that
     const bool is_zero = std::all_of(input.facts.begin(), input.facts.end(), [](auto fact) { return fact == 0; });
     if (const auto name = variable_of_zeros(cubin); !name.empty() && !is_zero) {
         fail("linking", 0, fmt::format("nothing defines '{}'", name));

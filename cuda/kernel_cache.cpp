@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view suffix = ".cubin";
 constexpr char format_mark[9] = "TDMCUB01";
 
-/// What stands before the cubin in a file. Little-endian, as all machines that Tandem runs on.
+/// The header before the cubin in a file. Little endian, like all machines that Tandem runs on.
 struct Header {
     char mark[8];
     std::uint64_t cubin_bytes;
@@ -51,7 +51,7 @@ bool is_key(std::string_view text) {
     return text.size() == sizeof Header::key && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-/// An entry of any key, or the file of an interrupted store (lib/tandem/base/whole_file.cpp):
+/// Whether a file is an entry, or the temporary file of an interrupted store (lib/tandem/base/whole_file.cpp):
 /// .KEY.cubin.PROCESS-COUNT.tmp
 enum class FileKind { entry, unfinished, other };
 FileKind kind_of(std::string_view name) {
@@ -83,7 +83,7 @@ KernelCache::Found KernelCache::find(const std::string& key) const {
     };
     const std::uint64_t size = fs::file_size(path, error);
     if (error) return unusable(error.message());
-    if (size > limit_bytes_) return unusable("it is larger than the whole cache may be");
+    if (size > limit_bytes_) return unusable("it is larger than the limit of the cache");
     Bytes bytes;
     try {
         bytes = read_file(path.string());
@@ -95,25 +95,26 @@ KernelCache::Found KernelCache::find(const std::string& key) const {
     std::memcpy(&header, bytes.data(), sizeof header);
     bytes.erase(bytes.begin(), bytes.begin() + sizeof header);
     const Header expected = make_header(key, bytes);
-    if (std::memcmp(&header, &expected, sizeof header) != 0) return unusable("it is torn, altered, or of another key");
-    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // a folder that only others may write is fine
+    if (std::memcmp(&header, &expected, sizeof header) != 0)
+        return unusable("it is incomplete, altered, or of another key");
+    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // ignores failure: the folder may be read-only
     return {std::move(bytes), {}};
 }
 
 std::string KernelCache::store(const std::string& key, std::span<const std::byte> cubin) const {
     if (folder_.empty()) return {};
     if (!is_key(key)) return fmt::format("'{}' is not a key of the kernel cache", key);
-    if (sizeof(Header) + cubin.size() > limit_bytes_) return "a kernel is larger than the whole cache may be";
+    if (sizeof(Header) + cubin.size() > limit_bytes_) return "a kernel is larger than the limit of the cache";
     const Header header = make_header(key, cubin);
     const auto* first = reinterpret_cast<const std::byte*>(&header);
     Bytes bytes(first, first + sizeof header);
     bytes.insert(bytes.end(), cubin.begin(), cubin.end());
     try {
         fs::create_directories(folder_);
-        // whole after a power cut is not needed: the checksum finds what is torn
+        // no need to survive a power cut: the checksum detects incomplete files
         write_file(entry(key).string(), bytes, Durability::written);
     } catch (const std::exception& failure) {
-        return fmt::format("the kernel cache cannot be written: {}", failure.what());
+        return fmt::format("cannot write to the kernel cache: {}", failure.what());
     }
     evict(entry(key));
     return {};
@@ -154,7 +155,7 @@ fs::path kernel_cache_folder() {
         const fs::path named = variable("TANDEM_CACHE_DIR");
         return named.empty() ? named : named / "kernels";
     }
-    // the XDG base directory specification: relative paths are to be ignored
+    // the XDG base directory specification says to ignore relative paths
     if (const fs::path cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "tandem/kernels";
     if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache/tandem/kernels";
     return {};

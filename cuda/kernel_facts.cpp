@@ -10,7 +10,7 @@ int fact(cudaDeviceAttr attribute) {
     int device = 0;
     int value = 1;
     check(cudaGetDevice(&device), "finding the current GPU");
-    check(cudaDeviceGetAttribute(&value, attribute, device), "reading GPU facts");
+    check(cudaDeviceGetAttribute(&value, attribute, device), "reading the properties of the GPU");
     return value;
 }
 
@@ -22,8 +22,8 @@ RenderGrid pixel_queue() {
 
 KernelFacts kernel_facts(const void* kernel) {
     cudaFuncAttributes attributes{};
-    check(cudaFuncGetAttributes(&attributes, kernel), "reading the facts of a kernel");
-    const int threads = attributes.maxThreadsPerBlock;  // those of its launch bounds, with which it is started
+    check(cudaFuncGetAttributes(&attributes, kernel), "reading the properties of a kernel");
+    const int threads = attributes.maxThreadsPerBlock;  // from its launch bounds, with which it is launched
     int blocks = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
           "reading the occupancy of a kernel");

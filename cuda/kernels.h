@@ -1,4 +1,4 @@
-/// The CUDA kernels, seen from the host.
+/// The host interface of the CUDA kernels.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -22,7 +22,7 @@ struct DeviceSceneView {
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory()
 };
 
-/// How the primitives of a scene are found, by the tracers' names.
+/// The tracers: how the primitives of a scene are found.
 enum class Structure { few, loop, bvh };
 [[nodiscard]] inline Structure structure_of(const DeviceSceneView& view) {
     if (view.bvh.nodes != nullptr) return Structure::bvh;
@@ -35,13 +35,13 @@ struct KernelFacts {
     double occupancy;  ///< resident warps over the most there can be
 };
 
-/// Of a render kernel. Throws if CUDA cannot tell.
+/// The properties of a render kernel. Throws if CUDA cannot tell them.
 [[nodiscard]] KernelFacts kernel_facts(const void* kernel);
 
 /// The number of ray counters: each pixel adds to one of them, the threads of a warp to different ones.
 inline constexpr std::size_t ray_counters = 32;
 
-/// What kernels count, in device memory.
+/// The counters of kernels, in device memory.
 struct DeviceCounters {
     unsigned long long invalid_samples;
     unsigned long long lost_media;

@@ -3,8 +3,8 @@
 // (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go through the code of the
 // others.
 //
-// TANDEM_SHORT_PATHS is defined for paths of one vertex: without synchronising_effects. Their code fits into the caches
-// for it, and TANDEM_HD_SHARED is inline.
+// TANDEM_SHORT_PATHS is defined for paths of one vertex, without synchronising_effects. Their code fits into the
+// instruction caches, and TANDEM_HD_SHARED is inline.
 #include "cuda/linked_facts.h"
 
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
@@ -20,7 +20,7 @@ extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
 
 namespace tandem::cuda {
 
-/// What the facts say, in the place of an EffectSet.
+/// Takes the place of an EffectSet, from the linked facts.
 struct LinkedEffects {
 #if defined(TANDEM_SHORT_PATHS)
     static constexpr EffectMask most = all_effects - synchronising_effects;
@@ -39,7 +39,7 @@ struct LinkedEffects {
         return {either(tandem_facts.reflection, given.reflection), either(tandem_facts.refraction, given.refraction),
                 either(tandem_facts.diffuse, given.diffuse)};
     }
-#else  // nvcc reads it for the host too, where the facts are not
+#else  // nvcc also compiles this for the host, which has no facts
     static bool has_any(EffectMask);
     static std::uint32_t light_count(std::uint32_t);
     static PathLimits limits(const PathLimits&);
@@ -62,7 +62,7 @@ using fast = FastFloat;
 using LinkedReal = linked_real::TANDEM_LINKED_TIER;
 
 #if defined(TANDEM_SHORT_PATHS)
-// Blocks that must fit on a multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
+// Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
 #define TANDEM_LINKED_BOUNDS block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6
 #else
 #define TANDEM_LINKED_BOUNDS queue_threads, 1

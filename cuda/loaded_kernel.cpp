@@ -13,7 +13,7 @@ LoadedCode::LoadedCode(std::span<const std::byte> code, const std::string& kerne
     check(found, "finding a kernel");
 }
 
-// a failure to unload cannot be answered
+// a failure to unload cannot be handled
 LoadedCode::~LoadedCode() { (void)cudaLibraryUnload(library_); }
 
 void LoadedCode::start(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,

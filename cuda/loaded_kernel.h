@@ -23,8 +23,8 @@ class LoadedCode {
     /// For the runtime's functions that take a kernel: cudaFuncGetAttributes(), cudaOccupancy...().
     [[nodiscard]] const void* function() const { return kernel_; }
 
-    /// Starts it, and throws if that failed. `doing` completes "CUDA failed while ...". The parameters must be of the
-    /// types of the kernel's source: nothing checks it.
+    /// Launches the kernel, and throws on failure. `doing` completes "CUDA failed while ...". The parameters must have
+    /// the types in the kernel's source: nothing checks this.
     template <class... Parameters>
     void launch(const char* doing, dim3 grid, unsigned int block_threads, cudaStream_t stream,
                 Parameters... arguments) const {

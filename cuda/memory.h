@@ -1,4 +1,4 @@
-/// Memory of the GPU and page-locked memory of the host, owned, and kept for the next frame.
+/// Owners of GPU memory and of page-locked host memory, which is reused for the next frame.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ class Buffer {
         if (address_ != nullptr) Kind::release(address_);
     }
 
-    /// At least `bytes`; what was in it is lost if it has to grow.
+    /// Ensures at least `bytes`; the contents are lost if the block grows.
     void reserve(std::size_t bytes) {
         if (bytes <= bytes_) return;
         if (address_ != nullptr) Kind::release(std::exchange(address_, nullptr));

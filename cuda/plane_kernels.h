@@ -1,5 +1,5 @@
-/// The CUDA kernels of the planes beside the colour, seen from the host. The kernels of the colour know nothing of
-/// them.
+/// The host interface of the CUDA kernels for the planes beside the colour. They are separate from the kernels of the
+/// colour.
 #pragma once
 
 #include "cuda/kernels.h"
@@ -7,11 +7,11 @@
 
 namespace tandem::cuda {
 
-/// Starts those of `planes` that tell of first hits; they and `counters` are in device memory.
+/// Starts the planes of first hits among `planes`; they and `counters` are in device memory.
 using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                             const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream);
 
-// In a file for each tier (first_hits_*.cu).
+// Defined in a file per tier (first_hits_*.cu).
 #define TANDEM_TIER(name, promise) extern FirstHitLaunch launch_first_hits_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER

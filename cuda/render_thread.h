@@ -33,10 +33,10 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
-/// Pixels from a queue, for all others (synchronising_effects): a thread that is done takes the next. The threads of a
-/// block synchronise before each vertex, because the code of a vertex is larger than the instruction caches: so
-/// the instructions are fetched once for all warps (docs/performance.md). Which thread has which pixel changes no
-/// bit.
+/// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The
+/// threads of a block synchronise before each vertex, because the code of a vertex is larger than the instruction
+/// caches: so the instructions are fetched once for all warps (docs/performance.md). The assignment of pixels to
+/// threads changes no bit.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {

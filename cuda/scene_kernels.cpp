@@ -61,7 +61,7 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
 bool has_queue(EffectMask effects) { return effects.has_any(synchronising_effects); }
 bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bits(facts.effects)); }
 
-/// More lights than these are a loop whose length is no constant: it would not be unrolled.
+/// With more lights than this their number is not a constant, since the loop over them would not be unrolled anyway.
 constexpr std::uint32_t most_linked_lights = 4;
 
 }  // namespace
@@ -137,12 +137,11 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
             place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), has_queue(facts),
-                                                "rendering with a kernel made for the scene"});
-            if (!made.cache_problem.empty()) warn("the cache of kernels: " + made.cache_problem);
+                                                "rendering with a kernel linked for the scene"});
+            if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
-            warn(fmt::format(
-                "a kernel that was compiled ahead of time draws, because none can be made for the scene: {}",
-                error.what()));
+            warn(fmt::format("a kernel compiled ahead of time is used, because none can be linked for the scene: {}",
+                             error.what()));
         }
         found.seconds = watch.seconds();
     }

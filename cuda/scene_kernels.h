@@ -17,10 +17,10 @@
 namespace tandem::cuda {
 
 /// The facts of a scene and a job for the kernel that renders them. Unused facts are left out, so that scenes that
-/// differ only in them share a kernel.
+/// differ only in these share a kernel.
 [[nodiscard]] LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits);
 
-/// How a kernel is linked for them; needs no GPU. `architecture`: as JitInput.
+/// The input for linking a kernel with these facts; needs no GPU. `architecture`: as in JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
 /// The kernel that was linked when Tandem was built, with the effects of `variants[variant]`, for scenes with faces
@@ -36,15 +36,15 @@ struct SceneKernel {
 
 class SceneKernels {
   public:
-    /// Takes the user's cache (kernel_cache_folder()).
+    /// Uses the user's cache (kernel_cache_folder()).
     explicit SceneKernels(int architecture);
 
     struct Found {
-        const SceneKernel* kernel = nullptr;  ///< lives as long as this; null if there can be none
-        double seconds = 0;                   ///< that it took to make or to fetch; 0 if it was there
-        std::string warning;                  ///< why there is no kernel, or why the cache did not work; reported once
+        const SceneKernel* kernel = nullptr;  ///< owned by this; null if none can be linked
+        double seconds = 0;                   ///< to link or to fetch it; 0 if it was loaded already
+        std::string warning;                  ///< why there is no kernel, or why the cache failed; reported once
     };
-    /// Not for several threads at once.
+    /// Not safe from several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
     /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode. Not for several

@@ -10,7 +10,7 @@ namespace tandem::cuda {
 
 std::string cache_key(const JitInput& input, const std::string& version) {
     Sha256 hash;
-    // each part with its length before it, so that no two inputs run together to the same bytes
+    // each part is preceded by its length, so that no two inputs give the same bytes
     const auto add = [&](const void* data, std::size_t bytes) {
         hash.update_value(std::uint64_t{bytes});
         hash.update(data, bytes);

@@ -1,4 +1,4 @@
-/// A specialised kernel from the cache, or linked and put there.
+/// A specialised kernel from the cache, or linked and stored there.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,13 @@ struct Specialised {
     std::vector<std::byte> cubin;
     bool from_cache = false;
     double seconds = 0;         ///< to fetch or to link it
-    std::string cache_problem;  ///< why the cache did not serve or keep it; empty if it did, or if it is off
+    std::string cache_problem;  ///< why the cache could not read or store it; empty if it could, or if it is off
 };
 
-/// SHA-256 of all that the cubin depends on; `version` is jit_version().
+/// SHA-256 of everything that the cubin depends on; `version` is jit_version().
 [[nodiscard]] std::string cache_key(const JitInput& input, const std::string& version);
 
-/// Throws as link() does; a cache that does not work is no error.
+/// Throws as link() does; a failing cache is not an error.
 [[nodiscard]] Specialised specialise(const JitInput& input, const KernelCache& cache);
 
 }  // namespace tandem::cuda

@@ -7,7 +7,7 @@
 
 namespace tandem::cuda {
 
-/// An event in a stream, with a time.
+/// A timed event in a stream.
 class Event {
   public:
     Event() { check(cudaEventCreate(&handle_), "creating an event"); }
@@ -37,7 +37,7 @@ class Stream {
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
 
-    /// What is queued from now on starts after the event.
+    /// Work that is queued from now on starts after the event.
     void wait_for(const Event& event) { check(cudaStreamWaitEvent(handle_, event.get(), 0), "ordering streams"); }
     [[nodiscard]] cudaStream_t get() const { return handle_; }
 

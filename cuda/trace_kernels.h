@@ -12,8 +12,7 @@
 
 namespace tandem::cuda {
 
-/// The queries of a trace: the nearest hits of rays that start in space or on surfaces, or only whether shadow rays are
-/// blocked.
+/// The queries of a trace: nearest hits of rays that start in space or on surfaces, or whether shadow rays are blocked.
 enum class Ask { nearest, nearest_from_surface, occluded };
 
 template <class Real, Ask ask, class Tracer>

@@ -7,8 +7,8 @@
 
 namespace tandem::cuda {
 
-/// Blocks that must fit on a multiprocessor: with 8 a thread has 64 registers, with 6 80, with 4 128. Measured on an
-/// H200 (docs/performance.md): fewer leave double precision's latency uncovered, more spill.
+/// Blocks per multiprocessor: with 8 a thread has 64 registers, with 6 it has 80, with 4 it has 128. Measured on an
+/// H200 (docs/performance.md): fewer blocks do not hide the latency of double precision, and more cause spills.
 template <class Real, class Tracer>
 inline constexpr unsigned int resident_blocks = [] {
     if (std::is_same_v<Real, double>) return 4;
@@ -16,7 +16,7 @@ inline constexpr unsigned int resident_blocks = [] {
     return faces && !is_fast<Real> ? 6 : 8;
 }();
 
-/// Calls f with the tracer that fits the scene, which counts into `counters`.
+/// Calls f with the tracer for the scene, which counts into `counters`.
 template <class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;

@@ -34,7 +34,7 @@ WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 class Gltf:
-    """The parts of a file that are compared: triangles, metallic-roughness materials, their pictures."""
+    """The compared parts of a file: triangles, metallic-roughness materials, their images."""
 
     def __init__(self, path):
         self.folder = os.path.dirname(os.path.abspath(path))
@@ -158,7 +158,7 @@ def make_metals(gltf):
 
 
 def write_with_camera(gltf, path, eye, target, yfov):
-    """The file again, with its buffers and pictures inside, and a camera."""
+    """A copy of the file with embedded buffers and images, and a camera."""
     forward = np.subtract(target, eye) / np.linalg.norm(np.subtract(target, eye))
     right = np.cross(forward, [0, 1, 0])
     right /= np.linalg.norm(right)

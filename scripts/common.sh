@@ -12,7 +12,7 @@ die() {
     exit "$1"
 }
 
-# The comment at the top of the calling script is its help.
+# Prints the comment at the top of the calling script as its help.
 usage() { awk 'NR > 1 { if (!/^#/ || /^# shellcheck/) exit; sub(/^# ?/, ""); print }' "$script"; }
 
 # Debian packages of scripts/packages.txt, one a line.

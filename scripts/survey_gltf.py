@@ -51,9 +51,9 @@ def options_of(arguments):
     parser.add_argument("--quiet", action="store_true", help="no progress")
     options = parser.parse_args(arguments)
     if not (options.folders or options.corpus or options.read):
-        stop("name files or folders, a --corpus, or --from an earlier survey")
+        stop("nothing to do; name files or folders, a --corpus, or --from an earlier survey")
     if options.page and not options.summary:
-        stop("--page needs --summary: the page quotes that file")
+        stop("--page needs --summary, which the page refers to")
     if options.sheet and not sheets.pillow():
         stop("--sheet needs the Python package Pillow; install it with 'pip install pillow'", 3)
     for path in [*(files.named(folder)[1] for folder in options.folders), *([options.corpus] if options.corpus else [])]:
@@ -72,7 +72,7 @@ def output_of(command):
 
 
 def about(options):
-    """What the page says of the run; without a path of this machine."""
+    """The description of the run for the page, without paths of this machine."""
     paths = [os.path.basename(os.path.abspath(files.named(folder)[1])) for folder in options.folders]
     command = ["scripts/survey_gltf.py", *paths, *(["--corpus", os.path.basename(os.path.abspath(options.corpus))] if options.corpus else [])]
     return {
@@ -140,7 +140,7 @@ def main():
     corpus = files.corpus(options.corpus) if options.corpus else []
     if options.sheet:
         shown = sheets.write(options.sheet, renderer, [*listed, *corpus], options.jobs)
-        print(f"{shown} pictures in {options.sheet}")
+        print(f"{shown} images in {options.sheet}")
         return 0
     if options.parity:
         plain = runs.Renderer(options.render, options.size, options.spp, options.timeout, 0)

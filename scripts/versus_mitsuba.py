@@ -6,7 +6,7 @@
 
 Needs a Python with the package mitsuba (`pip install mitsuba`). Both follow paths with a sample of the lights at each
 vertex. What differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends paths after 8
-vertices, Tandem after 8 reflections, 16 refractions or 4 scatterings by matt surfaces. `--pictures` writes both.
+vertices, Tandem after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both.
 """
 
 import argparse
@@ -50,7 +50,7 @@ def mitsuba_scene(width, height, spp):
     ripples = bitmap(64, 64, lambda i: whitted.ripple(i)[:3], raw=True)
     glass = {"type": "dielectric", "int_ior": 1.5, "ext_ior": 1.0}
 
-    def matt(r, g, b):
+    def lambertian(r, g, b):
         return {"type": "diffuse", "reflectance": {"type": "rgb", "value": [r, g, b]}}
 
     def sphere(at, radius, bsdf, **more):
@@ -88,13 +88,13 @@ def mitsuba_scene(width, height, spp):
                 "beam_width": 12,
                 "cutoff_angle": 24,
             },
-            "lamp": sphere((-2.0, 2.3, 0.6), 0.22, matt(0, 0, 0), emitter={"type": "area", "radiance": {"type": "rgb", "value": [12, 10, 7]}}),
+            "lamp": sphere((-2.0, 2.3, 0.6), 0.22, lambertian(0, 0, 0), emitter={"type": "area", "radiance": {"type": "rgb", "value": [12, 10, 7]}}),
             "floor": {**quad, "to_world": floor, "bsdf": {"type": "diffuse", "reflectance": checker}},
-            "fence": {**quad, "to_world": fence, "bsdf": {"type": "mask", "opacity": net_alpha, "nested": {"type": "twosided", "bsdf": matt(0.05, 0.16, 0.05)}}},
+            "fence": {**quad, "to_world": fence, "bsdf": {"type": "mask", "opacity": net_alpha, "nested": {"type": "twosided", "bsdf": lambertian(0.05, 0.16, 0.05)}}},
             "ball": sphere((-0.35, 1.15, 1.0), 0.55, glass),
             "bubble": sphere((-0.35, 1.15, 1.0), 0.3, {"type": "dielectric", "int_ior": 1.0, "ext_ior": 1.5}),
             "mirror": sphere((0.75, 0.62, -0.2), 0.6, {"type": "conductor", "specular_reflectance": {"type": "rgb", "value": [0.85, 0.87, 0.9]}}),
-            "clay": sphere((-1.35, 0.35, 0.1), 0.35, {"type": "normalmap", "normalmap": ripples, "bsdf": matt(0.65, 0.5, 0.4)}),
+            "clay": sphere((-1.35, 0.35, 0.1), 0.35, {"type": "normalmap", "normalmap": ripples, "bsdf": lambertian(0.65, 0.5, 0.4)}),
             "block": {"type": "cube", "to_world": T().translate([1.6, 0.36, 0.9]) @ T().rotate([0, 1, 0], 25) @ T().scale([0.25, 0.35, 0.25]), "bsdf": glass},
         }
     )

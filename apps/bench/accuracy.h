@@ -1,4 +1,4 @@
-/// tandem-bench accuracy: what each digit costs. Every tier on every backend, its time beside its error.
+/// tandem-bench accuracy: time and error of every tier on every backend.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct AccuracyOptions {
     std::uint64_t seed = 0;
     int threads = 0;           ///< of the CPU; 0 means one per core
     int rays = 1 << 20;        ///< per kind of primitive
-    int checked_rays = 20000;  ///< the first of them are compared with the oracle
+    int checked_rays = 20000;  ///< how many of them, from the first, are compared with the oracle
     int repetitions = 7;
 };
 
@@ -35,7 +35,7 @@ struct Contender {
     [[nodiscard]] std::string label() const { return backend + " " + to_string(tier); }
 };
 
-/// One backend made once, and the tiers that it runs in.
+/// A backend, and the tiers that it runs in.
 struct AccuracyStage {
     std::vector<std::unique_ptr<Backend>> backends;
     struct Entry {
@@ -49,7 +49,7 @@ struct AccuracyStage {
 /// right decisions (strict, precise) made a wrong one or erred by more than one ulp in t, or if its backends disagree.
 [[nodiscard]] bool run_accuracy(const AccuracyOptions& options, const BackendSource& source, Report& report);
 
-// The two parts of it.
+// Its two parts.
 [[nodiscard]] bool accuracy_of_rays(const AccuracyOptions& options, const AccuracyStage& stage, Report& report);
 [[nodiscard]] bool accuracy_of_frames(const AccuracyOptions& options, const AccuracyStage& stage, Report& report);
 

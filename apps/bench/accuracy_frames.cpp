@@ -1,4 +1,4 @@
-// The part of accuracy that renders frames.
+// The part of `accuracy` that renders frames.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The part of accuracy that traces rays.
+// The part of `accuracy` that traces rays.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// How far the answers to the checked rays are from the oracle's.
+/// The errors of the checked rays, relative to the oracle.
 struct RayErrors {
     std::size_t checked = 0;
     std::size_t wrong = 0;      ///< another primitive, or a hit for a miss
@@ -67,7 +67,8 @@ bool same_bits(const Answers& a, const Answers& b) {
 bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const KindScene& kind, Table& table,
              Report& report) {
     const char* difficulty = kind.difficulty == Difficulty::easy ? "easy" : "hard";
-    log_progress(fmt::format("{} rays at each {}, {}", options.rays, kind.kind, difficulty));
+    log_progress(fmt::format("{} rays toward each {}, {}", options.rays, kind.kind, difficulty));
+    // Compare one trace of every contender with the oracle
     std::vector<OracleHit> truth;
     for (int i = 0; i < std::min(options.checked_rays, options.rays); ++i) {
         truth.push_back(oracle_trace(kind.scene, kind.rays[static_cast<std::size_t>(i)]));
@@ -89,6 +90,7 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
             {.rays = kind.rays, .hits = o.answers.hits, .wide_t = o.answers.wide_t, .counters = &o.row.counters});
         o.errors = compare(o.answers, truth);
     }
+    // Time all contenders in rounds
     std::vector<Hit> scratch(kind.rays.size());
     for (int round = 0; round < options.repetitions; ++round) {
         for (const std::size_t i : interleaved_order(outcomes.size(), static_cast<std::size_t>(round))) {
@@ -97,6 +99,7 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
             o.row.rounds.push_back(round);
         }
     }
+    // Judge and report the outcomes
     std::map<std::string, double> fastest = fastest_medians(outcomes);
     bool right = true;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -131,10 +134,10 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
 
 bool accuracy_of_rays(const AccuracyOptions& options, const AccuracyStage& stage, Report& report) {
     Table table{fmt::format("{} rays per kind of primitive, {} of them checked against the oracle. \"Wrong\": not the "
-                            "nearest primitive. Errors of t are in units of the last place of float; the relative "
+                            "nearest primitive. Errors of t are in float ulps; the relative "
                             "error is that of t in the tier's own precision",
                             format_number(options.rays), format_number(std::min(options.checked_rays, options.rays))),
-                {{"Rays at"},
+                {{"Rays toward"},
                  {"Backend and tier"},
                  {"Time per ray", true},
                  {"Times the fastest", true},
@@ -154,7 +157,7 @@ bool accuracy_of_rays(const AccuracyOptions& options, const AccuracyStage& stage
     report.blocks.emplace_back(std::move(table));
     report.blocks.emplace_back(
         right ? Callout{Callout::Kind::good,
-                        "Strict and precise decided every ray correctly, with t within one unit of the last place and "
+                        "Strict and precise decided every ray correctly, with t within one ulp and "
                         "equal bits on every backend."}
               : Callout{Callout::Kind::bad, "A tier that guarantees correct decisions and equal bits failed."});
     return right;

@@ -1,4 +1,4 @@
-/// Where benchmarks get their backends from; tests put their own in its place.
+/// Where benchmarks get their backends; tests replace it.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct BackendSource {
         tandem::make_backend;
 };
 
-/// Those of `names` that run here. For each of the others a note goes into `report`: what is left out and why.
+/// The backends among `names` that can run here. A note in `report` names each of the others, with the reason.
 [[nodiscard]] std::vector<std::string> available_backends(const BackendSource& source,
                                                           const std::vector<std::string>& names, Report& report);
 

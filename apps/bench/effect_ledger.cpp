@@ -18,7 +18,7 @@ namespace {
 
 constexpr int picture_width = 480;
 
-/// The films of one ledger's first frames, compared with the whole set's as they come.
+/// Compares the film of each arm's first frame with that of the whole set, as soon as it is rendered.
 class FirstFrames {
   public:
     FirstFrames(Ledger& ledger, const Display& display, bool with_pictures)
@@ -74,7 +74,7 @@ BenchmarkRow row_of(const Ledger& ledger, const LedgerArm& arm, const RenderJob&
     return row;
 }
 
-/// Each against the row that it has a meaning against: the whole set, or for one effect alone, none.
+/// Compares each row with its baseline: the whole set, or, for one effect alone, no effects.
 void add_factors(Ledger& ledger) {
     const BenchmarkRow& whole = ledger.rows.front().row;
     const BenchmarkRow* none = &whole;

@@ -1,4 +1,4 @@
-/// The cost ledger of effects: one scene, with and without each effect that it calls for, timed and compared.
+/// The cost ledger of effects: one scene, with and without each effect that it needs, timed and compared.
 #pragma once
 
 #include <memory>
@@ -25,11 +25,11 @@ struct EffectsOptions {
     int repetitions = 7;
 };
 
-/// A way to draw the scene. The first of a plan is `whole`, what the scene calls for and no more; the second `carried`.
+/// A way to render the scene. The first of a plan is `whole`, exactly what the scene needs; the second is `carried`.
 struct LedgerArm {
     enum class Kind {
-        whole,    ///< what the scene calls for
-        carried,  ///< the same by a kernel with all effects: the picture is the same
+        whole,    ///< the effects that the scene needs
+        carried,  ///< the same, by a kernel that carries all effects: the image is the same
         without,  ///< one effect forced off
         none,     ///< all forced off
         alone,    ///< all but one forced off
@@ -41,23 +41,23 @@ struct LedgerArm {
 };
 
 struct LedgerPlan {
-    std::vector<EffectNeed> needs;  ///< what the scene calls for, and why
+    std::vector<EffectNeed> needs;  ///< the effects that the scene needs, and why
     std::vector<LedgerArm> arms;
-    std::vector<Effect> dependent;  ///< do nothing without others, as absorption without refraction: have no `alone`
+    std::vector<Effect> dependent;  ///< do nothing without others, as absorption without refraction: no `alone`
 };
 
-/// At frame 0. Leaves one out and adds one in for each effect that the scene calls for.
+/// The arms for frame 0: without, and with only, each effect that the scene needs.
 [[nodiscard]] LedgerPlan plan_ledger(const Scene& scene);
 
-/// What became of an arm.
+/// The result of an arm.
 struct LedgerRow {
     LedgerArm arm;
     BenchmarkRow
         row;  ///< figures "RMSE" and "mean FLIP" against the whole set; phase "first compile" beside the others
     std::string hash;     ///< of the film
     double rmse = 0;      ///< of linear RGB, against the film of the whole set
-    double flip = 0;      ///< mean, against the picture of the whole set
-    double compile = 0;   ///< seconds, in the frame before the rounds; 0 if the kernel was there
+    double flip = 0;      ///< mean, against the image of the whole set
+    double compile = 0;   ///< seconds, in the frame before the rounds; 0 if the kernel was cached
     std::string warning;  ///< of the backend
 };
 
@@ -71,16 +71,16 @@ struct Ledger {
     std::vector<PictureGrid> pictures;  ///< whole, without an effect, and FLIP between them; of the first backend only
 };
 
-/// A backend, and the same one told never to specialise.
+/// A backend, and another of its kind that never specialises.
 struct LedgerBackends {
     std::string name;
     std::unique_ptr<Backend> exact;
-    std::unique_ptr<Backend> unspecialised;  ///< none where that makes no difference
+    std::unique_ptr<Backend> unspecialised;  ///< null where that makes no difference
     [[nodiscard]] Backend& of(LedgerArm::Kind kind) const;
 };
 
-/// Times every arm on every backend in every tier, in rounds that go forth and back over all of them, after a frame
-/// each from which hash and differences come.
+/// Times every arm on every backend in every tier, in rounds of alternating order. Before them each arm renders one
+/// frame, for its hash and its differences.
 [[nodiscard]] std::vector<Ledger> measure_ledgers(const EffectsOptions& options, const std::string& name,
                                                   const Scene& scene, const LedgerPlan& plan,
                                                   const std::vector<LedgerBackends>& backends,

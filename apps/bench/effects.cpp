@@ -44,7 +44,7 @@ Table needs_table(const LedgerPlan& plan) {
 
 std::string signed_seconds(double seconds) { return (seconds > 0 ? "+" : "") + format_seconds(seconds); }
 
-/// `seconds` of the row against the baseline's, as two cells: the difference of the medians, and slow over fast.
+/// `seconds` of the row against the baseline's, as two cells: difference and ratio of the medians.
 std::vector<std::string> price_cells(const BenchmarkRow& slow, const BenchmarkRow& fast) {
     return {signed_seconds(median(slow.seconds) - median(fast.seconds)),
             format_ratio(ratio_of_medians(slow.seconds, fast.seconds))};
@@ -115,7 +115,7 @@ Table add_one_in(const Ledger& ledger) {
     return table;
 }
 
-/// Compares films that must be equal; each that is not becomes a sentence of the report.
+/// Compares films that must be equal; reports each one that differs.
 class BitCheck {
   public:
     explicit BitCheck(Report& report) : report_(report) {}
@@ -134,13 +134,13 @@ class BitCheck {
     bool holds_ = true;
 };
 
-/// The first of `ledgers` that promises the bits of `ledger`; may be itself.
+/// The first of `ledgers` that must have the same bits as `ledger`; may be itself.
 const Ledger& first_like(const Ledger& ledger, const std::vector<Ledger>& ledgers) {
     return *std::find_if(ledgers.begin(), ledgers.end(),
                          [&](const Ledger& one) { return one.promises_bits && one.tier == ledger.tier; });
 }
 
-/// False, with a sentence for each, if films differ that must not.
+/// False if films differ that must be equal; reports each of them.
 bool bits_hold(const std::vector<Ledger>& ledgers, Report& report) {
     BitCheck check(report);
     std::string held;

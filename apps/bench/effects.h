@@ -1,13 +1,13 @@
-/// tandem-bench effects: what each effect of a scene costs, and what it buys.
+/// tandem-bench effects: what each effect of a scene costs, and how it changes the image.
 #pragma once
 
 #include "effect_ledger.h"
 
 namespace tandem::bench {
 
-/// Leaves out and adds in each effect that the scenes call for, and times the kernel that carries all effects beside
-/// the exact one; fills `report`. False if, in strict or precise, carrying all effects changes a film, or two backends
-/// that promise bits draw an arm differently. Throws InputError without a scene.
+/// Renders the scenes without, and with only, each effect that they need, times the kernel that carries all effects
+/// beside the exact one, and fills `report`. False if, in strict or precise, carrying all effects changes a film, or
+/// two backends that promise equal bits render an arm differently. Throws InputError without a scene.
 [[nodiscard]] bool run_effects(const EffectsOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

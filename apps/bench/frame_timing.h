@@ -22,7 +22,7 @@ struct TimedFrame {
 [[nodiscard]] TimedFrame render_timed(Backend& backend, const Scene& scene, const RenderJob& job,
                                       const ForcedEffects& effects = {});
 
-/// Adds a measurement: `seconds` is what the row is about, and the phases of `timed` go beside it.
+/// Adds a measurement: `seconds` is the row's time, and the phases of `timed` go beside it.
 void record(BenchmarkRow& row, std::int32_t round, double seconds, const TimedFrame& timed);
 
 /// Samples of a whole frame.

@@ -7,9 +7,9 @@
 #include <map>
 #include <optional>
 
+#include "hard/corpus/error_bounds.h"
 #include "hard/corpus/exchange.h"
 #include "hard/corpus/hard_case.h"
-#include "hard/corpus/marks.h"
 #include "output.h"
 #include "tandem/base/error.h"
 #include "tandem/report/format_number.h"
@@ -22,34 +22,34 @@ namespace {
 using hard::HardCase;
 using hard::Score;
 
-/// Functions of the kernel side are tried on the host, whatever the backends.
+/// Kernel functions are tested on the host, whatever the backends.
 constexpr const char* host = "host";
 
-/// From a last bit to all bits: digits where they say something, else the power of ten.
+/// All digits of small numbers, else only the power of ten: the errors range from one ulp to all bits.
 std::string format_ulps(double ulps) { return ulps < 1e5 ? format_number(ulps) : fmt::format("{:.1e}", ulps); }
 
-/// A line of the table.
+/// A row of the table.
 struct Result {
     std::string id;
     std::string title;
     std::string backend;
     std::string tier;
     Score score;
-    const Mark* mark = nullptr;
+    const ErrorBound* bound = nullptr;
     double times_fastest = 0;  ///< 0 where nothing was timed
 };
 
-/// What of its mark a score misses; empty if nothing.
-std::string shortfall(const Score& score, const Mark& mark) {
+/// How a score exceeds its error bound; empty if it keeps it.
+std::string shortfall(const Score& score, const ErrorBound& bound) {
     std::vector<std::string> missed;
     const auto tried = static_cast<double>(score.tried);
     const auto share = [&](std::size_t count, double most, const char* what) {
         if (static_cast<double>(count) > most * tried) missed.push_back(fmt::format("{} {}", count, what));
     };
-    share(score.wrong, mark.wrong, "wrong");
-    share(score.leaks, mark.leaks, "leaks");
+    share(score.wrong, bound.wrong, "wrong");
+    share(score.leaks, bound.leaks, "leaks");
     share(score.nans, 0, "NaN");
-    if (!(score.worst_ulps() <= mark.ulps)) missed.push_back(fmt::format("{} ulp", format_ulps(score.worst_ulps())));
+    if (!(score.worst_ulps() <= bound.ulps)) missed.push_back(fmt::format("{} ulp", format_ulps(score.worst_ulps())));
     return fmt::format("{}", fmt::join(missed, ", "));
 }
 
@@ -71,7 +71,7 @@ Table table_of(const std::vector<Result>& results, const std::string& caption) {
                 {}};
     for (const Result& r : results) {
         const Score& s = r.score;
-        const std::string missed = r.mark == nullptr ? "" : shortfall(s, *r.mark);
+        const std::string missed = r.bound == nullptr ? "" : shortfall(s, *r.bound);
         table.rows.push_back({fmt::format("{} {}", r.id, r.title), r.backend, r.tier, fmt::format("{}", s.tried),
                               fmt::format("{}", s.unjudged), fmt::format("{}", s.wrong), fmt::format("{}", s.leaks),
                               fmt::format("{}", s.nans), fmt::format("{}", s.refused), format_ulps(s.worst_ulps()),
@@ -82,7 +82,7 @@ Table table_of(const std::vector<Result>& results, const std::string& caption) {
     return table;
 }
 
-/// One measurement for machines: the shares and the time of a line.
+/// A row of the table for JSON and CSV: the shares and the time.
 BenchmarkRow row_of(const Result& result) {
     BenchmarkRow row;
     row.label = result.id;
@@ -100,13 +100,13 @@ BenchmarkRow row_of(const Result& result) {
     return row;
 }
 
-/// The table, a sentence for each line that misses its mark, and the verdict. True if none does.
+/// Adds the table, a sentence for each row that exceeds its error bound, and the verdict. True if all are kept.
 bool report_results(const std::vector<Result>& results, const std::string& caption, Report& report) {
     report.blocks.emplace_back(table_of(results, caption));
     std::size_t missed = 0;
     for (const Result& result : results) {
         report.rows.push_back(row_of(result));
-        const std::string what = shortfall(result.score, *result.mark);
+        const std::string what = shortfall(result.score, *result.bound);
         if (what.empty()) continue;
         ++missed;
         const std::string& line =
@@ -119,7 +119,8 @@ bool report_results(const std::vector<Result>& results, const std::string& capti
         report.blocks.emplace_back(
             Callout{Callout::Kind::good, fmt::format("All {} error bounds are kept.", results.size())});
     }
-    report.properties.emplace_back("marks held", fmt::format("{} of {}", results.size() - missed, results.size()));
+    report.properties.emplace_back("error bounds kept",
+                                   fmt::format("{} of {}", results.size() - missed, results.size()));
     return missed == 0;
 }
 
@@ -157,18 +158,18 @@ class Trials {
 
     void run(const HardCase& hard_case) {
         log_progress(fmt::format("hard: {} {}", hard_case.id, hard_case.title));
-        std::vector<hard::AnsweredLot> lots;
-        if (hard_case.has_rays()) lots = hard::answered_lots(hard_case, options_.rays);
+        std::vector<hard::AnsweredBatch> batches;
+        if (hard_case.has_rays()) batches = hard::answered_batches(hard_case, options_.rays);
         for (const Tier tier : tiers_) {
-            const Mark* mark = find_mark(hard_case.id, tier);
-            if (mark == nullptr) continue;
+            const ErrorBound* bound = find_error_bound(hard_case.id, tier);
+            if (bound == nullptr) continue;
             if (hard_case.on_host()) {
-                add(hard_case, host, *mark, hard::try_functions(hard_case, tier, options_.rays));
+                add(hard_case, host, *bound, hard::try_functions(hard_case, tier, options_.rays));
                 continue;
             }
             for (const auto& [name, backend] : backends_) {
-                add(hard_case, name, *mark,
-                    hard_case.has_rays() ? try_rays(hard_case, lots, *backend, tier)
+                add(hard_case, name, *bound,
+                    hard_case.has_rays() ? try_rays(hard_case, batches, *backend, tier)
                                          : try_pictures(hard_case, subject(name, tier, *backend), options_.rays));
             }
         }
@@ -182,11 +183,11 @@ class Trials {
         std::unique_ptr<Backend> backend;
     };
 
-    /// The first time warms caches and memory; the second counts.
-    static Score try_rays(const HardCase& hard_case, const std::vector<hard::AnsweredLot>& lots, Backend& backend,
+    /// The first run warms caches and memory; the second is timed.
+    static Score try_rays(const HardCase& hard_case, const std::vector<hard::AnsweredBatch>& batches, Backend& backend,
                           Tier tier) {
-        (void)hard::try_rays(hard_case, lots, backend, tier);
-        return hard::try_rays(hard_case, lots, backend, tier);
+        (void)hard::try_rays(hard_case, batches, backend, tier);
+        return hard::try_rays(hard_case, batches, backend, tier);
     }
 
     [[nodiscard]] hard::Subject subject(const std::string& name, Tier tier, Backend& backend) const {
@@ -194,8 +195,9 @@ class Trials {
                 [&source = source_, name](const BackendOptions& o) { return source.make(name, o); }};
     }
 
-    void add(const HardCase& hard_case, const std::string& backend, const Mark& mark, Score score) {
-        results_.push_back({hard_case.id, hard_case.title, backend, to_string(mark.tier), std::move(score), &mark, 0});
+    void add(const HardCase& hard_case, const std::string& backend, const ErrorBound& bound, Score score) {
+        results_.push_back(
+            {hard_case.id, hard_case.title, backend, to_string(bound.tier), std::move(score), &bound, 0});
     }
 
     const HardOptions& options_;
@@ -221,10 +223,12 @@ bool run_check(const HardOptions& options, Report& report) {
         fmt::format("The answers in {}, checked against the error bounds of the tier strict.", options.answers);
     std::vector<Result> results;
     for (hard::CheckedCase& checked : hard::check_answers(options.answers)) {
-        const Mark* mark = find_mark(checked.id, Tier::strict);
-        if (mark == nullptr) throw InputError(fmt::format("{}: there is no case {}", options.answers, checked.id));
+        const ErrorBound* bound = find_error_bound(checked.id, Tier::strict);
+        if (bound == nullptr)
+            throw InputError(
+                fmt::format("{}: there is no case {}; export the corpus again", options.answers, checked.id));
         if (checked.missing.empty()) {
-            results.push_back({checked.id, checked.title, "answers", "strict", std::move(checked.score), mark, 0});
+            results.push_back({checked.id, checked.title, "answers", "strict", std::move(checked.score), bound, 0});
         } else {
             report.blocks.emplace_back(
                 Callout{Callout::Kind::note,
@@ -246,8 +250,7 @@ bool run_hard(const HardOptions& options, const BackendSource& source, Report& r
     const auto cases = hard::select_cases(options.cases);
     report.summary = fmt::format(
         "{} cases with up to {} rays each, checked against exact answers. docs/accuracy.md lists the error bounds of "
-        "each "
-        "tier, docs/hard-corpus.md the cases.",
+        "each tier, docs/hard-corpus.md the cases.",
         cases.size(), options.rays);
     Trials trials(options, source, report);
     for (const HardCase* hard_case : cases) trials.run(*hard_case);

@@ -19,9 +19,9 @@ struct HardOptions {
     std::string answers;             ///< score another renderer's answers, and run nothing
 };
 
-/// Runs the cases, or exports or checks; fills `report`. True if every error bound of tests/hard/corpus/marks.def was
-/// kept; answers of others are checked against those of strict. Throws EnvironmentError in a build without the corpus,
-/// which needs MPFR.
+/// Runs, exports or checks the cases, and fills `report`. True if every error bound of
+/// tests/hard/corpus/error_bounds.def was kept; other renderers' answers are checked against those of strict. Throws
+/// EnvironmentError in a build without the corpus, which needs MPFR.
 [[nodiscard]] bool run_hard(const HardOptions& options, const BackendSource& source, Report& report);
 
 }  // namespace tandem::bench

@@ -1,4 +1,4 @@
-// A build without the libraries of the corpus.
+// For a build without the libraries that the corpus needs.
 #include "hard.h"
 #include "tandem/base/error.h"
 

@@ -36,7 +36,7 @@ const std::array kinds = {
     Kind{"triangle", MeshShape{0}, true, true, one_triangle}, Kind{"quad", MeshShape{0}, true, true, one_quad},
 };
 
-/// Of any length but zero, which a rotation may have.
+/// A rotation as a quaternion of any length except zero.
 Quaternion random_turn(std::uint32_t i) {
     const Vec3d axis = uniform_in_cube(turn_stream, i, 0);
     return {axis.x, axis.y, axis.z, 1.5 + uniform_in_cube(turn_stream, i, 1).x};
@@ -44,11 +44,11 @@ Quaternion random_turn(std::uint32_t i) {
 
 Vec3d random_scale(std::uint32_t i) { return Vec3d{1, 1, 1} + uniform_in_cube(scale_stream, i, 0) * 0.5; }
 
-/// Where the scene lies and how large it and its primitives are.
+/// The place of the scene, its size and that of its primitives.
 struct Setting {
     double offset;
     double size;
-    double distance;  ///< from the centre to where rays start
+    double distance;  ///< from the centre to the origins of the rays
 };
 
 Setting setting_of(Difficulty difficulty) {

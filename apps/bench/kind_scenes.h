@@ -1,4 +1,4 @@
-/// Small scenes of one kind of primitive each, with rays that are easy for float arithmetic and rays that are not.
+/// Small scenes of one kind of primitive each, with rays that are easy or hard for float arithmetic.
 #pragma once
 
 #include <string>

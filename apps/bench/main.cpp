@@ -1,4 +1,4 @@
-// tandem-bench: what Tandem costs, and whether CPU and GPU agree. docs/reading-results.md explains every number.
+// tandem-bench measures Tandem and checks that CPU and GPU agree. docs/reading-results.md explains every number.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -130,8 +130,8 @@ CLI::App* add_paper(CLI::App& app, Everything& all) {
     add_picture_options(*command, all.texts, all.paper);
     command
         ->add_option("--slow-frames", all.paper.slow_frames,
-                     "Frames that the paper's CPU program renders without optimisation; with optimisation, on one "
-                     "thread, it renders three times as many. 0 is 3 with a GPU and 1 without")
+                     "Frames that the paper's unoptimised CPU program renders; optimised, on one thread, it renders "
+                     "three times as many. 0 means 3 with a GPU and 1 without")
         ->capture_default_str()
         ->check(CLI::Range(0, 1000));
     command->add_option("--threads", all.paper.threads, "CPU threads; 0 is one per core")
@@ -158,8 +158,8 @@ CLI::App* add_targets(CLI::App& app, Everything& all) {
 }
 
 CLI::App* add_hard(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand(
-        "hard", "Check hard cases against exact answers. Status 1 if an error bound (mark) is exceeded");
+    CLI::App* command =
+        app.add_subcommand("hard", "Check hard cases against exact answers. Status 1 if an error bound is exceeded");
     command->add_option("--cases", all.hard.cases, "Cases to run, such as A1,B*; default all")->delimiter(',');
     add_backends_option(*command, all.hard);
     command->add_option("--tiers", all.hard.tiers, "Accuracy tiers to run: fast, strict, precise; default all")

@@ -7,21 +7,21 @@
 
 namespace tandem::bench {
 
-/// "-" is standard output; empty means not wanted.
+/// "-" is standard output; empty means none.
 struct OutputOptions {
     std::string json;
     std::string csv;
     std::string html;
 };
 
-/// Writes the files that were asked for, each whole or not at all. Throws InputError if two want standard output.
-/// True if one of them took it.
+/// Writes the files that were asked for, each whole or not at all. True if one of them went to standard output. Throws
+/// InputError if two would.
 bool write_report(const Report& report, const OutputOptions& options);
 
 /// The text for a terminal, to standard output.
 void print_report(const Report& report);
 
-/// A line on standard error: what is being measured now.
+/// Prints what is being measured now, as a line on standard error.
 void log_progress(const std::string& text);
 
 }  // namespace tandem::bench

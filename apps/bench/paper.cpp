@@ -12,7 +12,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Median of a row that was measured.
+/// The median of a measured row.
 double middle(const BenchmarkRow& row) { return median(row.seconds); }
 
 /// How many times faster `fast` is, by medians over the frames that both have.
@@ -89,7 +89,7 @@ void explain_factor(const PaperMeasurements& m, Report& report) {
     }
 }
 
-/// What the paper printed, what its numbers give, what was measured.
+/// A table of what the paper prints, what follows from its numbers, and what was measured.
 Table beside_the_paper(const PaperMeasurements& m) {
     const PaperRows& rows = m.rows;
     const auto measured = [](bool there, auto text) { return there ? text() : std::string("no GPU here"); };

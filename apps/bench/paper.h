@@ -5,7 +5,7 @@
 
 namespace tandem::bench {
 
-/// Measures, fills `report`. True if Tandem's CPU and GPU rendered the same films, or only one of them ran.
+/// Measures, and fills `report`. True if Tandem's CPU and GPU rendered the same films, or if only one of them ran.
 [[nodiscard]] bool run_paper(const PaperOptions& options, const BackendSource& source, Report& report);
 
 /// The page of measurements.

@@ -10,7 +10,7 @@ inline constexpr double claimed_factor = 139;  ///< "at least 139 times"
 inline constexpr double claimed_frames_per_second = 12711;
 inline constexpr double residual_rate = 0.05;
 
-// Derived from its own numbers.
+// Derived from the paper's numbers.
 inline constexpr double factor = cpu_frame_seconds / gpu_frame_seconds;
 inline constexpr double frames_per_second = 1 / kernel_seconds;
 inline constexpr double frames_per_minute = 60 / kernel_seconds;

@@ -21,11 +21,11 @@ namespace {
 
 constexpr int pictures_on_page = 6;
 constexpr int picture_width = 500;  ///< pixels, at most
-/// Without a GPU: frames of the animation that are rendered again, with other random numbers for the residual and at
-/// full speed. Minutes of work that say little there.
+/// Without a GPU only this many frames are rendered again for the residual and for the throughput of the animation: all
+/// of them would take minutes and show little.
 constexpr int repeated_frames_without_gpu = 12;
 
-/// Something that is measured in rounds with the others.
+/// One of the programs that take turns in each round.
 struct Variant {
     std::vector<std::int32_t> frames;
     std::function<void(std::int32_t frame)> run;
@@ -161,7 +161,7 @@ class PaperRun {
         if (gpu_) variants_.push_back({all, [this](std::int32_t frame) { run_gpu(frame); }});
     }
 
-    /// What runs once before it is timed. The slow rows do without: they last long enough.
+    /// Warms up each row, except the slow ones, whose frames take long enough.
     void warm_up() {
         const std::int32_t frame = options_.frames.first;
         std::vector<float> rgb = picture_buffer();
@@ -214,7 +214,7 @@ class PaperRun {
         gpu_film_ = std::move(timed.film);
     }
 
-    /// The rows that go on from the film: one after the other, nothing at the same time.
+    /// The rows that continue from the film to a file; one after the other.
     void write_files(std::int32_t frame, const TimedFrame& timed) {
         const ImageMetadata metadata = describe_picture(job(frame), output_backend().name());
         record(result_.rows.whole, frame, timed.everything, timed);
@@ -253,8 +253,7 @@ class PaperRun {
         }
     }
 
-    /// The animation at full speed. Without a GPU a part of it, with PNG: what is asked is how well the GPU is kept
-    /// busy.
+    /// The animation at full speed, which shows how busy the GPU is. Without a GPU only a part of it, with PNG.
     void render_sequences() {
         const std::string text_folder = options_.out + "/ppm-text";
         FrameRange frames = options_.frames;
@@ -280,8 +279,8 @@ class PaperRun {
     std::unique_ptr<Backend> cpu_;
     std::unique_ptr<Backend> gpu_;
     std::vector<Variant> variants_;
-    std::vector<std::int32_t> repeated_;  ///< frames that are rendered with other random numbers too
-    Film cpu_film_, gpu_film_, naive_cpu_film_, naive_gpu_film_;  ///< of the frame of the moment
+    std::vector<std::int32_t> repeated_;  ///< frames that are also rendered with other random numbers
+    Film cpu_film_, gpu_film_, naive_cpu_film_, naive_gpu_film_;  ///< of the current frame
     PaperMeasurements result_;
 };
 

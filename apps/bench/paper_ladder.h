@@ -1,4 +1,4 @@
-/// What tandem-bench paper measures: the paper's method on the CPU and on the GPU, Tandem on both, frame by frame.
+/// The measurements of tandem-bench paper: the paper's method and Tandem, on the CPU and on the GPU, frame by frame.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@
 namespace tandem::bench {
 
 struct PaperOptions {
-    std::string out = "out/paper";  ///< folder for pictures and report
+    std::string out = "out/paper";  ///< folder for images and report
     FrameRange frames{0, 119};
     FilmSize size{1000, 900};
     int samples = 100;
     std::uint64_t seed = 0;
-    /// Frames that the program without optimisation renders; three times as many for -O3 on one thread. 0 means 3 with
-    /// a GPU and 1 without.
+    /// Frames that the unoptimised program renders; three times as many for -O3 on one thread. 0 means 3 with a GPU and
+    /// 1 without.
     int slow_frames = 0;
     int threads = 0;  ///< of the CPU; 0 means one per core
     std::vector<std::string> backends = {"cpu", "cuda"};
@@ -41,7 +41,7 @@ struct PaperRows {
     [[nodiscard]] std::vector<BenchmarkRow*> all();
 };
 
-/// Pixels that differ between two renderings, frame by frame.
+/// The pixels that differ between two renderings, frame by frame.
 struct ResidualSeries {
     std::string label;
     std::vector<std::int32_t> frames;
@@ -68,7 +68,7 @@ struct PaperMeasurements {
     std::vector<Picture> pictures;
 };
 
-/// `count` frames of `range`, evenly apart, from its first; all if there are no more.
+/// `count` evenly spaced frames of `range`, from its first; all of them if it has no more.
 [[nodiscard]] std::vector<std::int32_t> spread_frames(const FrameRange& range, int count);
 
 /// Measures; writes frames/frame-0000.png and so on into the folder. Notes on what is missing go into `report`.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double milliseconds = 1e3;
 
-/// Rows that were not measured give no line.
+/// Rows that were not measured have no line.
 void add_line(LinePlot& plot, const BenchmarkRow& row) {
     if (row.seconds.empty()) return;
     Line line{row.label, {}};

@@ -5,7 +5,7 @@
 
 namespace tandem::bench {
 
-/// Time per frame over the frames: CPU, GPU, both.
+/// Time per frame: CPU, GPU, both.
 void add_time_plots(const PaperMeasurements& measurements, Report& report);
 
 /// Samples per second of every row.

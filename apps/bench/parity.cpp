@@ -18,13 +18,13 @@ namespace tandem::bench {
 
 namespace {
 
-/// Primitive tests that brute force may take for one frame: about a minute on two cores.
+/// Limit of primitive tests per frame by brute force: about a minute on two cores.
 constexpr double most_oracle_tests = 3e8;
 
-/// Films that are kept at a time to compare with.
+/// Number of films that are kept at a time for comparison.
 constexpr double most_film_bytes = 5e8;
 
-/// What one variant did to the frames of one scene.
+/// The result of one variant for the frames of one scene.
 struct Outcome {
     ParityVariant variant;
     bool exact = true;
@@ -36,8 +36,8 @@ struct Outcome {
     std::string reason;  ///< why there is no result; empty if there is one
 };
 
-/// One scene in one tier, in all variants. Backends live one at a time: a limit on threads is a limit on the whole
-/// process.
+/// One scene in one tier, in all variants. Only one backend exists at a time, because a limit on threads applies to the
+/// whole process.
 class SceneParity {
   public:
     SceneParity(std::string name, Tier tier, const std::vector<ParityVariant>& variants, const ParityOptions& options,
@@ -75,7 +75,7 @@ class SceneParity {
 
     [[nodiscard]] std::string label() const { return fmt::format("{}, {}", name_, to_string(tier_)); }
     [[nodiscard]] std::vector<Outcome>& outcomes() { return outcomes_; }
-    /// By frame, of the first variant that ran.
+    /// The hashes by frame, of the first variant that ran.
     [[nodiscard]] const std::vector<std::string>& hashes() const { return hashes_; }
 
   private:
@@ -202,7 +202,7 @@ bool report_parity(SceneParity& parity, const ParityOptions& options, Report& re
     return true;
 }
 
-/// Throws InputError for those that have no bits to compare.
+/// Throws InputError for a tier that does not guarantee equal bits.
 std::vector<Tier> exact_tiers(const std::vector<std::string>& names) {
     std::vector<Tier> tiers = parse_tiers(names);
     if (std::find(tiers.begin(), tiers.end(), Tier::fast) != tiers.end()) {
@@ -235,7 +235,8 @@ std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backe
 bool run_parity(const ParityOptions& options, const BackendSource& source, Report& report) {
     report.title = "Parity";
     report.summary = fmt::format(
-        "Frames {} to {} at {} x {} with {} samples per pixel, rendered in every way that must not change the image.",
+        "Frames {} to {} at {} x {} with {} samples per pixel, rendered by every variant that must not change the "
+        "image.",
         options.frames.first, options.frames.last, options.size.width, options.size.height, options.samples);
     const std::vector<Tier> tiers = exact_tiers(options.tiers);
     const std::vector<std::string> backends = available_backends(source, options.backends, report);

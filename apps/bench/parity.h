@@ -1,4 +1,4 @@
-/// tandem-bench parity: compares the films of everything that can render a scene.
+/// tandem-bench parity: compares the films of all backends and variants.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace tandem::bench {
 struct ParityOptions {
     std::vector<std::string> scenes = {"named:paper", "named:mixed/10000", "named:spheres/1000000"};
     std::vector<std::string> backends = {"cpu", "cuda", "oracle"};
-    std::vector<std::string> tiers = {"strict", "precise"};  ///< only those that promise equal bits
+    std::vector<std::string> tiers = {"strict", "precise"};  ///< only tiers that guarantee equal bits
     FrameRange frames{0, 0};
     FilmSize size{1000, 900};
     int samples = 4;
@@ -29,8 +29,8 @@ struct ParityVariant {
     BackendOptions options;
 };
 
-/// Of the CPU: 1, 2 and 7 threads, tiles of 8, 16 and 13 pixels, every instruction set of this machine; of the others
-/// one each.
+/// For the CPU: 1, 2 and 7 threads, tiles of 8, 16 and 13 pixels, and every instruction set of this machine; one
+/// variant each for the other backends.
 [[nodiscard]] std::vector<ParityVariant> parity_variants(const std::vector<std::string>& backends,
                                                          const std::vector<std::string>& instruction_sets);
 

@@ -9,7 +9,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Each pixel the mean of step * step; what is left over at the right and below is cut off.
+/// Each pixel becomes the mean of step * step pixels; incomplete blocks at the right and the bottom are cut off.
 FloatImage shrunk(const FloatImage& image, int step) {
     FloatImage small{image.width / step, image.height / step, {}};
     small.pixels.reserve(pixel_count(small));

@@ -14,7 +14,7 @@ Ray<float> coherent_ray(int x, int y, int edge) {
 }
 
 Ray<float> random_ray(std::uint32_t index) {
-    // The first point of the cube that lies in the ball has a uniform direction. No libm: the same bits everywhere.
+    // Rejection sampling of the unit ball. No libm, so the bits are equal everywhere.
     std::uint32_t draw = 1;
     Vec3d direction = uniform_in_cube(20, index, draw);
     while (dot(direction, direction) > 1 || dot(direction, direction) < 1e-6)

@@ -22,7 +22,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Threads that work off a queue of bounded length. The first exception of a task is thrown by finish().
+/// Threads that process a queue of bounded length. finish() rethrows the first exception of a task.
 class Workers {
   public:
     explicit Workers(int count) : capacity_(static_cast<std::size_t>(count) + 2) {
@@ -32,7 +32,7 @@ class Workers {
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    /// Waits while the queue is full; returns the seconds that it waited.
+    /// Waits while the queue is full; returns the seconds spent waiting.
     double add(std::function<void()> task) {
         const Stopwatch watch;
         std::unique_lock lock(mutex_);
@@ -43,7 +43,7 @@ class Workers {
         return waited;
     }
 
-    /// Waits for all tasks; seconds that the threads worked.
+    /// Waits for all tasks; returns the seconds that the threads worked.
     double finish() {
         stop();
         if (error_) std::rethrow_exception(error_);

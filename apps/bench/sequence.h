@@ -23,7 +23,7 @@ struct SequenceOptions {
     SequenceOutput output = SequenceOutput::none;
     std::string folder;  ///< for the files, which must exist; frame-0007.png
     int encoders = 0;    ///< encoding threads; 0 means one less than the cores, at least one
-    int in_flight = 3;   ///< frames submitted and not yet taken
+    int in_flight = 3;   ///< frames submitted but not yet fetched
 };
 
 /// Seconds. Sums over frames, except for `wall`.
@@ -35,15 +35,15 @@ struct SequenceTimes {
     double download = 0;
     double host = 0;     ///< prepare and load, on the thread that drives the backend
     double encode = 0;   ///< over all encoding threads
-    double blocked = 0;  ///< the driving thread waited for an encoder
+    double blocked = 0;  ///< time in which the driving thread waited for an encoder
     RenderCounters counters;
 
     /// Share of the wall-clock time in which the backend rendered.
     [[nodiscard]] double render_share() const { return wall > 0 ? render / wall : 0; }
 };
 
-/// `job.frame` is set from the options. Each frame is one instant, without motion blur. Errors of the encoding threads
-/// are thrown here.
+/// `job.frame` is set from the options. Each frame is one instant, without motion blur. Rethrows errors of the encoding
+/// threads.
 [[nodiscard]] SequenceTimes render_sequence(Backend& backend, const Scene& scene, const RenderJob& job,
                                             const SequenceOptions& options);
 

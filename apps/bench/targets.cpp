@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* million_spheres = "named:spheres/1000000";
 
-/// What a target needs and how it is measured.
+/// A target: what it needs and how it is measured.
 struct Target {
     TargetResult description;
     bool needs_gpu = false;
@@ -36,7 +36,7 @@ class TargetRun {
     TargetRun(const TargetOptions& options, const BackendSource& source, Report& report)
         : options_(options), source_(source), report_(report), paper_(load_scene("named:paper")) {}
 
-    /// Sample rate of the kernel over that of the naive kernel.
+    /// Sample rate of the kernel divided by that of the naive kernel.
     void gpu_kernel(TargetResult& result) {
         const std::unique_ptr<Backend> gpu = make("cuda", 0);
         const RenderJob job = paper_job();
@@ -45,7 +45,7 @@ class TargetRun {
             "Tandem GPU, kernel", [&] { return render_seconds(*gpu, job); });
     }
 
-    /// Sample rate of our CPU renderer over that of a build of the naive one, on the same number of threads.
+    /// Sample rate of our CPU renderer divided by that of a build of the naive one, on the same number of threads.
     void cpu_against(TargetResult& result, const NaiveBuild& build, int threads) {
         const std::unique_ptr<Backend> cpu = make("cpu", threads);
         const RenderJob job = paper_job();
@@ -59,7 +59,7 @@ class TargetRun {
             fmt::format("Tandem CPU, {} threads", threads), [&] { return render_seconds(*cpu, job); });
     }
 
-    /// Our rays per second over raw Embree's.
+    /// Our rays per second divided by raw Embree's.
     void cpu_rays(TargetResult& result, RaySet set) {
         const RayTiming timing = time_rays(ray_options(set), {"cpu"}, source_, report_);
         add_rows(timing.rows);
@@ -128,7 +128,7 @@ class TargetRun {
         return versus;
     }
 
-    /// Times both in turns, after one round that does not count; the target is theirs over ours.
+    /// Times both in turns, after one round of warm-up; the measured value is the baseline's time over ours.
     void compare(TargetResult& result, const std::string& their_name, const std::function<double()>& theirs,
                  const std::string& our_name, const std::function<double()>& ours) {
         BenchmarkRow rows[2];
@@ -182,7 +182,7 @@ Target target(const std::string& id, const std::string& statement, double requir
     return made;
 }
 
-/// Thread counts to ask about on a machine of `cores`: 1, 2, 16, as far as it has them.
+/// The thread counts to measure on a machine with `cores` cores: 1, 2 and 16, as far as it has them.
 std::vector<int> thread_counts(int cores) {
     std::vector<int> counts;
     for (const int count : {1, 2, 16}) {
@@ -269,8 +269,8 @@ void report_results(const std::vector<TargetResult>& results, Report& report) {
     }
     report.blocks.emplace_back(std::move(table));
     report.blocks.emplace_back(Callout{missed == 0 ? Callout::Kind::good : Callout::Kind::bad,
-                                       fmt::format("{} targets met, {} missed, {} cannot be measured on this machine.",
-                                                   met, missed, results.size() - met - missed)});
+                                       fmt::format("{} targets met, {} missed, {} not measurable on this machine.", met,
+                                                   missed, results.size() - met - missed)});
 }
 
 }  // namespace

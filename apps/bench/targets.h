@@ -17,7 +17,7 @@ struct TargetOptions {
     FrameRange frames{0, 119};  ///< of the animation whose wall-clock time is measured
     int ray_edge = 2048;
     int repetitions = 7;
-    std::string folder = "out/targets";  ///< for the pictures of the animation
+    std::string folder = "out/targets";  ///< for the images of the animation
 };
 
 enum class Verdict { met, missed, not_measured };
@@ -27,10 +27,10 @@ struct TargetResult {
     std::string statement;
     double required = 0;
     double measured = 0;
-    std::string shown;  ///< the measured value with its interval, in words
+    std::string shown;  ///< the measured value with its interval, as text
     Verdict verdict = Verdict::not_measured;
-    std::string why_not;  ///< for what is not measured
-    std::string command;  ///< that measures it alone
+    std::string why_not;  ///< why it was not measured, if it was not
+    std::string command;  ///< the command that measures only this target
 };
 
 /// Ids and statements of all targets, for usage texts; with the thread counts of a machine of `cores` cores.

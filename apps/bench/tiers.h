@@ -1,4 +1,4 @@
-/// The tiers that a command runs.
+/// The tiers that a command runs in.
 #pragma once
 
 #include <string>

@@ -65,7 +65,7 @@ BarPlot rate_plot_of(const std::string& title, const std::string& unit, const st
     return rate_plot(title, unit, pointers, rate);
 }
 
-/// The tier fast promises no equal bits.
+/// Whether equal bits are required: the tier fast does not guarantee them.
 Callout::Kind kind_of(std::size_t differences, Tier tier) {
     if (differences == 0) return Callout::Kind::good;
     return tier == Tier::fast ? Callout::Kind::note : Callout::Kind::bad;

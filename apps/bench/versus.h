@@ -32,7 +32,7 @@ struct VersusOptions {
 /// the films (hits) of all backends are equal, or need not be since the tier is fast.
 [[nodiscard]] bool run_versus(const VersusOptions& options, const BackendSource& source, Report& report);
 
-/// Rays per second of backends, and of raw Embree for a scene of spheres. `rows` come in that order.
+/// Rays per second of the backends, and of raw Embree for a scene of spheres; `rows` are in that order.
 struct RayTiming {
     std::vector<BenchmarkRow> rows;
     std::size_t hits = 0;            ///< of the first backend

@@ -1,4 +1,4 @@
-// The part of versus that traces rays.
+// The part of `versus` that traces rays.
 #include <fmt/format.h>
 
 #include <bit>
@@ -20,7 +20,7 @@ namespace {
 struct RayContender {
     BenchmarkRow row;
     std::function<double(std::span<const Ray<float>>, std::span<Hit>, RenderCounters&)> trace;
-    bool is_compared = false;  ///< by the bits of its hits, with the first contender
+    bool is_compared = false;  ///< the bits of its hits are compared with those of the first contender
     std::vector<Hit> hits;
 };
 
@@ -28,7 +28,7 @@ bool same(const Hit& a, const Hit& b) {
     return a.primitive == b.primitive && std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t);
 }
 
-/// Null for scenes that Embree's own spheres or triangles cannot hold.
+/// Null for scenes that Embree's own spheres or triangles cannot represent.
 std::unique_ptr<EmbreeNative> make_native(const PreparedScene& scene, int threads) {
     const std::size_t count = primitive_count(scene);
     if (scene.spheres.size() == count) return std::make_unique<EmbreeNative>(scene.spheres, threads);
@@ -57,8 +57,7 @@ RayContender make_contender(Backend& backend, const PreparedScene& scene, Tier t
     return {std::move(row), trace, true, {}};
 }
 
-/// The measurements of all contenders in rounds that go forth and back; one round before them warms up and gives the
-/// hits.
+/// Measures all contenders in rounds of alternating order. One round before them warms up and gives the hits.
 void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>>& rays, int repetitions) {
     for (RayContender& contender : contenders) {
         contender.hits.resize(rays.size());
@@ -83,7 +82,7 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
     const PreparedScene scene = prepare(load_scene(options.scene), {options.frame, {}, Vec3d{0, 0, 0}});
     const std::vector<Ray<float>> rays = make_rays(*options.rays, options.ray_edge);
 
-    // Owners before what traces with them.
+    // Declared before the contenders that use them.
     std::vector<std::unique_ptr<Backend>> owners;
     std::vector<RayContender> contenders;
     RayTiming timing;

@@ -1,4 +1,4 @@
-/// What users write on the command line, as values.
+/// Arguments of the command line, parsed.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct FilmSize {
 /// Width over height.
 [[nodiscard]] inline double aspect_of(const FilmSize& size) { return static_cast<double>(size.width) / size.height; }
 
-/// "1000x900". Throws InputError that shows the form.
+/// Parses "1000x900". Throws InputError that shows the format.
 [[nodiscard]] FilmSize parse_size(const std::string& text);
 
 /// First and last frame, both included.
@@ -25,18 +25,18 @@ struct FrameRange {
     [[nodiscard]] std::int32_t count() const { return last - first + 1; }
 };
 
-/// "0-119" or "7". Throws InputError that shows the form.
+/// Parses "0-119" or "7". Throws InputError that shows the format.
 [[nodiscard]] FrameRange parse_frames(const std::string& text);
 
-/// How 8-bit pictures are exposed.
+/// The exposure of 8-bit images.
 struct ExposureChoice {
-    bool automatic = false;  ///< as the first frame calls for
-    double stops = 0;        ///< if not
+    bool automatic = false;  ///< derived from the first frame
+    double stops = 0;        ///< if not automatic
 
     bool operator==(const ExposureChoice&) const = default;
 };
 
-/// "-2.5" or "auto". Throws InputError that shows the form.
+/// Parses "-2.5" or "auto". Throws InputError that shows the format.
 [[nodiscard]] ExposureChoice parse_exposure(const std::string& text);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// The exit statuses of every program of ours.
+/// The exit statuses of Tandem's programs.
 #pragma once
 
 #include <cstdio>
@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// 0 done; the others as the programs' usage says.
+/// Described by --help.
 enum ExitStatus : int { exit_done = 0, exit_short_of_target = 1, exit_bad_input = 2, exit_environment = 3 };
 
 /// Runs `body`, which returns an exit status, and turns its exceptions into one line on standard error,

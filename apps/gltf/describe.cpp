@@ -19,10 +19,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t most_prepared_frames = 240;
-/// The text lists this many nodes, materials and problems, and counts the others.
+/// The text lists at most this many nodes, materials and problems, and counts the others.
 constexpr std::size_t most_lines = 24;
 
-/// By index of the alternative in Shape.
+/// Indexed by the alternative in Shape.
 constexpr const char* shape_names[] = {"spheres", "boxes", "meshes"};
 static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
 
@@ -121,8 +121,8 @@ Json describe_animation(const Scene& scene) {
             {"frames_per_second", scene.frames_per_second}};
 }
 
-/// Adds how many primitives of each kind the renderer gets at frame 0, and how many it drops; null if the scene cannot
-/// be prepared.
+/// Adds the number of primitives of each kind at frame 0, and how many are dropped; null if the scene cannot be
+/// prepared.
 void describe_primitives(const Scene& scene, Json& description) {
     description["primitives"] = nullptr;
     description["dropped_primitives"] = nullptr;
@@ -143,7 +143,7 @@ void describe_primitives(const Scene& scene, Json& description) {
         }
         description["effects"] = std::move(effects);
     } catch (const InputError&) {
-        // problems_of() says why
+        // problems_of() reports it
     }
 }
 

@@ -1,4 +1,4 @@
-/// The contents of a scene, for people and for programs.
+/// Describes the contents of a scene, as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,8 +17,8 @@ namespace tandem {
 /// The same as text.
 [[nodiscard]] std::string to_text(const nlohmann::ordered_json& description);
 
-/// Sentences that say why a scene cannot be rendered at some of its frames; at most 240 of them, spread evenly over
-/// the animation and with its first and last, are prepared.
+/// Why a scene cannot be rendered at some of its frames, one sentence each. At most 240 frames are tried, spread evenly
+/// over the animation and including its first and last.
 [[nodiscard]] std::vector<std::string> problems_of(const Scene& scene);
 
 }  // namespace tandem

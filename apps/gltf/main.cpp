@@ -1,4 +1,4 @@
-/// tandem-gltf: what a glTF file holds, and what is wrong with it.
+/// tandem-gltf prints what a glTF file contains and what is wrong with it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -67,7 +67,7 @@ int run(int argc, char** argv) {
     const auto add = [&](const char* name, const char* what) {
         CLI::App* command = app.add_subcommand(name, what);
         command->add_option("SCENE", scene, ".gltf or .glb file, or named:NAME")->required();
-        command->add_option("--json", json_target, "write the result to a JSON file; - is standard output");
+        command->add_option("--json", json_target, "Write the result to a JSON file; - is standard output");
         return command;
     };
     const CLI::App* info = add("info", "Print what the scene contains and how Tandem renders it");

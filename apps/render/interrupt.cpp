@@ -11,14 +11,14 @@ namespace tandem {
 namespace {
 
 std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take locks");
 
 void on_signal(int) {
     constexpr std::string_view message = "\nfinishing the frames in progress; press again to stop at once\n";
     const int error = errno;
     interrupted = true;
     if (::write(STDERR_FILENO, message.data(), message.size()) < 0) {
-        // nobody is there to be told
+        // there is no way to report it
     }
     errno = error;
 }

@@ -5,9 +5,9 @@
 
 namespace tandem {
 
-/// From now on the first SIGINT or SIGTERM sets the flag that is returned, and says on standard error that frames in
-/// flight are being finished; a second one of the same kind ends the program by default. A signal that the program was
-/// started with as ignored (nohup) stays ignored.
+/// From now on the first SIGINT or SIGTERM sets the returned flag and prints a message: frames in flight are finished.
+/// A second one of the same kind ends the program. A signal that was ignored when the program started (nohup) stays
+/// ignored.
 [[nodiscard]] const std::atomic<bool>& watch_interrupts();
 
 }  // namespace tandem

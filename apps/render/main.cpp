@@ -1,4 +1,4 @@
-/// tandem-render: frames of a scene as image files. docs/images.md has the formats, names and resumption.
+/// tandem-render renders frames of a scene to image files. docs/images.md describes formats, names and resuming.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
@@ -24,7 +24,7 @@ namespace {
 
 using namespace tandem;
 
-/// What is typed and needs more than a conversion.
+/// Arguments that need more than a conversion.
 struct Words {
     std::string size = "1000x900";
     int frame = 0;
@@ -45,6 +45,7 @@ struct Words {
 };
 
 void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
+    // Input, output and frames
     SequenceOptions& sequence = command.sequence;
     std::string scenes;
     for (const std::string& name : scene_names()) scenes += " named:" + name;
@@ -68,19 +69,21 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_option("--frames", words.frames, "frames A to B, both included, or the whole animation")
         ->type_name("A-B|all")
         ->excludes(frame);
+    // Camera and lights
     app.add_option("--camera", sequence.camera,
-                   "name of the camera's node, or a view of the whole scene if no camera has that name: " +
+                   "name of a camera's node or, if no camera has that name, a view of the whole scene: " +
                        view_names() + ". Default: the scene's first camera, or auto if there is none")
         ->type_name("NAME");
     app.add_option("--light", words.light,
-                   "lights for a file that has none: default adds a background and lights from the upper left of the "
-                   "camera and from the camera; none adds nothing")
+                   "lights for a file without any: default adds a background, a light from the upper left of the "
+                   "camera and one from the camera; none adds nothing")
         ->check(CLI::IsMember({"default", "none"}))
         ->capture_default_str();
     auto* const picture =
-        app.add_option("--env", words.environment,
-                       "light the scene by a picture of its environment, equirectangular: .hdr, .exr or .pfm. It takes "
-                       "the place of the background and of default lights")
+        app.add_option(
+               "--env", words.environment,
+               "light the scene by an equirectangular picture of its environment: .hdr, .exr or .pfm. It replaces "
+               "the background and the default lights")
             ->type_name("FILE");
     app.add_option("--env-rotation", words.rotation,
                    "rotation of that picture about the vertical axis, counter-clockwise as seen from above, in degrees")
@@ -93,20 +96,21 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->needs(picture)
         ->check(CLI::Range(0.0F, most_environment_intensity))
         ->capture_default_str();
+    // What to simulate
     app.add_option(
         "--effects", words.effects,
         "force effects on or off, as in -shadows,+refraction; or all, or none. Default: the effects that the "
         "scene needs");
     app.add_option("--shutter-instants", words.instants,
-                   "instants of an open shutter at which a frame is rendered, at most as many as samples. Default: the "
-                   "camera's own number")
+                   "number of instants at which a frame with an open shutter is rendered, at most one per sample. "
+                   "Default: that of the camera")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
     auto* const limits =
         app.add_option(
                "--limits", words.limits,
-               "most reflections, refractions and diffuse bounces of a path; if not given, fewer where very many "
-               "large primitives overlap (docs/images.md)")
+               "limits of the reflections, refractions and diffuse bounces of a path; if not given, lower where "
+               "very many large primitives overlap (docs/images.md)")
             ->type_name("R,T,D")
             ->capture_default_str();
     app.callback([&sequence, samples, limits] {
@@ -116,12 +120,13 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     std::string planes;
     for (const PlaneInfo& info : plane_infos()) planes += std::string("; ") + info.name + ": " + info.help;
     app.add_option("--aov", words.planes,
-                   "planes to write beside the colour, with commas between, or all: layers of a .exr, or a file each "
-                   "beside a .pfm" +
+                   "planes to write beside the colour, separated by commas, or all: layers of a .exr file, or files "
+                   "beside a .pfm file" +
                        planes)
         ->type_name("LIST");
     app.add_flag("--indirect", words.indirect,
-                 "let surfaces light each other, also where the file does not ask for it; in place of ambient light");
+                 "simulate indirect light instead of ambient light, even if the file does not ask for it");
+    // How to render
     app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
     app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
@@ -129,13 +134,14 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
         ->capture_default_str();
+    // Files and messages
     app.add_option(
            "--exposure", words.exposure,
-           "exposure of .png and .ppm in stops, each of which doubles the brightness; auto takes it from the first "
-           "frame. Default: the scene's own")
+           "exposure of .png and .ppm in stops, each of which doubles the brightness; auto derives it from the first "
+           "frame. Default: that of the scene")
         ->type_name("STOPS|auto");
     app.add_option("--transfer", words.transfer,
-                   "transfer function of .png and .ppm: srgb or linear. Default: the scene's own")
+                   "transfer function of .png and .ppm: srgb or linear. Default: that of the scene")
         ->type_name("srgb|linear");
     app.add_option("--json", command.json, "write times, hashes and counts to a JSON file; - is standard output");
     app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as text (P3) instead of binary (P6)");
@@ -151,7 +157,7 @@ std::optional<EnvironmentImage> environment_of(const Words& words, bool quiet) {
     if (words.environment.empty()) return std::nullopt;
     EnvironmentFile file = read_environment(words.environment);
     if (file.negative_texels > 0 && !quiet) {
-        std::fprintf(stderr, "tandem-render: '%s' has %zu texels with negative values, which are taken for 0\n",
+        std::fprintf(stderr, "tandem-render: '%s' has %zu texels with negative values, which become 0\n",
                      words.environment.c_str(), file.negative_texels);
     }
     return EnvironmentImage{std::move(file.picture), words.rotation * (pi / 180), words.intensity};
@@ -167,15 +173,15 @@ FrameRange frames_of(const Words& words, const Scene& scene) {
     return {0, count - 1};
 }
 
-/// Nothing that a file asks for is left out in silence; tandem-gltf info has the whole report.
-void say_what_is_not_rendered(const ImportReport& report) {
+/// Prints everything in the file that is not rendered as specified; tandem-gltf info prints the whole report.
+void print_import_notes(const ImportReport& report) {
     for (const ImportNote& note : report.notes()) {
         if (note.treatment == Treatment::rendered) continue;
         std::fprintf(stderr, "tandem-render: %s\n", to_string(note).c_str());
     }
 }
 
-void say_what_the_format_leaves_out(const SequenceOptions& options) {
+void print_ignored_display_options(const SequenceOptions& options) {
     if (!holds_floats(format_of(options.output, options.write)) || (!options.exposure && !options.transfer)) return;
     std::fprintf(stderr,
                  "tandem-render: --exposure and --transfer do not change '%s': .pfm and .exr hold the linear film\n",
@@ -218,10 +224,10 @@ int render(int argc, char** argv) {
         scene.environment.ambient = {0, 0, 0};
     }
     if (words.instants > 0) set_shutter_instants(scene, words.instants);
-    if (!command.quiet) say_what_is_not_rendered(import);
+    if (!command.quiet) print_import_notes(import);
     sequence.frames = frames_of(words, scene);
     check_output(sequence);
-    if (!command.quiet) say_what_the_format_leaves_out(sequence);
+    if (!command.quiet) print_ignored_display_options(sequence);
     backend_options.specialise = parse_specialise(words.specialise);
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     return run_render(command, scene, *backend, interrupted);

@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-/// "[=====>    ] 12/120, 1:05 left". `rendered` of the `done` frames took the `seconds`; the others were there before.
-/// Without a rendered frame nothing is known about the time left.
+/// "[=====>    ] 12/120, 1:05 left". Of the `done` frames, `rendered` took `seconds`; the others were kept. Without a
+/// rendered frame the time left is unknown.
 [[nodiscard]] std::string progress_line(std::size_t done, std::size_t rendered, std::size_t total, double seconds);
 
 class ProgressBar {
@@ -18,7 +18,7 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// Clears the bar from the terminal, so that something else can be printed.
+    /// Clears the bar from the terminal, so that other lines can be printed.
     void clear() const;
     void draw() const;
     /// Counts a finished frame. Does not draw.

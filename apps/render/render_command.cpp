@@ -15,8 +15,8 @@ namespace tandem {
 
 namespace {
 
-void put_json(const std::string& target, const nlohmann::ordered_json& json) {
-    // a file name need not be UTF-8
+void write_json(const std::string& target, const nlohmann::ordered_json& json) {
+    // File names need not be UTF-8.
     const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
     if (target != "-") {
         write_file(target, text);
@@ -26,15 +26,15 @@ void put_json(const std::string& target, const nlohmann::ordered_json& json) {
     std::fflush(stdout);
 }
 
-void say_how_to_go_on(const RenderCommand& command, std::size_t done, std::size_t total) {
+void print_how_to_resume(const RenderCommand& command, std::size_t done, std::size_t total) {
     const char* advice = command.sequence.force ? " without --force" : "";
     std::fprintf(stderr, "tandem-render: interrupted; %zu of %zu frames are done. ", done, total);
     if (done < total) std::fprintf(stderr, "Run the same command again%s to render the rest.", advice);
     std::fputc('\n', stderr);
 }
 
-/// What the first frame decided; nothing for files of floats.
-void say_exposure(const FrameRecord& first) {
+/// Prints the exposure that the first frame decided; nothing for float formats.
+void print_exposure(const FrameRecord& first) {
     const ImageMetadata& metadata = first.metadata;
     if (metadata.exposure_rule.empty()) return;
     const std::string source = first.skipped ? fmt::format("taken from '{}'", first.file)
@@ -44,14 +44,14 @@ void say_exposure(const FrameRecord& first) {
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 
-/// Why the frames have fewer samples than usual, or shorter paths, if they do.
-void say_work(const FrameRecord& first) {
+/// Prints why the frames have fewer samples than usual, or shorter paths, if they do.
+void print_reduced_quality(const FrameRecord& first) {
     if (first.bounds_per_ray == 0) return;
-    const std::string paths = fmt::format(", and --limits longer paths than {}", first.metadata.limits);
+    const std::string paths = fmt::format(", and --limits sets longer paths than {}", first.metadata.limits);
     const std::string sentence =
         fmt::format(
             "samples per pixel: {}, because large primitives overlap and a ray crosses the bounds of {:.0f} of "
-            "them; --spp takes another number{}",
+            "them; --spp sets another number{}",
             first.metadata.samples, first.bounds_per_ray, first.has_short_paths ? paths : "") +
         (first.has_opaque_masks ? ". Masked surfaces are opaque" : "");
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
@@ -70,13 +70,13 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     const auto& exposure = command.sequence.exposure;
     const bool finds_exposure = exposure && exposure->automatic && !command.quiet;
-    bool exposure_is_said = false, work_is_said = command.quiet;
+    bool exposure_is_printed = false, reduction_is_printed = command.quiet;
     ProgressBar progress(total, !command.quiet && stderr_is_terminal());
     const auto on_frame = [&](const FrameRecord& record) {
         progress.advance(!record.skipped);
         progress.clear();
-        if (finds_exposure && !std::exchange(exposure_is_said, true)) say_exposure(record);
-        if (!std::exchange(work_is_said, true)) say_work(record);
+        if (finds_exposure && !std::exchange(exposure_is_printed, true)) print_exposure(record);
+        if (!std::exchange(reduction_is_printed, true)) print_reduced_quality(record);
         if (prints_lines) {
             std::puts(frame_line(record).c_str());
             std::fflush(stdout);
@@ -92,18 +92,18 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     if (keeps_records) {
         const Capabilities capabilities = backend.capabilities();
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        put_json(command.json, {{"program", "tandem-render"},
-                                {"version", version()},
-                                {"scene", command.scene},
-                                {"backend", backend.name()},
-                                {"device", capabilities.device},
-                                {"description", capabilities.description},
-                                {"wall_seconds", wall.count()},
-                                {"interrupted", stopped},
-                                {"frames", std::move(frames)}});
+        write_json(command.json, {{"program", "tandem-render"},
+                                  {"version", version()},
+                                  {"scene", command.scene},
+                                  {"backend", backend.name()},
+                                  {"device", capabilities.device},
+                                  {"description", capabilities.description},
+                                  {"wall_seconds", wall.count()},
+                                  {"interrupted", stopped},
+                                  {"frames", std::move(frames)}});
     }
     if (!stopped) return 0;
-    say_how_to_go_on(command, done, total);
+    print_how_to_resume(command, done, total);
     return exit_interrupted;
 }
 

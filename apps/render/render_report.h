@@ -1,4 +1,4 @@
-/// The output of tandem-render about frames: lines for people, JSON for programs.
+/// The output of tandem-render for each frame: a line of text, or JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// "frame 12  SHA-256  FILE", with "  kept" where the file was there before, and counts of what went wrong.
+/// "frame 12  SHA-256  FILE", with "  kept" if the file was there before, and the counters that are not zero.
 [[nodiscard]] std::string frame_line(const FrameRecord& record);
 
 /// The fields of the metadata, then file, skipped, variant, effects, seconds by phase, and counters.

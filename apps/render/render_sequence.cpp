@@ -44,7 +44,7 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Films wait for their writers in memory: at most 4 GiB of them, but one at least.
+/// Films wait in memory for their writers: at most 4 GiB of them, but at least one.
 std::size_t writer_count(const SequenceOptions& options) {
     const std::size_t wanted = options.writers > 0 ? static_cast<std::size_t>(options.writers)
                                                    : std::max<std::size_t>(2, std::thread::hardware_concurrency());
@@ -53,8 +53,8 @@ std::size_t writer_count(const SequenceOptions& options) {
     return std::clamp<std::size_t>((std::size_t{1} << 32) / film_bytes(pixels, options.job.planes), 1, wanted);
 }
 
-/// What the file at `path` says about itself, if it is what rendering `wanted` would give. `any_exposure`: with
-/// whatever exposure, as long as it was found automatically.
+/// The metadata of the file at `path`, if rendering `wanted` would give the same file. `any_exposure`: accept every
+/// exposure that was found automatically.
 std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat format, ImageMetadata wanted,
                                             PlaneMask planes, bool any_exposure) {
     std::error_code ignored;
@@ -77,11 +77,11 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
         }
         return file.metadata;
     } catch (const InputError&) {
-        return std::nullopt;  // damaged, or of another program
+        return std::nullopt;  // damaged, or written by another program
     }
 }
 
-/// The last part of a frame's way, in a thread of its own.
+/// Hashes, encodes and writes a film in a thread of its own.
 FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const WriteOptions& options) {
     Stopwatch watch;
     record.metadata.film_sha256 = film_hash(film);
@@ -118,7 +118,7 @@ class Sequence {
     }
 
     ~Sequence() {
-        // only after an exception: a backend is not left with frames that nobody waits for
+        // Only after an exception: waits for the frames that the backend still renders.
         for (const Started& frame : started_) {
             try {
                 if (frame.pending) (void)frame.pending->get();
@@ -141,16 +141,16 @@ class Sequence {
     }
 
   private:
-    /// A frame that is with the backend, or one without `pending` that needs no rendering.
+    /// A frame that the backend renders, or one without `pending` that needs no rendering.
     struct Started {
         FrameRecord record;
         std::unique_ptr<PendingFrame> pending;
         EffectMask on_host;                  ///< FramePlan::effects
-        std::optional<Backdrop> backdrop{};  ///< if the film is to decide about the exposure
+        std::optional<Backdrop> backdrop{};  ///< if the film decides the exposure
     };
 
     void start(std::int32_t frame) {
-        while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame has to decide
+        while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame decides
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
         PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = effects_};
@@ -177,14 +177,14 @@ class Sequence {
         }
     }
 
-    /// By the first frame, which comes back prepared.
+    /// Sets samples and limits from the first frame, which it returns prepared.
     PreparedScene choose_work(const PrepareOptions& options) {
         PreparedScene prepared = prepare(scene_, options);
         const RenderJob& job = options_.job;
         const double bounds = bounds_per_ray(prepared, job.width, job.height);
         double work = bounds;
         if (kinds_cut_out_by_alpha(view(prepared)) != 0) {
-            work *= 1 + std::min(bounds, double{max_masked_hits});  // a masked hit is passed by a search of its own
+            work *= 1 + std::min(bounds, double{max_masked_hits});  // each masked hit costs a search of its own
             if (options_.shorter_paths && affordable_limits(job.limits, job.samples, work) != job.limits) {
                 effects_.off = effects_.off | Effect::cutouts;
                 work = bounds;
@@ -208,7 +208,7 @@ class Sequence {
         started_.push_back({std::move(record), std::move(pending), plan.effects, backdrop(prepared, job)});
     }
 
-    /// At once: two instants are with the backend at a time, and no other frame.
+    /// Renders a frame with motion blur at once: two instants at a time, and no other frame.
     void start_blurred(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
         std::error_code ignored;
         if (!options_.force && std::filesystem::exists(record.file, ignored)) {
@@ -228,7 +228,7 @@ class Sequence {
         while (with_backend_ > 0) pass_to_writer();
     }
 
-    /// Is the file there already? Then nothing is to be done for it.
+    /// Whether the file exists already, so that the frame need not be rendered.
     bool is_finished(FrameRecord& record) {
         if (options_.force) return false;
         auto finished = finished_frame(record.file, format_, record.metadata, options_.job.planes, exposure_is_open_);
@@ -257,7 +257,7 @@ class Sequence {
         return as_written(std::move(metadata), job.width, job.height, format_, write_);
     }
 
-    /// Nothing if the exposure is known.
+    /// Empty if the exposure is known.
     std::optional<Backdrop> backdrop(const PreparedScene& prepared, const RenderJob& job) const {
         if (!exposure_is_open_) return std::nullopt;
         return Backdrop(prepared, job.width, job.height);
@@ -268,7 +268,7 @@ class Sequence {
         exposure_is_open_ = false;
     }
 
-    /// Loads the scene unless it is the one that is there: in a still scene only the random numbers change.
+    /// Loads the scene unless it is loaded already: in a still scene only the random numbers change.
     void make_resident(const PreparedScene& prepared, Tier tier, FrameRecord& record) {
         if (resident_ && resident_hash_ == record.metadata.scene_hash) return;
         resident_ = backend_.load(prepared, tier);
@@ -276,7 +276,7 @@ class Sequence {
         record.seconds.backend = resident_->load_times();
     }
 
-    /// Waits for the oldest frame of the backend, and for room among the writers.
+    /// Waits for the backend's oldest frame and for a free writer.
     void pass_to_writer() {
         Started frame = std::move(started_.front());
         started_.pop_front();
@@ -338,7 +338,7 @@ class Sequence {
     ForcedEffects effects_;
     bool work_is_open_;  ///< until the first frame is prepared
     double bounds_per_ray_ = 0;
-    bool exposure_is_open_;  ///< until the first frame is there
+    bool exposure_is_open_;  ///< until the first frame is rendered
     std::string exposure_rule_;
     std::size_t most_writing_;
 
@@ -358,10 +358,10 @@ void check_output(const SequenceOptions& options) {
     try {
         check_holds(format, options.job.planes);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("--aov with '{}': {}", options.output, error.what()));
+        throw InputError(fmt::format("--aov cannot be used with '{}': {}", options.output, error.what()));
     }
     if (options.job.planes.has(FilmPlane::variance) && options.job.samples < 2) {
-        throw InputError("--aov variance needs 2 samples per pixel or more: one does not vary; raise --spp");
+        throw InputError("--aov variance needs 2 samples per pixel or more; raise --spp");
     }
     if (options.frames.count() > 1 && !pattern.has_frame()) {
         throw InputError(fmt::format("'{}' has no placeholder for the frame number; use a name such as frame-####.png",

@@ -19,22 +19,23 @@ struct SequenceOptions {
     std::string output;  ///< a FramePattern
     FrameRange frames;
     RenderJob job;  ///< its frame is set for each frame
-    /// The job's samples are nobody's wish: scenes whose rays are very much work get fewer (render/ray_cost.h).
+    /// Take fewer samples than the job's in scenes whose rays are expensive, since no user set them
+    /// (render/ray_cost.h).
     bool fewer_samples = false;
-    bool shorter_paths = false;  ///< the same of the job's limits
+    bool shorter_paths = false;  ///< the same for the job's limits
     std::string camera;          ///< empty: the first of the scene
     ForcedEffects effects{};
-    WriteOptions write;  ///< its display is the scene's, but for these two:
+    WriteOptions write;  ///< its display is that of the scene, except for these two:
     std::optional<TransferFunction> transfer;
     std::optional<ExposureChoice> exposure;
-    bool force = false;  ///< render frames again whose files exist
+    bool force = false;  ///< render frames even if their files exist
     int writers = 0;     ///< threads that hash, encode and write; 0: one per core
 };
 
 /// The time of a frame by phase, in seconds. Frames overlap, so the sums are more than the wall time.
 struct FrameSeconds {
     double prepare = 0;  ///< scene to flat arrays, and their hash; for all instants of a frame with motion blur
-    PhaseTimes backend;  ///< zero build and upload where the scene is that of the frame before
+    PhaseTimes backend;  ///< build and upload are zero if the scene is that of the frame before
     double hash = 0;     ///< SHA-256 of the film
     double encode = 0;   ///< means, exposure, transfer function, compression
     double write = 0;
@@ -43,13 +44,13 @@ struct FrameSeconds {
 struct FrameRecord {
     ImageMetadata metadata;
     std::string file;
-    bool skipped = false;  ///< the file was there already; the metadata are the file's
+    bool skipped = false;  ///< the file existed already, and the metadata are its
     FrameSeconds seconds;
     RenderCounters counters;
     std::size_t nan_values = 0;  ///< EncodedImage
-    double bounds_per_ray = 0;   ///< where fewer samples were taken for it, or paths shortened, else 0
+    double bounds_per_ray = 0;   ///< if samples or path lengths were reduced because of it, else 0
     bool has_short_paths = false;
-    bool has_opaque_masks = false;  ///< alpha masks were left out for the same reason
+    bool has_opaque_masks = false;  ///< alpha masks are ignored for the same reason
     // of RenderStats
     std::string variant{};
     EffectMask effects{}, carried{};
@@ -58,27 +59,26 @@ struct FrameRecord {
     std::string warning{};
 };
 
-/// Calls `on_frame` for each frame that is done, in order, on the calling thread, as soon as its file is there.
+/// Calls `on_frame` for each finished frame, in order, on the calling thread, as soon as its file is written.
 ///
-/// Two frames are with the backend at a time, or two instants of a frame with motion blur; hashing, encoding and
-/// writing run in other threads meanwhile, as many at a time as there are writers (fewer where films are large). A
-/// frame is not rendered again if its file can be read whole, is of the format asked for, and its metadata have the
-/// same scene hash, frame, size, samples, seed, limits, tier, version, transfer function and exposure. The backend may
-/// differ: films are equal. Once `interrupted` is set no frame is started; those in flight are finished and written.
+/// The backend renders two frames at a time, or two instants of a frame with motion blur. Meanwhile other threads hash,
+/// encode and write, as many as there are writers (fewer if films are large). A frame is not rendered again if its file
+/// can be read whole, has the requested format, and its metadata have the same scene hash, frame, size, samples, seed,
+/// limits, tier, version, transfer function and exposure. The backend may differ: films are equal. Once `interrupted`
+/// is set no frame is started; those in flight are finished and written.
 ///
 /// An automatic exposure is that of the first frame, so that nothing flickers: auto_exposure() of its foreground. If
-/// its file exists and says that its exposure was automatic, it is taken from the file.
+/// the file of that frame exists and its exposure was automatic, the exposure is taken from the file.
 ///
 /// With `fewer_samples` or `shorter_paths` the first frame decides for all.
 ///
-/// Returns the number of frames done. Throws InputError for options, scenes and paths that cannot be, if possible
-/// before the first frame; errors of backends and writers come out as they are. Then files that were written stay,
-/// whole.
+/// Returns the number of finished frames. Throws InputError for invalid options, scenes and paths, if possible before
+/// the first frame; errors of backends and writers are passed on. Files that were already written stay, whole.
 std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
                             const std::atomic<bool>& interrupted,
                             const std::function<void(const FrameRecord&)>& on_frame);
 
-/// Throws as render_sequence() does for an output that cannot be, without a scene or a backend.
+/// Throws as render_sequence() does for an invalid output, but needs neither a scene nor a backend.
 void check_output(const SequenceOptions& options);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// The tracer of a scene, of either kind, through calls.
+/// The tracer of a scene, behind function calls.
 #pragma once
 
 #include "cpu/kernels.h"
@@ -6,8 +6,7 @@
 
 namespace tandem {
 
-// In a file of their own (trace_entry.h). `Isa` is there for its name: that of Real does not always tell the
-// instruction set.
+// Defined in cpu/kernels/query.cpp. `Isa` makes the names unique: Real does not always determine the instruction set.
 template <class Isa, class Real>
 [[nodiscard]] Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
                                         const Mask<Real>& active);
@@ -15,8 +14,7 @@ template <class Isa, class Real>
 [[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                                  const QuerySource<Real>& source, const Mask<Real>& active);
 
-/// One copy of each call serves all places of the path loop, and trace(). The plain path loop has its own inline
-/// tracer.
+/// One copy of each function serves the whole path loop and trace(). The plain path loop has its own inline tracer.
 template <class Isa>
 struct CalledTracer {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all;

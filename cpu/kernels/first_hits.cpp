@@ -1,4 +1,4 @@
-// write_first_hits() of one tier, for one instruction set.
+// write_first_hits() of one tier for one instruction set.
 #include "tandem/kernel/first_hit.h"
 
 #include "cpu/first_hits.h"

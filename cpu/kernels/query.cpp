@@ -1,11 +1,11 @@
-// closest_hit(), any_hit() and Embree's callbacks, of one tier for one instruction set.
+// closest_hit(), any_hit() and Embree's callbacks of one tier for one instruction set.
 #include "cpu/embree_tracer.h"
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
 
 namespace tandem {
 
-// The few primitives of a scene without an Embree scene are tested for packets only (trace_entry.h).
+// Scenes of few primitives, which have no Embree scene, are only tested with packets (cpu/kernels/trace.cpp).
 
 template <class Isa, class Real>
 Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,

@@ -1,4 +1,4 @@
-/// The path loop, for the files of its variants.
+/// The path loop, included by the files of its variants.
 #pragma once
 
 #include "cpu/kernels/called_tracer.h"
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// Paths of one vertex: a pixel per lane.
+/// Paths of one vertex: one pixel per lane.
 template <class Effects, class Real, class Tracer>
 TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                         Vec3d* sums) {
@@ -30,7 +30,7 @@ TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const Pixe
     }
 }
 
-/// Paths that continue: a lane that is done takes the next pixel of the tile.
+/// Longer paths: a lane that is finished takes the next pixel of the tile.
 template <class Effects, class Real, class Tracer>
 TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                        Vec3d* sums) {

@@ -1,4 +1,4 @@
-// trace() of one tier, for one instruction set.
+// trace() of one tier for one instruction set.
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
 
@@ -6,8 +6,8 @@ namespace tandem {
 
 namespace {
 
-/// Are the rays coherent? Then a packet is faster than its rays one by one. The test, one origin and directions with
-/// equal signs, holds for camera rays and is cheap.
+/// Whether the rays are coherent: then a packet is faster than single rays. The test, for a common origin and
+/// directions of equal signs, is cheap and holds for camera rays.
 template <class Real>
 TANDEM_HD bool is_coherent(const Ray<Real>& rays) {
     const auto same = [](const Real& a) { return a == Real(a[0]); };
@@ -49,7 +49,7 @@ TANDEM_HD Source<Packet> gather_sources(const TraceJob& job, std::size_t first, 
             gather<Word>(used, [&](std::size_t i) { return std::uint32_t{sources[i].inside}; }) != Word(0U)};
 }
 
-// The queries of a job, for one ray and for a packet: the nearest hits of rays that start in space, ...
+// The queries of a job, for one ray and for a packet: nearest hits of rays that start in space, ...
 template <class Reals>
 struct AskNearest {
     using One = typename Reals::One;

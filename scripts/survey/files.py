@@ -1,4 +1,4 @@
-"""Which glTF files there are, without copies, and what each of them needs beside it."""
+"""Finds glTF files, without copies, and the files that each of them needs."""
 
 import hashlib
 import json
@@ -22,7 +22,7 @@ def document_of(data):
 
 
 def neighbours_of(path, data):
-    """Paths of the files that the glTF file names in its buffers and images, present or not."""
+    """Paths of the files that the glTF file references in buffers and images, present or not."""
     document = document_of(data) or {}
     paths = []
     for key in ("buffers", "images"):
@@ -74,7 +74,7 @@ def named(argument):
 
 
 def listed(arguments):
-    """Every file of the folders, copies too: each counts under its folder's name."""
+    """Every file of the folders, including copies: each counts under its folder's name."""
     files = []
     for source, folder in map(named, arguments):
         base = folder if os.path.isdir(folder) else os.path.dirname(folder)

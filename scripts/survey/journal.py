@@ -1,4 +1,4 @@
-"""Keeps the records of a long run as they come, so that a run that was stopped goes on."""
+"""Stores the records of a long run as they come, so that a stopped run can be resumed."""
 
 import json
 import os
@@ -6,7 +6,7 @@ import threading
 
 
 class Journal:
-    """One line a record, after a line that says what run it is. Another run's lines do not count."""
+    """One line per record, after a line that identifies the run. Lines of another run are ignored."""
 
     def __init__(self, path, run):
         self.path, self.lock, self.records = path, threading.Lock(), {}

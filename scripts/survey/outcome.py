@@ -1,4 +1,4 @@
-"""What one run of tandem-render came to: its exit status and its standard error, sorted into a few outcomes."""
+"""Classifies a run of tandem-render by its exit status and its standard error."""
 
 import re
 
@@ -28,7 +28,7 @@ def note_of(line):
 
 
 def parts_of(errors):
-    """(notes, sentence) of a standard error. A message may have several lines; a note has one."""
+    """(notes, message) of a standard error. A message may have several lines; a note has one."""
     notes, sentence = [], []
     for line in errors.splitlines():
         text = line[len(PREFIX) :] if line.startswith(PREFIX) else line
@@ -56,7 +56,7 @@ def outcome_of(status, timed_out, sentence, notes, has_film):
 
 
 def anonymous(sentence, path):
-    """The sentence without machine paths: the scene is FILE, its folder is left out."""
+    """The message without machine paths: the scene becomes FILE, its folder is left out."""
     folder = path[: len(path) - len(path.rsplit("/", 1)[-1])]
     text = sentence.replace(path, "FILE")
     return text.replace(folder, "") if len(folder) > 1 else text

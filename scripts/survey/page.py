@@ -1,4 +1,4 @@
-"""The Markdown page of a survey. Every figure is from the summary, which stands beside the page as JSON."""
+"""Writes the Markdown page of a survey. Every figure is from the summary, which is beside the page as JSON."""
 
 import textwrap
 
@@ -8,7 +8,7 @@ LONGEST = 220  # letters of a sentence
 
 
 def cell(text):
-    """Text of a file for a table: nothing in it is Markdown or HTML."""
+    """Escapes text from a file for a table: nothing in it is Markdown or HTML."""
     text = "".join(letter if letter.isprintable() else " " for letter in text)
     text = text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
     for letter, safe in (("&", "&amp;"), ("<", "&lt;"), ("|", "\\|"), ("[", "\\["), ("*", "\\*"), ("_", "\\_"), ("`", "\\`")):
@@ -40,7 +40,7 @@ def features_of(record):
 
 
 def listed(records):
-    """One table a folder: what came of every file."""
+    """One table per folder, with the outcome of every file."""
     parts = []
     for source in dict.fromkeys(record["source"] for record in records):
         group = [record for record in records if record["source"] == source]
@@ -104,7 +104,7 @@ def paragraph(text):
 
 
 def page_of(data, json_name, most_features=40):
-    """The whole page; json_name is where the summary stands, relative to the page."""
+    """The whole page; json_name is the path of the summary, relative to the page."""
     run, corpus, files = data["run"], data["corpus"], data["listed_totals"]
     head = ["", "files", "rendered", "without a note", "refused", "environment", "crash, hang, odd status"]
     rows = [overview("listed below", files)] + ([overview("the corpus", corpus)] if corpus["files"] else [])

@@ -1,4 +1,4 @@
-"""Whether the backends draw equal films: the hash of each, in each tier."""
+"""Compares the films of the backends: the hash of each, in each tier."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Runs tandem-render on a file and measures what it took."""
+"""Runs tandem-render on a file and measures time and memory."""
 
 import concurrent.futures
 import json
@@ -16,7 +16,7 @@ LARGEST_ERRORS = 1 << 20  # bytes of standard error that are kept
 
 
 class Renderer:
-    """The program and what every run of it shares."""
+    """The program and its common options."""
 
     def __init__(self, program, size, spp, timeout, memory_mib, extra=()):
         self.program, self.size, self.spp, self.timeout, self.memory_mib = program, size, spp, timeout, memory_mib
@@ -79,7 +79,7 @@ def levels_of(path):
 
 
 def survey_file(renderer, file):
-    """The record of one file, as the JSON holds it."""
+    """The record of one file, as in the JSON."""
     with tempfile.TemporaryDirectory() as folder:
         picture, json_path = os.path.join(folder, "picture.ppm"), os.path.join(folder, "run.json")
         run = Run(renderer.command(file.path, picture, json_path), renderer.timeout, renderer.memory_mib)

@@ -1,4 +1,4 @@
-"""Contact sheets of what was drawn. Needs the package Pillow."""
+"""Contact sheets of the rendered images. Needs the package Pillow."""
 
 import os
 import tempfile
@@ -20,7 +20,7 @@ def pillow():
 
 
 def picture_of(renderer, file, image):
-    """The picture of a file at the sheet's size, or None if it is not drawn."""
+    """The image of a file at the sheet's size, or None if it was not rendered."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "picture.png")
         run = runs.Run(renderer.command(file.path, path, os.path.join(folder, "run.json")), renderer.timeout, renderer.memory_mib)
@@ -31,7 +31,7 @@ def picture_of(renderer, file, image):
 
 
 def write(folder, renderer, files, jobs):
-    """Writes sheet-000.png and so on; says under each picture which file it is. Returns how many pictures there are."""
+    """Writes sheet-000.png and so on, with the file name below each image. Returns the number of images."""
     image, draw = pillow()
     width, height = (int(n) for n in renderer.size.split("x"))
     os.makedirs(folder, exist_ok=True)
@@ -47,7 +47,7 @@ def write(folder, renderer, files, jobs):
                 sheet.paste(picture, (x, y))
                 shown += 1
             letters = width // 6 - 1
-            name = file.name if picture else "not drawn: " + file.name
+            name = file.name if picture else "not rendered: " + file.name
             pen.text((x + 2, y + height + 1), file.source[-letters:], fill="grey")
             pen.text((x + 2, y + height + 12), name[-letters:], fill="black")
         sheet.save(os.path.join(folder, f"sheet-{number:03}.png"))

@@ -1,4 +1,4 @@
-"""The figures that the page quotes, counted from the records of a survey."""
+"""Computes the figures of the page from the records of a survey."""
 
 import collections
 
@@ -10,7 +10,7 @@ MOST_CPU_SECONDS = 5
 
 
 def is_costly(record):
-    """A small file that takes much."""
+    """Whether a small file takes much memory or time."""
     much = record["peak_mib"] > MOST_MIB or record["cpu_seconds"] > MOST_CPU_SECONDS
     return much and record["bytes"] < SMALL_BYTES
 
@@ -31,7 +31,7 @@ def refusals(records):
 
 
 def features(records):
-    """In how many drawn files a feature is approximated or ignored."""
+    """The number of rendered files in which each feature is approximated or ignored."""
     found = collections.Counter()
     for record in records:
         if record["outcome"] == outcome.NOTES:
@@ -86,7 +86,7 @@ KEPT = ("source", "file", "bytes", "outcome", "sentence", "notes", "cpu_seconds"
 
 
 def summary_of(survey):
-    """What the page needs of a whole survey: the listed files one by one, the corpus in totals."""
+    """The data of the page: the listed files one by one, the corpus in totals."""
     listed = [{key: record[key] for key in KEPT if key in record} for record in survey["listed"]]
     return {
         "run": survey["run"],

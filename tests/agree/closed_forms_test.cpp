@@ -1,4 +1,4 @@
-// Pictures whose values have a closed form, on every backend and tier that promises bits.
+// Images whose values have a closed form, on every backend and exact tier.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ Scene uniform_light(const Vec3f& colour) {
 
 class ClosedForms : public test::ExactBackend {
   protected:
-    /// After a check that no path met anything out of order.
+    /// Checks first that no path crossed interfaces out of order.
     [[nodiscard]] RenderResult render(const Scene& scene, int samples, const PathLimits& limits, int size = 16) {
         RenderJob job;
         job.width = job.height = size;
@@ -59,7 +59,7 @@ class ClosedForms : public test::ExactBackend {
         return sum * (1.0 / (static_cast<double>(film.pixel_count()) * samples));
     }
 
-    /// Is the mean of red within 5 standard errors of `expected`? The pixels are samples of the same.
+    /// Expects the mean of red within 5 standard errors of `expected`. The pixels are samples of one value.
     void expect_mean(const Scene& scene, int samples, const PathLimits& limits, double expected) {
         const Film film = film_of(scene, samples, limits, 24);
         double sum = 0, squares = 0;
@@ -80,9 +80,9 @@ TEST_P(ClosedForms, RaysAreCounted) {
     Scene scene = uniform_light({0, 0, 0});
     Material mirror = black("mirror");
     mirror.optics.mirror = {0.5F, 0.5F, 0.5F};
-    Material matt = black("matt");
-    matt.phong.diffuse = {0.5F, 0.5F, 0.5F};
-    scene.materials = {mirror, matt};
+    Material lambertian = black("diffuse");
+    lambertian.phong.diffuse = {0.5F, 0.5F, 0.5F};
+    scene.materials = {mirror, lambertian};
     scene.nodes = {camera({0, 0, 0}, 0.1), body(BoxShape{{2, 2, 1}}, {0, 0, -2}, 1)};
     constexpr std::uint64_t samples = 16 * 16 * 3;
     EXPECT_EQ(render(scene, 3, {}).stats.rays, samples);
@@ -112,7 +112,7 @@ TEST_P(ClosedForms, FacingMirrorsMakeAGeometricSeries) {
     }
 }
 
-// A furnace: in uniform light clear glass of any shape is not to be seen. R + T = 1 at every border.
+// Furnace test: in uniform light clear glass of any shape is invisible. R + T = 1 at every interface.
 TEST_P(ClosedForms, ClearGlassVanishesInUniformLight) {
     Scene scene = uniform_light({1, 1, 1});
     Material glass = black("glass");
@@ -130,7 +130,7 @@ TEST_P(ClosedForms, ClearGlassVanishesInUniformLight) {
     EXPECT_NEAR(mean.y, 1, 1e-6);
 }
 
-// Beer's law: straight through a body whose index is that of air.
+// Beer's law: straight through a solid with the index of air.
 TEST_P(ClosedForms, AbsorptionIsExponentialInTheWay) {
     Scene scene = uniform_light({1, 1, 1});
     Material tinted = black("tinted");
@@ -188,16 +188,16 @@ TEST_P(ClosedForms, ABallLensFocusesWhereItShould) {
 TEST_P(ClosedForms, LightFallsOffWithTheSquareOfTheDistance) {
     for (const double height : {0.5, 2.0, 20.0}) {
         Scene scene = uniform_light({0, 0, 0});
-        Material matt = black("matt");
-        matt.phong.diffuse = {0.8F, 0.5F, 0.1F};
-        scene.materials = {matt};
+        Material lambertian = black("diffuse");
+        lambertian.phong.diffuse = {0.8F, 0.5F, 0.1F};
+        scene.materials = {lambertian};
         scene.nodes = {camera({0, 0, 40}, 1e-4), body(BoxShape{{4, 4, 1}}, {0, 0, -0.5}, 0)};
         scene.nodes.push_back({.name = "lamp",
                                .trs = {.translation = {0, 0, height}},
                                .light = LightSource{.intensity = 3, .inverse_square = true}});
         const Vec3d mean = mean_of(scene, 1, {});
         for (int channel = 0; channel < 3; ++channel) {
-            const double expected = double{matt.phong.diffuse[channel]} * 3 / (height * height);
+            const double expected = double{lambertian.phong.diffuse[channel]} * 3 / (height * height);
             EXPECT_NEAR(mean[channel] / expected, 1, 1e-6) << height;
         }
     }
@@ -207,10 +207,10 @@ TEST_P(ClosedForms, LightFallsOffWithTheSquareOfTheDistance) {
 TEST_P(ClosedForms, ASphereLightsAsItsSolidAngleSays) {
     for (const double distance : {1.5, 4.0, 30.0}) {
         Scene scene = uniform_light({0, 0, 0});
-        Material matt = black("matt"), lamp = black("lamp");
-        matt.phong.diffuse = {0.6F, 0.6F, 0.6F};
+        Material lambertian = black("diffuse"), lamp = black("lamp");
+        lambertian.phong.diffuse = {0.6F, 0.6F, 0.6F};
         lamp.optics.emission = {5, 5, 5};
-        scene.materials = {matt, lamp};
+        scene.materials = {lambertian, lamp};
         scene.nodes = {camera({0, 0, 0.4}, 1e-4), body(BoxShape{{9, 9, 1}}, {0, 0, -0.5}, 0),
                        body(SphereShape{1}, {0, 0, distance}, 1)};
         expect_mean(scene, 64, {}, 0.6F * 5 / (distance * distance));
@@ -220,9 +220,9 @@ TEST_P(ClosedForms, ASphereLightsAsItsSolidAngleSays) {
 // A ball of albedo kd in uniform light is kd all over.
 TEST_P(ClosedForms, AConvexBodyInUniformLightShowsItsAlbedo) {
     Scene scene = uniform_light({1, 1, 1});
-    Material matt = black("matt");
-    matt.phong.diffuse = {0.7F, 0.7F, 0.7F};
-    scene.materials = {matt};
+    Material lambertian = black("diffuse");
+    lambertian.phong.diffuse = {0.7F, 0.7F, 0.7F};
+    scene.materials = {lambertian};
     scene.nodes = {camera({0, 0, 4}, 0.3), body(SphereShape{1}, {0, 0, 0}, 0)};
     scene.environment.illuminates = 1;
     for (const bool indirect : {false, true}) {
@@ -231,10 +231,10 @@ TEST_P(ClosedForms, AConvexBodyInUniformLightShowsItsAlbedo) {
     }
 }
 
-// Within walls of albedo a that glow with e: e times the sum of a^k, up to one more than the limit of scatterings,
-// since the last vertex draws a light as well. What paths find and what is drawn share it; Russian roulette changes no
+// Within walls of albedo a that emit e: e times the sum of a^k, up to one more than the limit of diffuse bounces, since
+// the last vertex samples a light too. Paths and sampled lights share the light; Russian roulette does not change the
 // mean.
-TEST_P(ClosedForms, AGlowingRoomIsAGeometricSeries) {
+TEST_P(ClosedForms, AnEmissiveRoomIsAGeometricSeries) {
     Scene scene = uniform_light({0, 0, 0});
     Material wall = black("wall");
     wall.phong.diffuse = {0.6F, 0.6F, 0.6F};
@@ -256,9 +256,9 @@ TEST_P(ClosedForms, AGlowingRoomIsAGeometricSeries) {
 // A ball that is lit from the camera: kd cos, in the mean 2 / 3 kd of the disk that it covers.
 TEST_P(ClosedForms, ALambertianBallIsTwoThirdsAsBright) {
     Scene scene = uniform_light({0, 0, 0});
-    Material matt = black("matt");
-    matt.phong.diffuse = {0.9F, 0.9F, 0.9F};
-    scene.materials = {matt};
+    Material lambertian = black("diffuse");
+    lambertian.phong.diffuse = {0.9F, 0.9F, 0.9F};
+    scene.materials = {lambertian};
     scene.nodes = {camera({0, 0, 4}, 1),
                    body(SphereShape{1}, {0, 0, 0}, 0),
                    {.name = "sun", .light = LightSource{.kind = LightKind::directional}}};
@@ -314,8 +314,8 @@ TEST_P(ClosedForms, AWhiteMetalVanishesInUniformLight) {
     }
 }
 
-// Lights with an area, drawn by the lights and found by paths, bring together what a background as bright does.
-TEST_P(ClosedForms, AMetalInARoomThatGlowsIsAsInUniformLight) {
+// Area lights, sampled and found by paths, together give the light of a background of equal radiance.
+TEST_P(ClosedForms, AMetalInAnEmissiveRoomIsAsInUniformLight) {
     Scene scene = uniform_light({0, 0, 0});
     scene.materials = {black("metal"), black("lamp")};
     scene.materials[0].phong.diffuse = {1, 1, 1};

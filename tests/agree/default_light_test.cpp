@@ -12,7 +12,7 @@
 namespace tandem {
 namespace {
 
-/// Something white and matt, framed from that view and lit by default.
+/// A white diffuse object, framed from that view and lit by default.
 Scene lit(std::vector<Geometry> geometry, const std::string& view) {
     Scene scene;
     scene.materials = {{"white", {{0.08F, 0.08F, 0.08F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 1}}};
@@ -103,12 +103,12 @@ TEST(HasLight, CountsLampsThatShine) {
     EXPECT_FALSE(has_light(scene));
 }
 
-TEST(HasLight, CountsGlowByItsMeanOverAllSurfaces) {
+TEST(HasLight, CountsEmissionByItsMeanOverAllSurfaces) {
     EXPECT_TRUE(has_light(with_lamp(0.41F)));
     EXPECT_FALSE(has_light(with_lamp(0.39F)));
     Scene small = with_lamp(100);
     small.nodes[1].trs.scale = {0.01, 0.01, 0.01};
-    EXPECT_FALSE(has_light(small)) << "a dial that glows";
+    EXPECT_FALSE(has_light(small)) << "an emissive dial";
     small.materials[1].optics.emission = {9000, 9000, 9000};
     EXPECT_TRUE(has_light(small)) << "a lamp";
     Scene unused = with_lamp(100);
@@ -117,7 +117,7 @@ TEST(HasLight, CountsGlowByItsMeanOverAllSurfaces) {
 }
 
 TEST(HasLight, MeasuresSurfacesWhereTheyStand) {
-    // a mesh, a box and a quad of one square metre each, stretched and turned; one of them glows
+    // a mesh, a box and a quad of one square metre each, stretched and rotated; one of them is emissive
     Scene scene = with_lamp(0);
     scene.meshes.resize(2);
     scene.meshes[0].positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -127,7 +127,7 @@ TEST(HasLight, MeasuresSurfacesWhereTheyStand) {
     scene.nodes[0].geometry = {{MeshShape{0}, 0}, {BoxShape{{1, 0.25, 0.2}}, 0}};
     scene.nodes[1].geometry = {{MeshShape{1}, 1}};
     scene.nodes[1].trs = {.rotation = {0.5, 0.5, 0.5, 0.5}, .scale = {5, 20, 7}};
-    // 1 + 1 square metres that do not glow, and 1 that does: a third of 0.6 is 0.2
+    // 1 + 1 square metres are not emissive, and 1 is: a third of 0.6 is 0.2
     scene.materials[1].optics.emission = {0.59F, 0.59F, 0.59F};
     EXPECT_FALSE(has_light(scene));
     scene.materials[1].optics.emission = {0.61F, 0.61F, 0.61F};

@@ -1,5 +1,5 @@
-// Effects: what specialisation leaves out changes no bit, what is forced off leaves the scene without it, CPU and GPU
-// agree, and the oracle is near.
+// Effects: specialisation changes no bit, forcing an effect off gives the scene without it, CPU and GPU agree, and the
+// oracle is near.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,12 +44,12 @@ PreparedScene prepare_forced(const Scene& scene, EffectMask on, EffectMask off) 
     return prepare(scene, options);
 }
 
-/// Does the oracle estimate something of it in another way?
+/// Whether the oracle estimates a part of it in another way.
 bool has_own_estimators(EffectMask effects) {
     return effects.has_any(Effect::area_lights | Effect::environment_light | Effect::indirect | Effect::microfacets);
 }
 
-/// The chance of a difference as large as this between samples of equal means. B. L. Welch, Biometrika 34, 1947.
+/// The probability of a difference as large as this between samples of equal means. B. L. Welch, Biometrika 34, 1947.
 double welch_p_value(const Estimate& a, const Estimate& b) {
     const double va = a.variance_of_mean(), vb = b.variance_of_mean();
     if (va + vb == 0) return a.mean() == b.mean() ? 1 : 0;
@@ -82,7 +82,7 @@ TEST_P(EffectBits, AreThoseOfTheLeastProcessor) {
 
 // More pixels than a GPU has threads, so that these take one pixel after the other; rays through a hierarchy, and
 // shadow rays through faces that are culled: that once ended in an illegal instruction.
-TEST_P(EffectBits, OfHolesInAHierarchyAreThoseOfTheLeastProcessor) {
+TEST_P(EffectBits, OfAlphaMasksInAHierarchyAreThoseOfTheLeastProcessor) {
     Scene open = named_scene("triangles/5000");
     for (Material& material : open.materials) material.sides = FaceSides::culled;
     open.environment = {{0.2F, 0.2F, 0.2F}, {0.6F, 0.7F, 0.8F}, {0, 0, 0}, 1};
@@ -193,7 +193,7 @@ const TileMeans& oracle_means(const EffectScene& entry, const PreparedScene& sce
 
 // Where the oracle draws other points of lights and other directions, films are compared by their means, by Welch's
 // test at 5 % of all tests together (Bonferroni). A tile that differs is looked at again in fresh films, four times as
-// many: a bias differs again, chance does not.
+// many: a bias differs again, a random difference does not.
 TEST_P(EffectBits, HaveTheMeansOfTheOracle) {
     const int films = effort() > 1 ? 60 : 10, samples = 16 * effort(), samples_of_oracle = 4 * effort();
     constexpr double level = 0.05 / (TileMeans::tiles * 20);  // of up to 20 scenes
@@ -267,7 +267,7 @@ TEST_P(EffectBits, EndPathsAtTheirLimits) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, EffectBits, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
 
-TEST(EffectScenes, CallForWhatTheirListSays) {
+TEST(EffectScenes, NeedTheListedEffects) {
     for (const EffectScene& entry : effect_scenes()) {
         const auto needs = derive_effects(entry.scene, prepare(entry.scene));
         EXPECT_EQ(to_string(mask_of(needs)), to_string(entry.effects)) << entry.name;

@@ -1,5 +1,5 @@
-// Pictures of the environment: a constant one is the constant background, a white surface within a white one is not to
-// be seen, and a bright spot lights as much as it should.
+// Environment pictures: a constant one equals the constant background, a white surface in a white one is invisible, and
+// a bright spot gives the right amount of light.
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ TEST_P(EnvironmentPictures, OfOneColourAreTheConstantBackground) {
     }
 }
 
-// Light is neither won nor lost, whether paths find it or samples.
+// Light is neither gained nor lost, whether paths or samples find it.
 TEST_P(EnvironmentPictures, HideAWhiteBall) {
     for (const bool indirect : {false, true}) {
         Scene scene = ball(white, {}, indirect);

@@ -20,7 +20,7 @@ struct NamedScene {
     PreparedScene scene;
 };
 
-/// With every kind of primitive, copies, holes, textures, normal maps, a lens, glass.
+/// With every kind of primitive, copies, alpha masks, textures, normal maps, a lens, a dielectric.
 const std::vector<NamedScene>& scenes() {
     static const std::vector<NamedScene> list = [] {
         std::vector<NamedScene> all;
@@ -110,7 +110,7 @@ TEST_P(PlaneBits, AreNearTheOracle) {
                               distance(a.normal[i], b.normal[i]) < 1e-3 && distance(a.albedo[i], b.albedo[i]) < 1e-3;
             others += !same;
         }
-        // a sample that goes by a corner of a hole or a texel may fall to either side
+        // a sample near a corner of a mask or a texel may fall on either side
         EXPECT_LE(others, 2U) << name;
     }
 }

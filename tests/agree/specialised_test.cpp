@@ -1,4 +1,4 @@
-// Kernels that are made for a scene draw what the CPU and the kernel with all effects draw.
+// Kernels linked for a scene render the same as the CPU and the kernel with all effects.
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,7 @@ TEST(Copies, AreOfOneShapeAndMaterial) {
     EXPECT_EQ(pairs(copies), (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{3, 0}, {5, 1}}));
 }
 
-TEST(Copies, AreFoundAmongFacesWithSidesAndHoles) {
+TEST(Copies, AreFoundAmongFacesWithSidesAndAlphaMasks) {
     Scene scene = small_scene();
     scene.meshes.push_back({.name = "sheet",
                             .positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},

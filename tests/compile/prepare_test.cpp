@@ -253,7 +253,8 @@ TEST(PrepareMesh, InstancesAndSides) {
     EXPECT_EQ(prepared.triangles[3].attributes.sides, FaceSides::double_sided);
     EXPECT_EQ(prepared.node_of, (std::vector<std::uint32_t>{1, 1, 1, 1}));
     scene.nodes[1].trs.scale = {9e17, 9e17, 9e17};
-    EXPECT_TRUE(contains(input_error([&] { (void)prepare(scene); }), "node 1 'body' has something farther than 1e18"));
+    EXPECT_TRUE(
+        contains(input_error([&] { (void)prepare(scene); }), "node 1 'body' has coordinates farther than 1e18"));
 }
 
 TEST(Prepare, IdsRunOverTheKindsInOrder) {

@@ -17,7 +17,7 @@ using test::small_scene;
 
 constexpr std::uint32_t red = 0xFF0000FFU;
 constexpr std::uint32_t half_blue = 0xFFBC0000U;  // level 188
-constexpr std::uint32_t hole = 0x00FFFFFFU;
+constexpr std::uint32_t masked_out = 0x00FFFFFFU;
 
 /// small_scene() whose body shows 2 x 1 texels.
 Scene textured_scene(std::uint32_t left = red, std::uint32_t right = half_blue) {
@@ -85,7 +85,7 @@ TEST(PrepareTextures, MakesANormalMapOfOneColourOneTexel) {
 }
 
 TEST(PrepareTextures, KeepsAMaskThatCutsAndNoOther) {
-    Scene scene = textured_scene(red, hole);
+    Scene scene = textured_scene(red, masked_out);
     const auto of_material = [&] { return prepare(scene).textures.materials.at(0); };
     EXPECT_EQ(of_material().alpha_cutoff, 0) << "opaque";
     scene.materials[0].alpha_mode = AlphaMode::mask;
@@ -165,8 +165,8 @@ TEST(PrepareTextures, KeepsPicturesOnTurnedAndMirroredBodies) {
                          "node 1 'body' has a mirrored box that is flat and has a texture"));
 }
 
-TEST(PrepareTextures, SaysWhichKindsHaveHoles) {
-    Scene scene = textured_scene(red, hole);
+TEST(PrepareTextures, ListsTheKindsWithAlphaMasks) {
+    Scene scene = textured_scene(red, masked_out);
     scene.nodes[1].geometry[0].material = 0;
     EXPECT_EQ(prepare(scene).cutout_kinds, 0U) << "opaque";
     scene.materials[0].alpha_mode = AlphaMode::mask;
@@ -219,9 +219,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Flaw{"no_width", [](Scene& s) { s.images[0].width = 0; }, "image 'picture' has a width or height"},
         Flaw{"too_wide", [](Scene& s) { s.images[0].width = 16385; }, "image 'picture' has a width or height"},
-        Flaw{"texels", [](Scene& s) { s.images[0].texels.pop_back(); }, "image 'picture' has a number of texels"},
+        Flaw{"texels", [](Scene& s) { s.images[0].texels.pop_back(); },
+             "image 'picture' does not have width times height texels"},
         Flaw{"nameless", [](Scene& s) { s.images[0].name.clear(), s.images[0].texels.clear(); },
-             "image 0 has a number"},
+             "image 0 does not have width"},
         Flaw{"image", [](Scene& s) { s.textures[0].image = 1; }, "texture 0 shows an image that does not exist"},
         Flaw{"texture", [](Scene& s) { s.materials[0].diffuse_texture->texture = 1; },
              "material 'plain', diffuse texture, uses a texture that does not exist"},

@@ -41,7 +41,7 @@ TEST(Effects, AreForcedByWords) {
     EXPECT_EQ(later.on, EffectMask(Effect::shadows));
     EXPECT_EQ(later.off, all_effects - Effect::shadows);
     const auto message = test::thrown_message<InputError>([] { (void)parse_effects("+fog"); });
-    EXPECT_EQ(message.substr(0, 58), "there is no effect 'fog'; take shadows, inverse_square, sp");
+    EXPECT_EQ(message.substr(0, 58), "there is no effect 'fog'; the effects are shadows, inverse");
     EXPECT_TRUE(message.ends_with(", all or none")) << message;
     for (const EffectName& entry : effect_names())
         EXPECT_NE(message.find(std::string(" ") + entry.name + ","), std::string::npos);
@@ -53,7 +53,7 @@ TEST(Effects, OfNamedScenesAreNone) {
     for (const char* name : {"paper", "spheres/100", "mixed/64"}) EXPECT_EQ(reasons(named_scene(name)), "") << name;
 }
 
-TEST(Effects, AreCalledForByNamedThings) {
+TEST(Effects, NameWhatNeedsThem) {
     Scene scene = named_scene("paper");
     scene.nodes.back().light->casts_shadows = true;
     scene.materials[1].optics.mirror = {0, 0.5F, 0};
@@ -61,10 +61,10 @@ TEST(Effects, AreCalledForByNamedThings) {
     scene.materials[3].optics = {.transmission = 1, .absorption = {0, 2, 0}};
     EXPECT_EQ(reasons(scene),
               "shadows: light 'light' casts shadows\n"
-              "reflection: material 'green' is a mirror of reflectance 0.5\n"
+              "reflection: material 'green' is a mirror with reflectance 0.5\n"
               "refraction: material 'blue' has transmission 0.25, and 1 more\n"
               "absorption: material 'yellow' absorbs up to 2 per metre\n"
-              "nested_media: a body of material 'blue' may touch or hold another, or the camera, and 1 more\n");
+              "nested_media: a solid of material 'blue' may touch or contain another one, or the camera, and 1 more\n");
 }
 
 /// The camera 'eye' with an open shutter, and a light that moves from 0 s to 3 s.
@@ -77,7 +77,7 @@ Scene moving_scene() {
 
 TEST(Effects, OfMotionNameWhatMoves) {
     Scene scene = moving_scene();
-    const std::string camera = "motion_blur: camera 'eye' has its shutter open for 0.02 s, in which ";
+    const std::string camera = "motion_blur: camera 'eye' has its shutter open for 0.02 s, during which ";
     EXPECT_EQ(reasons(scene), camera + "node 'lamp' moves\n");
     scene.nodes[1].parent = 2;
     EXPECT_EQ(reasons(scene), camera + "node 'body' moves, and 1 more\n");
@@ -103,7 +103,7 @@ TEST(Effects, OfMotionNeedAShutterAndSomethingThatMoves) {
     EXPECT_EQ(reasons(scene), "") << "the light shines on nothing";
 }
 
-TEST(Effects, AreNotCalledForByWhatNoRayMeets) {
+TEST(Effects, IgnoreWhatNoRayHits) {
     Scene scene = named_scene("paper");
     scene.nodes.back().light->casts_shadows = true;
     scene.nodes.back().light->intensity = 0;
@@ -119,7 +119,7 @@ TEST(Effects, FindBodiesThatTouchOneAnother) {
     const auto overlaps = [](const Vec3d& second, double radius) {
         Scene scene;
         scene.materials = {{.name = "glass", .phong = {}, .optics = {.transmission = 1}},
-                           {.name = "matt", .phong = {}}};
+                           {.name = "diffuse", .phong = {}}};
         scene.nodes.push_back({.name = "eye", .trs = {.translation = {0, 0, 20}}, .camera = PerspectiveCamera{}});
         Node ball{.name = "ball"};
         ball.geometry.push_back({SphereShape{1}, 0, {}});

@@ -53,7 +53,7 @@ TEST_F(Appearance, VertexColoursOutOfRangeOrOfAWrongTypeAreNoted) {
     attributes(file)["COLOR_0"] = file.add_floats("SCALAR", std::vector<float>(6, 0.5F));
     EXPECT_TRUE(contains(sentences(import(file).report), "ignored: vertex colours at "));
     attributes(file)["COLOR_0"] = file.add_floats("VEC3", std::vector<float>(9, 0.5F));
-    EXPECT_TRUE(contains(sentences(import(file).report), "there is not one for each position"));
+    EXPECT_TRUE(contains(sentences(import(file).report), "there is not one per position"));
 }
 
 TEST_F(Appearance, EachTextureLiesAtItsOwnCoordinates) {
@@ -90,7 +90,7 @@ TEST_F(Appearance, ANumberOfCoordinatesBeyondAllIsNoMemory) {
     material(file)["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 4000000000U}};
     const ImportResult result = import(file);
     EXPECT_FALSE(result.scene.materials[0].diffuse_texture);
-    EXPECT_TRUE(contains(sentences(result.report), "it lies at TEXCOORD_4000000000; Tandem reads up to TEXCOORD_15"));
+    EXPECT_TRUE(contains(sentences(result.report), "it uses TEXCOORD_4000000000; Tandem reads up to TEXCOORD_15"));
 }
 
 TEST_F(Appearance, EmissiveTexturesMultiplyTheEmission) {
@@ -111,7 +111,7 @@ TEST_F(Appearance, EmissiveTexturesMultiplyTheEmission) {
     EXPECT_TRUE(prepare(dark.scene).area_lights.empty());
 }
 
-TEST_F(Appearance, UnlitMaterialsGlowAndLightNothing) {
+TEST_F(Appearance, UnlitMaterialsNeitherReceiveNorEmitLight) {
     TestFile file = mesh_file();
     file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_materials_unlit"};
     material(file)["extensions"] = {{"KHR_materials_unlit", Json::object()}};

@@ -33,12 +33,12 @@ TEST_F(Containers, ContainersOfGlb) {
     EXPECT_EQ(changed(4, 1), is_gltf_1);
     EXPECT_EQ(changed(4, 7), "is a .glb file of version 7; Tandem reads version 2");
     EXPECT_TRUE(
-        contains(changed(8, 13), "says in its header that it has 13 bytes, fewer than any .glb file; the header is"));
+        contains(changed(8, 13), "has a length of 13 bytes in its header, less than any .glb file; the header is"));
     EXPECT_TRUE(contains(changed(8, static_cast<std::uint32_t>(bytes) + 9), ": 9 are missing; it may be truncated"));
-    EXPECT_TRUE(contains(changed(12, 0xFFFFFFFF), "says that its first chunk has 4294967295 bytes"));
+    EXPECT_TRUE(contains(changed(12, 0xFFFFFFFF), "has a first chunk with a length of 4294967295 bytes"));
     EXPECT_TRUE(contains(changed(12, 4), "may be truncated"));
-    EXPECT_TRUE(contains(changed(16, 0x004E4942), "whose first chunk is not the JSON"));
-    EXPECT_TRUE(contains(error_of_bytes("glTF"), "is too short for a .glb file: it has 4 bytes of 8 at least"));
+    EXPECT_TRUE(contains(changed(16, 0x004E4942), "whose first chunk is not JSON"));
+    EXPECT_TRUE(contains(error_of_bytes("glTF"), "is too short for a .glb file: it has 4 of at least 8 bytes"));
 }
 
 TEST_F(Containers, BytesBehindTheEndOfAGlbAreNoted) {
@@ -55,7 +55,7 @@ TEST_F(Containers, BytesBehindTheEndOfAGlbAreNoted) {
     EXPECT_EQ(noted(good).find("header"), std::string::npos);
 }
 
-/// Buffers in the binary chunk of a .glb. What needs bytes that are not there is not drawn.
+/// Buffers in the binary chunk of a .glb. What needs missing bytes is not rendered.
 TEST_F(Containers, BuffersWithoutBytes) {
     TestFile file = test::mesh_file();
     file.json["buffers"] = {{{"byteLength", file.data.size() + 5}}};

@@ -240,8 +240,10 @@ TEST_F(Import, GlassAndUnlitMaterialsHaveNoMicrofacets) {
         EXPECT_NE(test::sentences(read.report).find(sentence), std::string::npos) << sentence;
     };
     file.json["materials"][0]["extensions"] = {{"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}};
-    expect_none("ignored: roughnessFactor at materials[0].pbrMetallicRoughness.roughnessFactor: bodies of glass");
-    expect_none("approximated: metallic-roughness material at materials[0]: a body of glass");
+    expect_none(
+        "ignored: roughnessFactor at materials[0].pbrMetallicRoughness.roughnessFactor: dielectrics have smooth "
+        "surfaces");
+    expect_none("approximated: metallic-roughness material at materials[0]: a dielectric");
     file.json["materials"][0]["extensions"] = {{"KHR_materials_unlit", Json::object()}};
     expect_none("ignored: metallicFactor at materials[0].pbrMetallicRoughness.metallicFactor: an unlit material");
     file.json["materials"][0]["extensions"] = {{"TANDEM_materials_phong", Json::object()}};
@@ -311,7 +313,7 @@ TEST_F(Import, ReadsHowPicturesAreMeant) {
     EXPECT_EQ(of_scene.scene.display, (Display{TransferFunction::srgb, 1})) << "the scene's goes before the file's";
     const std::string report = test::sentences(of_scene.report);
     for (const char* sentence :
-         {"rendered: TANDEM_display at scenes[0].extensions.TANDEM_display: 8-bit pictures are sRGB, exposed by +1 "
+         {"rendered: TANDEM_display at scenes[0].extensions.TANDEM_display: 8-bit images are sRGB, exposed by +1 "
           "stops",
           "ignored: TANDEM_display of the file at extensions.TANDEM_display: the scene has its own"}) {
         EXPECT_NE(report.find(sentence), std::string::npos) << report;
@@ -450,7 +452,7 @@ TEST_F(Import, TakesTheDefaultSceneAndLeavesTheOthers) {
     EXPECT_EQ(result.scene.name, "second");
     ASSERT_EQ(result.scene.nodes.size(), 2U);
     EXPECT_EQ(result.scene.nodes[1].name, "lamp");
-    EXPECT_TRUE(result.scene.animation.empty());  // it drives nodes that are not there
+    EXPECT_TRUE(result.scene.animation.empty());  // it animates nodes that do not exist
     file.json.erase("scene");
     EXPECT_EQ(import(file).scene.nodes.size(), 1U);
     file.json.erase("scenes");

@@ -73,7 +73,7 @@ TEST_F(LoadScene, ShowsTheBackgroundWhereThereIsNothing) {
     TestFile file = bare_file();
     file.json["scenes"][0]["nodes"] = {0};
     const Loaded loaded = load(file);
-    EXPECT_TRUE(contains(loaded.report, "approximated: no surfaces at scenes[0]: the picture is the background"));
+    EXPECT_TRUE(contains(loaded.report, "approximated: no surfaces at scenes[0]: the image shows only the background"));
     EXPECT_EQ(primitive_count(prepare(loaded.scene)), 0U);
 }
 
@@ -105,8 +105,8 @@ TEST_F(LoadScene, LightsAFileWithoutLight) {
     const PreparedScene prepared = prepare(loaded.scene);
     EXPECT_EQ(prepared.lights.size(), 2U);
     EXPECT_NE(prepared.environment.illuminates, 0U);
-    EXPECT_TRUE(
-        contains(loaded.report, "approximated: no light at scenes[0]: lit by an even sky and a light from the "));
+    EXPECT_TRUE(contains(loaded.report,
+                         "approximated: no light at scenes[0]: lit by a uniform background and a light from the "));
     EXPECT_TRUE(contains(loaded.report, "--light none leaves it dark"));
 }
 
@@ -124,9 +124,9 @@ TEST_F(LoadScene, AddsNoLightToWhatSaysHowItIsLit) {
     TestFile lamp = test::small_file();
     lamp.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     lamp.json["nodes"][1]["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
-    TestFile glow = test::small_file();
-    glow.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
-    for (const TestFile& file : {environment, root, lamp, glow}) {
+    TestFile emissive = test::small_file();
+    emissive.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    for (const TestFile& file : {environment, root, lamp, emissive}) {
         EXPECT_TRUE(is_as_imported(file));
         EXPECT_FALSE(contains(load(file).report, "no light"));
     }

@@ -110,9 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
         DocumentFlaw{"view_offset", [](Json& d) { d["bufferViews"][0]["byteOffset"] = 9007199254740991ULL; },
                      "bufferViews[0]", "reaches from byte 9007199254740991"},
         DocumentFlaw{"stride", [](Json& d) { d["bufferViews"][0]["byteStride"] = 6; }, "accessors[0]",
-                     "has elements of 12 bytes, but bufferView 0 steps by 6"},
+                     "has elements of 12 bytes, but bufferView 0 has a stride of 6"},
         DocumentFlaw{"small_stride", [](Json& d) { d["bufferViews"][0]["byteStride"] = 4; }, "accessors[0]",
-                     "has elements of 12 bytes, but bufferView 0 steps by 4"},
+                     "has elements of 12 bytes, but bufferView 0 has a stride of 4"},
         DocumentFlaw{"component", [](Json& d) { d["accessors"][0]["componentType"] = 5124; },
                      "accessors[0].componentType", "one of 5120 5121 5122 5123 5125 5126"},
         DocumentFlaw{"type", [](Json& d) { d["accessors"][0]["type"] = "VEC7"; }, "accessors[0].type", "one of SCALAR"},
@@ -157,7 +157,7 @@ TEST_F(Malformed, NumbersThatAreNotFinite) {
     TestFile file = rich_file();
     const float nan = std::numeric_limits<float>::quiet_NaN();
     file.data.replace(4, 4, test::bytes_of(std::vector<float>{nan}));
-    EXPECT_TRUE(contains(error_of(file), "accessors[0]: element 0 holds a number that is not finite"));  // of instances
+    EXPECT_TRUE(contains(error_of(file), "accessors[0]: element 0 has a number that is not finite"));  // of instances
     std::string text = small_file().text();
     text.replace(text.find("0.8"), 3, "1e999");
     EXPECT_TRUE(contains(error_of_bytes(text), "is not well-formed JSON: number overflow"));
@@ -184,7 +184,7 @@ TEST_F(Malformed, WhatIsNoFile) {
 
 TEST_F(Malformed, WhatIsNoJson) {
     EXPECT_TRUE(contains(error_of_bytes(""), "is empty"));
-    EXPECT_TRUE(contains(error_of_bytes("[]"), "does not hold a JSON object"));
+    EXPECT_TRUE(contains(error_of_bytes("[]"), "is not a JSON object"));
     EXPECT_TRUE(contains(error_of_bytes("{\"asset\": "), "is not well-formed JSON: parse error at line 1"));
     EXPECT_TRUE(contains(error_of_bytes(std::string(64, '\0')), "is not well-formed JSON"));
 }
@@ -243,7 +243,7 @@ TEST_F(Malformed, RepetitionIsBounded) {
     const std::size_t places = file.add_floats("VEC3", std::vector<float>(90'000, 1));
     file.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}};
     EXPECT_TRUE(
-        contains(error_of(file), "nodes: 2 of them show what counts as 48120004 faces in all, and takes 11.31 GB"));
+        contains(error_of(file), "nodes: 2 of them show the equivalent of 48120004 faces, which takes 11.31 GB"));
     // primitives without faces are work as well
     file = rich_file();
     for (int i = 0; i < 3000; ++i) {
@@ -251,7 +251,7 @@ TEST_F(Malformed, RepetitionIsBounded) {
         file.json["nodes"].push_back({{"mesh", 0}});
         file.json["scenes"][0]["nodes"].push_back(i + 4);
     }
-    EXPECT_TRUE(contains(error_of(file), "nodes: 3002 of them show what counts as 36024016 faces"));
+    EXPECT_TRUE(contains(error_of(file), "nodes: 3002 of them show the equivalent of 36024016 faces"));
 }
 
 }  // namespace

@@ -42,9 +42,9 @@ TEST_F(MendedMesh, BeginsAnewAtTheLargestIndex) {
         const std::string sentence = "primitive restart at meshes[0].primitives[0].indices: entry 3 is " +
                                      std::to_string(largest) + ", which glTF forbids; as on GPUs, the ";
         const Indices strip = {0, 1, 2, largest, 2, 3, 4, 5};
-        EXPECT_EQ(mesh_of(with_indices(type, strip, 5), sentence + "triangle strip begins anew").triangles,
+        EXPECT_EQ(mesh_of(with_indices(type, strip, 5), sentence + "triangle strip restarts after it").triangles,
                   (Indices{0, 1, 2, 2, 3, 4, 3, 5, 4}));
-        EXPECT_EQ(mesh_of(with_indices(type, strip, 6), sentence + "triangle fan begins anew").triangles,
+        EXPECT_EQ(mesh_of(with_indices(type, strip, 6), sentence + "triangle fan restarts after it").triangles,
                   (Indices{1, 2, 0, 3, 4, 2, 4, 5, 2}));
         EXPECT_EQ(mesh_of(with_indices(type, {0, 1, 2, largest, 3, largest, 3, 4, 5, 1}), sentence).triangles,
                   (Indices{0, 1, 2, 3, 4, 5}));
@@ -90,7 +90,7 @@ TEST_F(MendedMesh, LeavesOutTrianglesWithoutAPlace) {
         primitive(file)["attributes"]["POSITION"] =
             file.add_floats("VEC3", {bad, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});
         const Mesh mesh = mesh_of(file,
-                                  "triangles at meshes[0].primitives[0].attributes.POSITION: element 0 holds a number "
+                                  "triangles at meshes[0].primitives[0].attributes.POSITION: element 0 has a number "
                                   "that is not finite or beyond 1e18; Tandem leaves out 1 of 2 triangles");
         EXPECT_EQ(mesh.triangles, (Indices{2, 1, 3}));
         EXPECT_EQ(mesh.positions[0], Vec3f(0, 0, 0));
@@ -106,9 +106,10 @@ TEST_F(MendedMesh, TakesTheNormalsOfTheTriangles) {
     normals[1] = normals[7] = nan;
     normals[15] = 1e30F;  // of a vertex that no triangle has
     primitive(file)["attributes"]["NORMAL"] = file.add_floats("VEC3", normals);
-    const Mesh mesh = mesh_of(file,
-                              "approximated: normals at meshes[0].primitives[0].attributes.NORMAL: element 0 holds a "
-                              "number that is not finite or beyond 1e18; Tandem takes the mean of the triangles");
+    const Mesh mesh =
+        mesh_of(file,
+                "approximated: normals at meshes[0].primitives[0].attributes.NORMAL: element 0 has a "
+                "number that is not finite or beyond 1e18; Tandem uses the mean normal of the adjacent triangles");
     EXPECT_EQ(mesh.normals[0], Vec3f(0, 0, 1));
     EXPECT_EQ(mesh.normals[1], Vec3f(0.5F, 0.5F, 0.5F));
     EXPECT_EQ(mesh.normals[2], Vec3f(0, 0, 1));
@@ -121,7 +122,7 @@ TEST_F(MendedMesh, TakesTheCornerForTextureCoordinatesThatAreNoNumbers) {
     primitive(file)["attributes"]["TEXCOORD_0"] =
         file.add_floats("VEC2", {0, 0, 0.5F, nan, 1, 1, 0.25F, 0.5F, 0, 0, 0, 0});
     const Mesh mesh =
-        mesh_of(file, "texture coordinates at meshes[0].primitives[0].attributes.TEXCOORD_0: element 1 holds");
+        mesh_of(file, "texture coordinates at meshes[0].primitives[0].attributes.TEXCOORD_0: element 1 has");
     EXPECT_EQ(mesh.texcoords.at(0)[1], Vec2f(0, 0));
     EXPECT_EQ(mesh.texcoords.at(0)[3], Vec2f(0.25F, 0.5F));
 }
@@ -136,7 +137,8 @@ TEST_F(MendedMesh, GoesWithoutAttributesThatDoNotFit) {
                               "but POSITION has 6; make them equal");
     EXPECT_TRUE(mesh.normals.empty());
     const Mesh other = mesh_of(file, "ignored: attribute TEXCOORD_0 at accessors[3]: is of type VEC3, but");
-    EXPECT_EQ(other.texcoords.at(0), std::vector<Vec2f>(6, Vec2f(0, 0))) << "the corner of the texture covers all";
+    EXPECT_EQ(other.texcoords.at(0), std::vector<Vec2f>(6, Vec2f(0, 0)))
+        << "the texture's corner texel covers the mesh";
 }
 
 /// What is left out is not called rendered.

@@ -110,14 +110,14 @@ INSTANTIATE_TEST_SUITE_P(
                          light["color"] = {1e30, 1, 0};
                          light["intensity"] = 1e30;
                      },
-                     "nodes[3].extensions.KHR_lights_punctual", "color times its intensity is beyond"},
+                     "nodes[3].extensions.KHR_lights_punctual", "color times its intensity is above"},
         DocumentFlaw{
             "emission",
             [](Json& d) {
                 d["materials"][0]["emissiveFactor"] = {1e30, 1, 0};
                 d["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 1e30}};
             },
-            "materials[0].emissiveFactor", "times the emissiveStrength it is beyond"}),
+            "materials[0].emissiveFactor", "times the emissiveStrength it is above"}),
     flaw_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                      },
                      "scenes[0].nodes[1]", "node 2 is a child of node 1; the scene does not reach that node"},
         DocumentFlaw{"both", [](Json& d) { d["nodes"][0]["matrix"] = Json(std::vector<int>(16, 1)); },
-                     "nodes[0].translation", "stands beside a matrix; Tandem takes the matrix"},
+                     "nodes[0].translation", "is given in addition to a matrix; Tandem uses the matrix"},
         DocumentFlaw{"projective",
                      [](Json& d) { d["nodes"][2]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
                      "nodes[2].matrix", "has a last row other than 0, 0, 0, 1"},
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                      "animations[0].channels[0].target.path", "use translation, rotation, scale or weights"},
         DocumentFlaw{"twice_driven",
                      [](Json& d) { d["animations"][0]["channels"][1] = d["animations"][0]["channels"][0]; },
-                     "animations[0].channels[1]", "drives the scale of node 1 a second time"},
+                     "animations[0].channels[1]", "animates the scale of node 1 a second time"},
         DocumentFlaw{
             "two_shapes",
             [](Json& d) {
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
                 d["extensions"]["KHR_implicit_shapes"]["shapes"] = {{{"type", "box"}, {"sphere", Json::object()}}};
                 d["meshes"][0]["primitives"][0]["extensions"] = {{"KHR_implicit_shapes", {{"shape", 0}}}};
             },
-            "extensions.KHR_implicit_shapes.shapes[0]", "is of type 'box' and has the parameters of another"}),
+            "extensions.KHR_implicit_shapes.shapes[0]", "is of type 'box' and has the parameters of another type"}),
     flaw_name);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                          d["animations"][0]["samplers"][0]["input"] = 4,
                          d["accessors"].push_back({{"count", 3}, {"type", "SCALAR"}, {"componentType", 5126}});
                      },
-                     "animations[0].samplers[0].input", "do not rise strictly"},
+                     "animations[0].samplers[0].input", "not strictly increasing"},
         DocumentFlaw{"buffer_length", [](Json& d) { d["buffers"][0]["byteLength"] = 4000000000000ULL; },
                      "buffers[0].byteLength", "is 4000000000000, but its data URI has"}),
     flaw_name);
@@ -235,7 +235,7 @@ TEST_F(Mended, AnimatedNodesWithMatricesStay) {
     const ImportResult result = import(file);
     EXPECT_EQ(result.scene.animation.size(), 1U);
     EXPECT_TRUE(
-        contains(sentences(result.report), "at animations[0].channels[0]: drives node 1, which is placed by a matrix"));
+        contains(sentences(result.report), "at animations[0].channels[0]: animates node 1, which has a matrix"));
 }
 
 /// As exporters write them that know of no stride.

@@ -218,13 +218,13 @@ INSTANTIATE_TEST_SUITE_P(
                 values[4] = std::nanf("");
                 p["attributes"]["POSITION"] = f.add_floats("VEC3", values);
             },
-            "meshes[0].primitives[0].attributes.POSITION: element 1 holds a number that is not finite or beyond 1e18"},
+            "meshes[0].primitives[0].attributes.POSITION: element 1 has a number that is not finite or beyond 1e18"},
         MeshFlaw{"too_far",
                  [](TestFile& f, Json& p) {
                      p.erase("indices");
                      p["attributes"]["POSITION"] = f.add_floats("VEC3", std::vector<float>(9, 1e30F));
                  },
-                 "POSITION: element 0 holds a number that is not finite or beyond 1e18"},
+                 "POSITION: element 0 has a number that is not finite or beyond 1e18"},
         MeshFlaw{
             "repeated",
             [](TestFile& f, Json& p) {
@@ -232,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
                 p["indices"] = f.add_indices(5121, std::vector<std::uint32_t>(3 * 1000, 1));
                 f.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
             },
-            "nodes: 1 of them show what counts as 60000000 faces in all, and takes 14.10 GB of memory; a file with"}),
+            "nodes: 1 of them show the equivalent of 60000000 faces, which takes 14.10 GB of memory; a file with"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST_F(Report, SaysWhatIsRendered) {
           "rendered: animation of translation at animations[0].channels[1]: ",
           "rendered: KHR_lights_punctual point at nodes[3].extensions.KHR_lights_punctual: ",
           "approximated: default material at meshes[1].primitives[0]: ",
-          "approximated: frame rate at animations[0]: glTF has none; Tandem takes 24 frames a second",
+          "approximated: frame rate at animations[0]: glTF has none; Tandem uses 24 frames per second",
           "ignored: camera znear at cameras[0].perspective.znear: "}) {
         EXPECT_TRUE(contains(all, sentence));
     }
@@ -107,7 +107,7 @@ TEST_F(Report, NamesWhatCamerasAndLightsLeaveOut) {
         file.json["scenes"][0]["nodes"].push_back(light + 3);
     }
     for (const char* sentence :
-         {"ignored: camera aspectRatio at cameras[0].perspective.aspectRatio: the film decides",
+         {"ignored: camera aspectRatio at cameras[0].perspective.aspectRatio: the size of the film determines",
           "ignored: camera zfar at cameras[0].perspective.zfar: ",
           "ignored: light range at extensions.KHR_lights_punctual.lights[0].range: ",
           "rendered: KHR_lights_punctual spot at nodes[4].extensions.KHR_lights_punctual: ",
@@ -121,7 +121,7 @@ TEST_F(Report, NamesOrthographicLeftovers) {
     TestFile file = small_file();
     file.json["cameras"][0] =
         Json::parse(R"({"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "zfar": 10, "znear": 0}})");
-    expect(file, "ignored: camera xmag at cameras[0].orthographic.xmag: the film decides");
+    expect(file, "ignored: camera xmag at cameras[0].orthographic.xmag: the size of the film determines");
     expect(file, "rendered: orthographic camera at nodes[0].camera: ");
 }
 
@@ -170,10 +170,11 @@ TEST_F(Report, NamesUnknownExtensionsWhereverTheyAre) {
     file.json["extensionsUsed"] = {"ACME_sparkle", "ACME_unused", "KHR_materials_clearcoat"};
     file.json["nodes"][1]["extensions"]["ACME_sparkle"] = {{"extensions", 3}, {"camera", {1, 2}}};
     file.json["materials"][0]["extensions"]["KHR_materials_clearcoat"] = Json::object();
-    expect(file, "ignored: ACME_sparkle at nodes[1].extensions.ACME_sparkle: Tandem does not know it");
-    expect(file, "ignored: ACME_unused at extensionsUsed[1]: the file lists it and uses it nowhere");
+    expect(file, "ignored: ACME_sparkle at nodes[1].extensions.ACME_sparkle: Tandem does not support it");
+    expect(file, "ignored: ACME_unused at extensionsUsed[1]: the file lists it but does not use it");
     expect(file,
-           "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: of materials Tandem");
+           "ignored: KHR_materials_clearcoat at materials[0].extensions.KHR_materials_clearcoat: Tandem renders base "
+           "colour");
 }
 
 /// It is used, though not where it counts.
@@ -186,7 +187,7 @@ TEST_F(Report, SaysOfAnExtensionThatItIsInsideOfAnIgnoredOne) {
     EXPECT_TRUE(
         contains(all,
                  "ignored: KHR_texture_transform at materials[0].extensions.KHR_materials_specular.specularTexture."
-                 "extensions.KHR_texture_transform: it is inside of KHR_materials_specular, which is ignored"));
+                 "extensions.KHR_texture_transform: it is inside KHR_materials_specular, which is ignored"));
     EXPECT_EQ(all.find("uses it nowhere"), std::string::npos) << all;
 }
 
@@ -200,7 +201,7 @@ TEST_F(Report, DoesNotSayOfAnExtensionWithAFlawThatItIsUsedNowhere) {
     EXPECT_EQ(all.find("uses it nowhere"), std::string::npos) << all;
 }
 
-TEST_F(Report, SaysThatASurfaceGlowsWhereItDoes) {
+TEST_F(Report, SaysThatASurfaceEmitsWhereItDoes) {
     TestFile file = small_file();
     Json& material = file.json["materials"][0];
     material["emissiveFactor"] = {0, 0, 0};
@@ -213,30 +214,32 @@ TEST_F(Report, SaysThatASurfaceGlowsWhereItDoes) {
     EXPECT_EQ(bright.scene.materials[0].optics.emission, Vec3f(0, 15, 0));
     expect(file, "rendered: emission at materials[0].emissiveFactor: ");
     expect(file,
-           "rendered: emissiveFactor at materials[0].emissiveFactor[1]: is 3; glTF has 1 at most, and Tandem takes it");
+           "rendered: emissiveFactor at materials[0].emissiveFactor[1]: is 3; glTF allows 1 at most, but Tandem "
+           "accepts it");
     material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", 0}};
     EXPECT_EQ(sentences(import(file).report).find("rendered: emission at"), std::string::npos);
 }
 
-TEST_F(Report, SaysThatABodyIsOfGlassWhereItIs) {
+TEST_F(Report, SaysThatAMaterialIsADielectricWhereItIs) {
     TestFile file = small_file();
     Json& extensions = file.json["materials"][0]["extensions"];
     extensions["KHR_materials_transmission"] = {{"transmissionFactor", 0}};
     extensions["KHR_materials_volume"] = {{"thicknessFactor", 1}};
     const std::string all = sentences(import(file).report);
-    EXPECT_EQ(all.find("a body of glass"), std::string::npos) << all;
-    EXPECT_TRUE(
-        contains(all, "ignored: KHR_materials_volume at materials[0].extensions.KHR_materials_volume: the body"));
+    EXPECT_EQ(all.find("a dielectric"), std::string::npos) << all;
+    EXPECT_TRUE(contains(all,
+                         "ignored: KHR_materials_volume at materials[0].extensions.KHR_materials_volume: the material "
+                         "transmits no light"));
 }
 
 TEST_F(Report, NamesAPlaceForTheFrameRateThatIsThere) {
     TestFile file = rich_file();
-    expect(file, "takes 24 frames a second unless scenes[0].extras.frames_per_second says otherwise");
+    expect(file, "uses 24 frames per second unless scenes[0].extras.frames_per_second says otherwise");
     file.json.erase("scene");
     file.json.erase("scenes");
     const std::string all = sentences(import(file).report);
     EXPECT_TRUE(
-        contains(all, "takes 24 frames a second; in a file with scenes, extras.frames_per_second of one sets it"));
+        contains(all, "uses 24 frames per second; in a file with scenes, extras.frames_per_second of a scene sets it"));
     EXPECT_EQ(all.find("nodes.extras"), std::string::npos);
 }
 
@@ -248,9 +251,9 @@ TEST_F(Report, SaysThatAnAnimationGoesOnBeyondTheLastFrame) {
     file.json["animations"][0]["samplers"][0]["input"] = times;
     const ImportResult result = import(file);
     EXPECT_EQ(frame_count(result.scene), 2147483647);
-    expect(
-        file,
-        "approximated: length of the animation at animations[0]: its last key is at 1e+30 s; frames have numbers up");
+    expect(file,
+           "approximated: length of the animation at animations[0]: its last key is at 1e+30 s, but the last possible "
+           "frame");
 }
 
 TEST_F(Report, ClampsFactors) {
@@ -262,7 +265,7 @@ TEST_F(Report, ClampsFactors) {
     EXPECT_EQ(result.scene.materials[0].phong.diffuse, Vec3f(1, 0, 0.5F));
     expect(file,
            "approximated: baseColorFactor at materials[0].pbrMetallicRoughness.baseColorFactor[0]: must be a number "
-           "from 0 to 1, but is 1.5; Tandem takes 1");
+           "from 0 to 1, but is 1.5; Tandem uses 1");
 }
 
 TEST_F(Report, NamesTheChoiceOfAScene) {
@@ -270,9 +273,9 @@ TEST_F(Report, NamesTheChoiceOfAScene) {
     file.json["scenes"].push_back({{"nodes", {1}}});
     expect(file, "ignored: further scene at scenes[1]: Tandem renders one scene of a file, here scenes[0]");
     file.json.erase("scene");
-    expect(file, "approximated: no default scene at scenes: Tandem takes the first one");
+    expect(file, "approximated: no default scene at scenes: Tandem uses the first one");
     file.json.erase("scenes");
-    expect(file, "approximated: file without scenes at nodes: all root nodes make up the scene");
+    expect(file, "approximated: file without scenes at nodes: the scene consists of all root nodes");
 }
 
 }  // namespace

@@ -38,18 +38,18 @@ struct StoredScene {
 };
 void PrintTo(const StoredScene& scene, std::ostream* out) { *out << scene.name; }
 
-const EffectMask glow = Effect::emission | Effect::area_lights | Effect::shadows;
+const EffectMask emissive = Effect::emission | Effect::area_lights | Effect::shadows;
 const StoredScene stored_scenes[] = {
     {"paper", {}},
     {"plain", {}},
     {"mirrors", Effect::shadows | Effect::reflection},
     {"glass", Effect::shadows | Effect::refraction | Effect::absorption | Effect::nested_media},
-    {"lens", glow | Effect::lens},
-    {"soft-shadows", glow},
+    {"lens", emissive | Effect::lens},
+    {"soft-shadows", emissive},
     {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
     {"motion", Effect::shadows | Effect::motion_blur},
     {"whitted", all_effects - (Effect::motion_blur | Effect::microfacets | Effect::environment_picture)},
-    {"metals", glow | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
+    {"metals", emissive | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
                    Effect::indirect | Effect::roulette},
 };
 

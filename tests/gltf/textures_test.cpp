@@ -136,7 +136,7 @@ TEST_F(Textures, ThatTandemDoesNotShowAreNotOpened) {
     EXPECT_FALSE(result.scene.materials[0].diffuse_texture);
     const std::string all = sentences(result.report);
     EXPECT_TRUE(
-        contains(all, "ignored: base colour texture at materials[0].pbrMetallicRoughness.baseColorTexture: it lies"));
+        contains(all, "ignored: base colour texture at materials[0].pbrMetallicRoughness.baseColorTexture: it uses"));
     EXPECT_TRUE(contains(all, "ignored: image at images[0]: no texture that Tandem renders uses it"));
     info["texCoord"] = 0;
     file.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
@@ -185,22 +185,21 @@ TEST_F(Textures, OutsideOfTheFolderAreLeftOut) {
 }
 
 TEST_F(Textures, ThatCannotBeReadAreLeftOut) {
-    expect_image_left_out("none.png", "names 'none.png', which is not there");
+    expect_image_left_out("none.png", "names 'none.png', which does not exist");
     write("inside/text.png", "hello");
-    expect_image_left_out("text.png", "'text.png' is not a picture that Tandem reads as a texture: PNG or JPEG");
+    expect_image_left_out("text.png", "'text.png' is not a PNG or JPEG image, the formats of textures");
     write("inside/short.png", small_png().substr(0, 40));
     expect_image_left_out("short.png", "'short.png' is not a readable PNG image: the file is cut off");
     std::string huge = small_png();
     huge[18] = huge[22] = '\x7F';  // the width and height of the header, whose checksum is wrong now
     write("inside/huge.png", huge);
     expect_image_left_out("huge.png", "'huge.png' is not a readable PNG image: ");
-    expect_image_left_out("data:image/gif;base64,AAAA", "'data URI' is not a picture that Tandem reads");
-    expect_image_left_out("data:image/png,AAAA", "is a data URI that does not begin with 'data:', a media type and");
+    expect_image_left_out("data:image/gif;base64,AAAA", "'data URI' is not a PNG or JPEG image");
+    expect_image_left_out("data:image/png,AAAA", "is a data URI that does not start with 'data:', a media type and");
     write("inside/pointer.png", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 4\n");
-    expect_image_left_out("pointer.png",
-                          "'pointer.png' is a pointer of Git LFS, not the file itself; run 'git lfs pull'");
+    expect_image_left_out("pointer.png", "'pointer.png' is a Git LFS pointer, not the file itself; run 'git lfs pull'");
     expect_image_left_out("data:image/png;base64,AAA*", "is a data URI whose base64 is broken");
-    expect_image_left_out("data:image/png;base64,", "'data URI' is not a picture");
+    expect_image_left_out("data:image/png;base64,", "'data URI' is not a PNG or JPEG");
 }
 
 TEST_F(Textures, OfMalformedFilesAreLeftOut) {
@@ -210,9 +209,9 @@ TEST_F(Textures, OfMalformedFilesAreLeftOut) {
     file.json["images"][0] = {{"uri", "a.png"}, {"bufferView", 0}};
     file.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 4}}};
     file.data = "abcd";
-    expect_no_picture(file, "images[0].uri: stands beside a bufferView; Tandem takes the bufferView");
+    expect_no_picture(file, "images[0].uri: is given in addition to a bufferView; Tandem uses the bufferView");
     file.json["images"][0] = {{"bufferView", 0}};
-    expect_no_picture(file, "images[0].bufferView: 'bufferView 0' is not a picture");
+    expect_no_picture(file, "images[0].bufferView: 'bufferView 0' is not a PNG or JPEG");
     file = textured_file();
     file.json["textures"][0]["source"] = 3;
     EXPECT_TRUE(
@@ -280,9 +279,9 @@ TEST_F(Textures, ThatAreTooLargeForTheFileAreHalved) {
     EXPECT_EQ(result.scene.images[1].height, 4096U);
     EXPECT_EQ(result.scene.images[1].texels[0], 0xFF8C8C8CU) << "the mean of 240 and 40";
     EXPECT_EQ(result.scene.images[1].texels[4096], 0xFF282828U);
-    EXPECT_TRUE(
-        contains(sentences(result.report),
-                 "approximated: large image at images[1]: has 8192 x 8192 texels; Tandem takes 4096 x 4096, since"));
+    EXPECT_TRUE(contains(
+        sentences(result.report),
+        "approximated: large image at images[1]: has 8192 x 8192 texels; Tandem reduces it to 4096 x 4096, since"));
 }
 
 }  // namespace

@@ -55,14 +55,14 @@ TEST_F(Uris, Links) {
 }
 
 TEST_F(Uris, ThatNameNothingToRead) {
-    expect_refused("none.bin", "names 'none.bin', which is not there");
+    expect_refused("none.bin", "names 'none.bin', which does not exist");
     expect_refused("", "is empty");
     expect_refused(".", "'.' is not a regular file");
-    expect_refused("a%zzb", "names 'a%zzb', which is not there");
-    expect_refused("a%2", "names 'a%2', which is not there");
-    expect_refused("scene%00.bin", "holds control characters");
-    expect_refused("~/secret.bin", "names '~/secret.bin', which is not there");  // no expansion
-    expect_refused("$HOME", "names '$HOME', which is not there");
+    expect_refused("a%zzb", "names 'a%zzb', which does not exist");
+    expect_refused("a%2", "names 'a%2', which does not exist");
+    expect_refused("scene%00.bin", "contains control characters");
+    expect_refused("~/secret.bin", "names '~/secret.bin', which does not exist");  // no expansion
+    expect_refused("$HOME", "names '$HOME', which does not exist");
 }
 
 TEST_F(Uris, ShortFiles) {
@@ -89,8 +89,8 @@ TEST_F(Uris, DataUris) {
     for (const char* header : {"data:application/gltf-buffer;base64,", "data:;base64,", "data:text/plain;base64,"}) {
         EXPECT_EQ(import_gltf(with_uri(header + digits)).scene.nodes.size(), 4U) << header;
     }
-    expect_refused("data:text/html,hello", "is a data URI that does not begin with");
-    expect_refused("data:", "is a data URI that does not begin with");
+    expect_refused("data:text/html,hello", "is a data URI that does not start with");
+    expect_refused("data:", "is a data URI that does not start with");
     expect_refused("data:;base64,A", "is a data URI whose base64 is broken");
     expect_refused("data:;base64,AA=A", "is a data URI whose base64 is broken");
     std::string odd = good;

@@ -1,13 +1,13 @@
-// The tables of docs/accuracy.md and docs/hard-corpus.md are those of the code. After a change of the cases or marks:
-// TANDEM_UPDATE_DOCS=1 hard_tests --gtest_filter='HardDocs.*'.
+// Compares the tables of docs/accuracy.md and docs/hard-corpus.md with the code. After a change of the cases or error
+// bounds, write them again: TANDEM_UPDATE_DOCS=1 hard_tests --gtest_filter='HardDocs.*'.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
+#include "hard/corpus/error_bounds.h"
 #include "hard/corpus/hard_case.h"
-#include "hard/corpus/marks.h"
 #include "tandem/base/whole_file.h"
 
 namespace tandem::hard {
@@ -16,27 +16,28 @@ namespace {
 std::string share(double value) { return value == 0 ? "0" : fmt::format("{:g} %", 100 * value); }
 std::string ulps(double value) { return std::isinf(value) ? "any" : fmt::format("{:g}", value); }
 
-std::string cell_of(const Mark* mark) {
-    if (mark == nullptr) return "";
-    std::string text = fmt::format("{} / {}", share(mark->wrong), ulps(mark->ulps));
-    if (mark->leaks > 0) text += fmt::format(" / {} leaks", share(mark->leaks));
+std::string cell_of(const ErrorBound* bound) {
+    if (bound == nullptr) return "";
+    std::string text = fmt::format("{} / {}", share(bound->wrong), ulps(bound->ulps));
+    if (bound->leaks > 0) text += fmt::format(" / {} leaks", share(bound->leaks));
     return text;
 }
 
-std::string marks_table() {
+std::string error_bounds_table() {
     std::string text = "| case | strict | precise | fast |\n|---|---|---|---|\n";
     for (const HardCase& hard_case : corpus()) {
-        text += fmt::format(
-            "| {} {} | {} | {} | {} |\n", hard_case.id, hard_case.title, cell_of(find_mark(hard_case.id, Tier::strict)),
-            cell_of(find_mark(hard_case.id, Tier::precise)), cell_of(find_mark(hard_case.id, Tier::fast)));
+        text += fmt::format("| {} {} | {} | {} | {} |\n", hard_case.id, hard_case.title,
+                            cell_of(find_error_bound(hard_case.id, Tier::strict)),
+                            cell_of(find_error_bound(hard_case.id, Tier::precise)),
+                            cell_of(find_error_bound(hard_case.id, Tier::fast)));
     }
     return text;
 }
 
 std::string cases_table() {
-    std::string text = "| case | what is tried | why naive code fails | oracle |\n|---|---|---|---|\n";
+    std::string text = "| case | what is tested | why naive code fails | oracle |\n|---|---|---|---|\n";
     for (const HardCase& hard_case : corpus()) {
-        const char* kind = hard_case.has_rays() ? "" : hard_case.on_host() ? " (functions)" : " (pictures)";
+        const char* kind = hard_case.has_rays() ? "" : hard_case.on_host() ? " (functions)" : " (images)";
         text += fmt::format("| {} | {}{} | {} | {} |\n", hard_case.id, hard_case.title, kind, hard_case.why,
                             hard_case.oracle);
     }
@@ -62,8 +63,8 @@ void expect_part(const std::string& page, const std::string& name, const std::st
     }
 }
 
-TEST(HardDocs, MarksAreThoseOfTheCode) { expect_part("accuracy.md", "marks", marks_table()); }
-TEST(HardDocs, CasesAreThoseOfTheCode) { expect_part("hard-corpus.md", "cases", cases_table()); }
+TEST(HardDocs, ErrorBoundsMatchTheCode) { expect_part("accuracy.md", "error bounds", error_bounds_table()); }
+TEST(HardDocs, CasesMatchTheCode) { expect_part("hard-corpus.md", "cases", cases_table()); }
 
 }  // namespace
 }  // namespace tandem::hard

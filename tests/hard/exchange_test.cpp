@@ -1,5 +1,5 @@
-// The corpus as files: what is written reads back as the same bits, right answers pass, wrong ones are found, and files
-// that are not as they should be give one sentence.
+// The corpus as files: exported numbers read back as the same bits, correct answers pass, wrong ones are found, and
+// malformed files give one message.
 #include "hard/corpus/exchange.h"
 
 #include <gtest/gtest.h>
@@ -38,12 +38,12 @@ TEST(Exchange, ScenesReadBackAsTheSameBits) {
     std::size_t scenes = 0;
     for (const HardCase* hard_case : select_cases({})) {
         if (!hard_case->has_rays() || hard_case->id == "K11" || hard_case->id == "D9") continue;  // large, and alike
-        for (const AnsweredLot& lot : answered_lots(*hard_case, 48)) {
-            if (!fits_gltf(lot.scene)) continue;
-            write_file(folder.file("scene.gltf"), std::string_view(to_gltf(lot.scene)), Durability::written);
+        for (const AnsweredBatch& batch : answered_batches(*hard_case, 48)) {
+            if (!fits_gltf(batch.scene)) continue;
+            write_file(folder.file("scene.gltf"), std::string_view(to_gltf(batch.scene)), Durability::written);
             const PreparedScene read =
                 prepare(import_gltf(folder.file("scene.gltf")).scene, {.origin = Vec3d{0, 0, 0}});
-            ASSERT_EQ(scene_hash(read), scene_hash(lot.prepared)) << hard_case->id;
+            ASSERT_EQ(scene_hash(read), scene_hash(batch.prepared)) << hard_case->id;
             ++scenes;
         }
     }
@@ -53,13 +53,13 @@ TEST(Exchange, ScenesReadBackAsTheSameBits) {
 TEST(Exchange, RaysReadBackAsTheSameBits) {
     test::TemporaryFolder folder;
     export_to(folder, {"A11"});
-    const auto lots = answered_lots(*select_cases({"A11"}).front(), 40);
-    for (std::size_t lot = 0; lot < lots.size(); ++lot) {
+    const auto batches = answered_batches(*select_cases({"A11"}).front(), 40);
+    for (std::size_t batch = 0; batch < batches.size(); ++batch) {
         const auto numbers =
-            read_npy<double>(folder.file("A11-" + std::to_string(lot) + ".rays.npy"), lots[lot].rays.size(), 6);
-        for (std::size_t i = 0; i < lots[lot].rays.size(); ++i) {
-            EXPECT_EQ(numbers[6 * i], double{lots[lot].rays[i].origin.x});
-            EXPECT_EQ(numbers[6 * i + 5], double{lots[lot].rays[i].direction.z});
+            read_npy<double>(folder.file("A11-" + std::to_string(batch) + ".rays.npy"), batches[batch].rays.size(), 6);
+        for (std::size_t i = 0; i < batches[batch].rays.size(); ++i) {
+            EXPECT_EQ(numbers[6 * i], double{batches[batch].rays[i].origin.x});
+            EXPECT_EQ(numbers[6 * i + 5], double{batches[batch].rays[i].direction.z});
         }
     }
 }
@@ -129,7 +129,7 @@ TEST(Exchange, MalformedFilesGiveOneSentence) {
     broken("hello, world", "is not an array");
     broken(std::string_view("\x93NUMPY\x01\x00\xff\xff{", 11), "ends within its header");
     broken(std::string_view("\x93NUMPY\x01\x00\x02\x00{}", 12), "has a header without");
-    const std::size_t rays = answered_lots(*select_cases({"A9"}).front(), 40).front().rays.size();
+    const std::size_t rays = answered_batches(*select_cases({"A9"}).front(), 40).front().rays.size();
     write_npy(id_file, std::vector<std::int32_t>(rays + 1, -1));
     EXPECT_TRUE(test::contains(message(), "is of shape"));
     write_npy(id_file, std::vector<float>(rays, 0));
@@ -141,9 +141,9 @@ TEST(Exchange, MalformedFilesGiveOneSentence) {
     const Bytes whole = read_file(folder.file("exact/A9-0.id.npy"));
     write_file(id_file, std::span(whole).first(whole.size() - 1), Durability::written);
     EXPECT_TRUE(test::contains(message(), "bytes of numbers"));
-    for (const char* text : {"", "{}", "[1, 2]", R"({"format": 2, "cases": []})",
-                             R"({"format": 1, "cases": [{"id": "A9", "title": "", "watertight": false,
-                                 "lots": [{"name": "../A9", "rays": 1, "primitives": 1}]}]})"}) {
+    for (const char* text : {"", "{}", "[1, 2]", R"({"format": 1, "cases": []})",
+                             R"({"format": 2, "cases": [{"id": "A9", "title": "", "watertight": false,
+                                 "batches": [{"name": "../A9", "rays": 1, "primitives": 1}]}]})"}) {
         write_file(folder.file("manifest.json"), std::string_view(text), Durability::written);
         EXPECT_TRUE(test::contains(message(), "manifest.json: ")) << text;
     }

@@ -1,5 +1,5 @@
-# Exports two cases, lets Embree's spheres answer, and scores them: Embree is right about the easy half of A1 and wrong
-# about the planet, so the status is 1.
+# Exports two cases, answers them with Embree's spheres, and scores the answers: the easy half of A1 is right and the planet
+# is wrong, so the status is 1.
 string(RANDOM LENGTH 8 suffix)
 set(folder "${CMAKE_CURRENT_BINARY_DIR}/hard-export-${suffix}")
 execute_process(COMMAND ${BENCH} hard --cases A1,A2 --rays 600 --export ${folder} RESULT_VARIABLE status)

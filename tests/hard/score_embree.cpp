@@ -1,5 +1,4 @@
-// How another renderer answers to the corpus, for real: Embree's own spheres and triangles. Reads an exported folder
-// and writes answers.
+// Embree's own spheres and triangles as another renderer: reads an exported corpus and writes answers.
 //
 //   tandem-bench hard --export DIR
 //   score_embree DIR DIR/plain
@@ -39,9 +38,9 @@ bool trace_natively(const PreparedScene& scene, bench::EmbreeFlags flags, const 
     return trace(std::span(scene.spheres)) || trace(std::span(scene.triangles));
 }
 
-/// False if the scene holds what Embree has no geometry for.
-bool answer_lot(const fs::path& folder, const fs::path& answers, bench::EmbreeFlags flags, const std::string& name,
-                std::size_t count) {
+/// False if the scene contains primitives for which Embree has no geometry.
+bool answer_batch(const fs::path& folder, const fs::path& answers, bench::EmbreeFlags flags, const std::string& name,
+                  std::size_t count) {
     const PreparedScene scene = prepare(import_gltf(folder / (name + ".gltf")).scene, {.origin = Vec3d{0, 0, 0}});
     const std::vector<Ray<float>> rays = hard::read_rays(folder.string(), name, count);
     std::vector<Ray<float>> taken;
@@ -74,16 +73,17 @@ int run(int count, char** words) {
     fs::create_directories(answers);
     std::ifstream file(folder / "manifest.json");
     if (!file)
-        throw InputError(fmt::format("{}: no manifest.json here; tandem-bench hard --export writes one", words[1]));
+        throw InputError(
+            fmt::format("{}: there is no manifest.json here; tandem-bench hard --export writes one", words[1]));
     const nlohmann::json manifest = nlohmann::json::parse(file);
     for (const auto& hard_case : manifest.at("cases")) {
         std::size_t skipped = 0;
-        for (const auto& lot : hard_case.at("lots")) {
-            skipped += !answer_lot(folder, answers, flags, lot.at("name"), lot.at("rays"));
+        for (const auto& batch : hard_case.at("batches")) {
+            skipped += !answer_batch(folder, answers, flags, batch.at("name"), batch.at("rays"));
         }
         if (skipped > 0) {
-            fmt::print("{}: {} scenes are not of spheres or triangles alone\n", hard_case.at("id").get<std::string>(),
-                       skipped);
+            fmt::print("{}: skipped {} scenes that are not of spheres or triangles only\n",
+                       hard_case.at("id").get<std::string>(), skipped);
         }
     }
     fmt::print("{} answered\n", bench::EmbreeNative::version());

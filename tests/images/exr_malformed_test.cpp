@@ -109,17 +109,17 @@ TEST(MalformedExr, ForgedSizesAreFoundOutBeforeMemoryIsAllocated) {
     const Bytes parts = write_exr(picture, {.multipart = true});
     const long before = peak_memory();
     for (const auto& [bytes, reason] :
-         {std::pair{forged(lines, "dataWindow", 8, {65535, 16383}), "bytes, and"},
+         {std::pair{forged(lines, "dataWindow", 8, {65535, 16383}), "bytes, but"},
           std::pair{forged(lines, "dataWindow", 8, {65536, 3}), "65537 x 4 pixels"},
           std::pair{forged(lines, "dataWindow", 0, {6, 0, 5, 3}), "data window is empty"},
-          std::pair{forged(lines, "dataWindow", 8, {4, 65535}), "bytes, and"},
+          std::pair{forged(lines, "dataWindow", 8, {4, 65535}), "bytes, but"},
           std::pair{forged(lines, "dataWindow", 8, {65535, 0}), "blocks of lines are too large"},
           std::pair{forged(tiles, "tiles", 0, {0, 3}), "its tiles have no size"},
           std::pair{forged(tiles, "tiles", 0, {65536, 65536}), "its tiles are too large"},
           std::pair{forged(tiles, "tiles", 0, {0xFFFFFFFF, 0xFFFFFFFF}), "its tiles are too large"},
           std::pair{forged(tiles, "tiles", 0, {4096, 4096}), "its tiles or blocks"},
-          std::pair{forged(forged(tiles, "tiles", 0, {1, 1}), "dataWindow", 8, {99, 99}), "80000 bytes, and"},
-          std::pair{forged(parts, "chunkCount", 0, {0x7FFFFFFF}), "17179869176 bytes, and"}}) {
+          std::pair{forged(forged(tiles, "tiles", 0, {1, 1}), "dataWindow", 8, {99, 99}), "80000 bytes, but"},
+          std::pair{forged(parts, "chunkCount", 0, {0x7FFFFFFF}), "17179869176 bytes, but"}}) {
         const auto message = thrown_message<InputError>([&file = bytes] { (void)decode_exr(file, "some.exr"); });
         EXPECT_NE(message.find(reason), std::string::npos) << message << ", instead of: " << reason;
     }

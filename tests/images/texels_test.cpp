@@ -72,7 +72,7 @@ TEST(Texels, ThatAreBrokenAreRefused) {
         } catch (const InputError&) {
         }
     }
-    EXPECT_TRUE(contains(error_of({}), "is not a picture that Tandem reads as a texture: PNG or JPEG"));
+    EXPECT_TRUE(contains(error_of({}), "is not a PNG or JPEG image, the formats of textures"));
 }
 
 Bytes with(Bytes bytes, const std::string& more) {
@@ -158,8 +158,7 @@ TEST(Texels, OfInterlacedPngAreTheUpperLeftPixels) {
 
 TEST(Texels, InPlaceOfAPointerOfGitLfsAreMissing) {
     const Bytes pointer = with({}, "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 4\n");
-    EXPECT_TRUE(
-        contains(error_of(pointer), "'memory' is a pointer of Git LFS, not the file itself; run 'git lfs pull'"));
+    EXPECT_TRUE(contains(error_of(pointer), "'memory' is a Git LFS pointer, not the file itself; run 'git lfs pull'"));
 }
 
 TEST(Texels, ThatClaimToBeHugeAreRefusedBeforeMemoryIsAllocated) {
@@ -179,7 +178,7 @@ TEST(Texels, ThatClaimToBeHugeAreRefusedBeforeMemoryIsAllocated) {
         for (unsigned i = 0; i < 4; ++i) bytes[29 + i] = std::byte(~crc >> (24 - 8 * i) & 255U);
         return bytes;
     };
-    EXPECT_TRUE(contains(error_of(claiming(16385, 1)), "it claims 16385 x 1 pixels"));
+    EXPECT_TRUE(contains(error_of(claiming(16385, 1)), "its header claims 16385 x 1 pixels"));
     EXPECT_TRUE(contains(error_of(claiming(16384, 16384)), "the pixels need at least"));
     EXPECT_EQ(decode_texels(claiming(1, 1), "memory").texels.at(0), 0xFF070707U) << "the checksum is right";
 }
@@ -286,12 +285,12 @@ TEST(Texels, OfBrokenJpegAreRefused) {
             }
         }
     }
-    EXPECT_TRUE(contains(error_of(jpeg(JCS_CMYK, 8, false, slope(8, 4))), "its colours are not grey or YCbCr"));
+    EXPECT_TRUE(contains(error_of(jpeg(JCS_CMYK, 8, false, slope(8, 4))), "its colours are neither grey nor YCbCr"));
 }
 
 TEST(Texels, OfJpegThatClaimToBeHugeAreRefused) {
     for (const auto& [edge, reason] :
-         {std::pair{16000U, "the pixels need at least"}, std::pair{65000U, "it claims 65000 x 65000"}}) {
+         {std::pair{16000U, "the pixels need at least"}, std::pair{65000U, "its header claims 65000 x 65000"}}) {
         Bytes bytes = jpeg(JCS_GRAYSCALE, 8, false, slope(8, 1));
         std::size_t at = 2;  // the frame header: FF C0, length, precision, height, width
         while (bytes[at + 1] != std::byte{0xC0}) {

@@ -262,7 +262,7 @@ TEST(Framing, OfNothingOrTooMuchStandsBeforeTheOrigin) {
 TEST(Framing, RefusesViewsAndFilmsThatThereAreNot) {
     const Scene ball = scene_of(SphereShape{1});
     EXPECT_TRUE(test::contains(test::input_error([&] { (void)frame_scene(ball, "under", 1); }),
-                               "there is no view 'under'; take one of auto, front"));
+                               "there is no view 'under'; the views are auto, front"));
     for (const double aspect : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
         EXPECT_TRUE(test::contains(test::input_error([&] { (void)frame_scene(ball, "auto", aspect); }), "film"));
     }

@@ -64,7 +64,7 @@ TEST(LoadScene, TakesNamesAndFiles) {
     ImportReport report;
     EXPECT_EQ(load_scene("named:paper", &report).name, "paper");
     EXPECT_TRUE(report.notes().empty());
-    EXPECT_TRUE(contains(test::input_error([] { (void)load_scene("named:none"); }), "no scene is named 'none'"));
+    EXPECT_TRUE(contains(test::input_error([] { (void)load_scene("named:none"); }), "there is no scene 'none'"));
     EXPECT_TRUE(contains(test::input_error([] { (void)load_scene("no/such.gltf"); }), "cannot read 'no/such.gltf'"));
 }
 

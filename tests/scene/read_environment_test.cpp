@@ -26,7 +26,7 @@ class ReadEnvironment : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(ReadEnvironment, KeepsLightAndMendsNegativeValues) {
+TEST_F(ReadEnvironment, KeepsLightAndReplacesNegativeValues) {
     const EnvironmentFile file = read_environment(
         written({3, 2, {{1, 2, 3}, {-1e-6F, 5, 0}, {0, -0.0F, 1}, {-1, -1, -1}, {0x1p100F, 0, 0}, {1e-40F, 0, 0}}}));
     EXPECT_EQ(file.picture.pixels,

@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}}};
              },
-             "mesh 'cup' has a number of normals"},
+             "mesh 'cup' does not have one normal per position"},
         Flaw{"normal",
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {{0, 0, nan_f}}}};
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {{{0, 0}, {0, 1}}}}};
              },
-             "mesh 'cup' has a number of texture coordinates"},
+             "mesh 'cup' does not have one texture coordinate per position"},
         Flaw{"texcoord",
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {{{0, nan_f}}}}};
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
              [](Scene& s) {
                  s.meshes = {{.name = "cup", .positions = {{0, 0, 0}}, .colours = {{}, {}}}};
              },
-             "mesh 'cup' has a number of colours"},
+             "mesh 'cup' does not have one colour per position"},
         Flaw{"colour",
              [](Scene& s) {
                  s.meshes = {{.name = "cup", .positions = {{0, 0, 0}}, .colours = {{{0, 2, 0}, 1}}}};
@@ -118,12 +118,12 @@ INSTANTIATE_TEST_SUITE_P(
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {0, 0, 0, 0}}};
              },
-             "mesh 'cup' has a number of triangle indices that is not a multiple of 3"},
+             "mesh 'cup' has triangle indices whose number is not a multiple of 3"},
         Flaw{"quad_count",
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {}, {0, 0, 0}}};
              },
-             "mesh 'cup' has a number of quad indices that is not a multiple of 4"},
+             "mesh 'cup' has quad indices whose number is not a multiple of 4"},
         Flaw{"triangle_index",
              [](Scene& s) {
                  s.meshes = {{"cup", {{0, 0, 0}}, {}, {}, {0, 0, 1}}};
@@ -152,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"no_keys", [](Scene& s) { s.animation[0].times.clear(), s.animation[0].values.clear(); }, "has no keys"},
         Flaw{"key_order", [](Scene& s) { s.animation[0].times[2] = 1; }, "strictly increasing"},
         Flaw{"key_sign", [](Scene& s) { s.animation[0].times[0] = -1; }, "strictly increasing"},
-        Flaw{"key_values", [](Scene& s) { s.animation[0].values.pop_back(); }, "does not fit its keys"},
+        Flaw{"key_values", [](Scene& s) { s.animation[0].values.pop_back(); },
+             "does not have the number of values that its keys need"},
         Flaw{"key_nan", [](Scene& s) { s.animation[0].values[4] = nan_f; }, "values that are not finite"},
         Flaw{"key_rotation",
              [](Scene& s) {
@@ -181,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
                  s.environment_image = EnvironmentImage{{1, 1, {{1, 1, 1}}}, HUGE_VAL, 1};
              },
              "the environment's picture has a rotation"},
-        Flaw{"exposure", [](Scene& s) { s.display.exposure_stops = 101; }, "the display has an exposure that is not"},
+        Flaw{"exposure", [](Scene& s) { s.display.exposure_stops = 101; }, "the display has an exposure outside"},
         Flaw{"frame_rate", [](Scene& s) { s.frames_per_second = 0; }, "a frame rate that is not positive"}),
     [](const auto& info) { return std::string(info.param.name); });
 

@@ -1,5 +1,5 @@
-/// Rays and bodies that are hard on intersection tests, by kind: docs/numerics.md has the catalogue. Each case is made
-/// from (kind, number) alone, so that these two reproduce it.
+/// Rays and solids that are hard for intersection tests, by kind (docs/numerics.md). Each case is a function of (kind,
+/// number), which reproduce it.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ inline SphereCase sphere_case(int kind, std::uint64_t number) {
             return aim(random, any_unit(random) * 100.0, 1, std::exp2(random.uniform(3.0, 20.0)), grazing());
         case 4:
             return aim(random, origin, std::exp2(random.uniform(-24.0, -10.0)), 100, random.uniform(0.0, 1.5));
-        case 5: {  // looking down from 1.75 above a planet
+        case 5: {  // looking down from 1.75 m above a planet
             SphereCase c = aim(random, {0, -6.4e6, 0}, 6.4e6, 6.4e6 + 1.75, random.uniform(0.0, 0.5));
             c.ray.origin = {0, 1.75F, 0};
             c.ray.direction = narrow(any_unit(random));
@@ -140,8 +140,8 @@ inline constexpr const char* box_kinds[] = {"inside and outside",
                                             "any magnitudes",
                                             "edges, by the last bits"};
 
-/// A line that enters by one axis and leaves by another at parameters n1 / d1 and n2 / d2 with n1 d2 - n2 d1 = 0, 1
-/// or -1: apart by 2^-70 of themselves, so that only exact arithmetic tells a touched edge from a missed one.
+/// A line that enters by one axis and leaves by another at parameters n1 / d1 and n2 / d2 with n1 d2 - n2 d1 = 0, 1 or
+/// -1: they differ by 2^-70 of themselves, so that only exact arithmetic decides whether the line touches the edge.
 inline BoxCase almost_equal_quotients(Random& random) {
     const auto odd = [&] { return static_cast<std::int64_t>(random.below(1U << 22) * 2U + (1U << 23) + 1U); };
     std::int64_t d1 = odd(), d2 = odd();
@@ -176,7 +176,7 @@ inline BoxCase box_case(int kind, std::uint64_t number) {
         return static_cast<float>(static_cast<int>(random.below(2U * static_cast<unsigned>(range) + 1U)) - range);
     };
     const auto sign = [&] { return random.coin() ? 1.0F : -1.0F; };
-    /// A point of an edge of `unit`: two coordinates at their limits.
+    /// A point on an edge of `unit`: two coordinates are at their limits.
     const auto edge_point = [&](float free) {
         Vec3f p = {sign(), sign(), sign()};
         p[static_cast<int>(random.below(3))] = free;

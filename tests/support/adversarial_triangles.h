@@ -1,4 +1,4 @@
-/// Triangles and rays that are hard on intersection tests, by kind, as in adversarial_rays.h.
+/// Triangles and rays that are hard for intersection tests, by kind, as in adversarial_rays.h.
 #pragma once
 
 #include "support/adversarial_rays.h"
@@ -18,7 +18,7 @@ inline constexpr const char* triangle_kinds[] = {"anywhere",       "edges, exact
                                                  "in the plane",   "any magnitudes", "edges, by the last bits",
                                                  "mixed exponents"};
 
-/// A point of the triangle, of one of its edges, or of somewhere around it.
+/// A point on the triangle, on one of its edges, or around it.
 inline Vec3d point_of(Random& random, const Triangle& triangle, double overshoot = 0.2) {
     double u = random.uniform(-overshoot, 1 + overshoot);
     double v = random.uniform(-overshoot, 1 + overshoot - u);

@@ -1,4 +1,4 @@
-/// Rays aimed at bodies: what generators of hard cases have in common.
+/// Rays aimed at solids: shared by the generators of hard cases.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline Vec3d any_unit(Random& random) {
     }
 }
 
-/// A unit vector at a right angle to `axis`.
+/// A unit vector perpendicular to `axis`.
 inline Vec3d any_across(Random& random, const Vec3d& axis) {
     for (;;) {
         const Vec3d v = tandem::cross(axis, any_unit(random));
@@ -27,7 +27,7 @@ inline Vec3d any_across(Random& random, const Vec3d& axis) {
     }
 }
 
-/// A turn about any axis, as a unit quaternion.
+/// A rotation about any axis, as a unit quaternion.
 inline Quaternion any_turn(Random& random) {
     const Vec3d axis = any_unit(random) * 0.8;
     return {axis.x, axis.y, axis.z, 0.6};

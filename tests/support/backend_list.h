@@ -1,4 +1,4 @@
-/// The backends that promise equal bits, one test parameter each.
+/// The backends that guarantee equal bits, one test parameter each.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace tandem::test {
 
-/// One way to render: a backend, a tier that promises bits and, for the CPU, an instruction set.
+/// One way to render: a backend, an exact tier and, for the CPU, an instruction set.
 struct Renderer {
     std::string backend;
     BackendOptions options;

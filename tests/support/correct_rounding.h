@@ -1,6 +1,6 @@
-/// The correctly rounded float value of a function, from MPFR, by way of the C library's double function where that
-/// one decides: its error is below 2^-51, so a value that is not within 2^-50 of the border between two floats rounds
-/// as the true one does.
+/// The correctly rounded float value of a function: from the C library's double function where that decides, else from
+/// MPFR. The error of the library is below 2^-51, so a value that is not within 2^-50 of the midpoint between two
+/// floats is rounded like the exact one.
 #pragma once
 
 #include <mpfr.h>
@@ -11,7 +11,7 @@
 
 namespace tandem::test {
 
-/// A function of one or two arguments as the two references have it, and ours. `second` is unused where there is none.
+/// A function of one or two arguments, in both references and in ours. `second` is unused if there is only one.
 struct Function {
     const char* name;
     float (*ours)(float first, float second);
@@ -51,7 +51,7 @@ class CorrectRounding {
         return from_mpfr(x, y);
     }
 
-    /// Without the short cut; leaves the exact value for hardness().
+    /// From MPFR only; keeps the exact value for hardness().
     float from_mpfr(float x, float y = 0) {
         ++mpfr_calls;
         mpfr_set_flt(first_, x, MPFR_RNDN);
@@ -60,8 +60,8 @@ class CorrectRounding {
         return mpfr_get_flt(exact_, MPFR_RNDN);
     }
 
-    /// Distance of the last value from the nearest midpoint of two floats, relative to the value; exact midpoints and
-    /// what is not a finite normal float give 1.
+    /// The relative distance of the last value from the nearest midpoint of two floats; 1 for exact midpoints and for
+    /// values that are not finite normal floats.
     double hardness() {
         const float nearest = mpfr_get_flt(exact_, MPFR_RNDN);
         if (!std::isnormal(nearest)) return 1;
@@ -83,7 +83,7 @@ class CorrectRounding {
     mpfr_t first_, second_, exact_, distance_;
 };
 
-/// Equal bits, or both NaN: ours is always the quiet NaN 0x7FC00000.
+/// Equal bits, or both NaN, where ours must be the quiet NaN 0x7FC00000.
 inline bool agrees(float ours, float reference) {
     if (std::isnan(reference)) return bits_of(ours) == 0x7FC00000U;
     return bits_of(ours) == bits_of(reference);

@@ -1,12 +1,12 @@
-/// A scene whose rays are much work.
+/// A scene whose rays are expensive.
 #pragma once
 
 #include "tandem/scene/scene.h"
 
 namespace tandem::test {
 
-/// `count` spheres, each a little aside of the other, and a camera (node 0) that sees the bounds of all in every pixel
-/// of a film that is twice as wide as high.
+/// `count` spheres, slightly displaced, and a camera (node 0) that sees the bounds of all of them in every pixel of a
+/// film that is twice as wide as high.
 inline Scene crowded_scene(int count) {
     Scene scene;
     scene.materials.emplace_back();

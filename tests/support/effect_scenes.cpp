@@ -9,7 +9,7 @@ namespace tandem::test {
 
 namespace {
 
-Material matt(std::string name, const Vec3f& diffuse) {
+Material lambertian(std::string name, const Vec3f& diffuse) {
     return {std::move(name), {diffuse * 0.1F, diffuse, {0.3F, 0.3F, 0.3F}, 24}};
 }
 Material mirror(const Vec3f& reflectance) {
@@ -23,10 +23,10 @@ Material glass(std::string name, float ior, const Vec3f& absorption = {0, 0, 0},
     return material;
 }
 
-/// A camera, a floor, three bodies and no light. Materials: 0 floor, 1 to 3 bodies.
+/// A camera, a floor, three objects and no light. Materials: 0 floor, 1 to 3 objects.
 Scene still_life(const Material& first, const Material& second, const Material& third) {
     Scene scene;
-    scene.materials = {matt("floor", {0.7F, 0.7F, 0.6F}), first, second, third};
+    scene.materials = {lambertian("floor", {0.7F, 0.7F, 0.6F}), first, second, third};
     Node eye{.name = "eye", .camera = PerspectiveCamera{0.9}};
     eye.trs.translation = {0.1, 0.9, 3.2};
     eye.trs.rotation = {std::sin(-0.1), 0, 0, std::cos(-0.1)};
@@ -42,9 +42,9 @@ Scene still_life(const Material& first, const Material& second, const Material& 
     add("small ball", {0, -0.25, 0.8}, SphereShape{0.25}, 3);
     return scene;
 }
-Scene matt_scene() {
-    return still_life(matt("red", {0.8F, 0.2F, 0.2F}), matt("green", {0.2F, 0.7F, 0.2F}),
-                      matt("blue", {0.2F, 0.2F, 0.8F}));
+Scene diffuse_scene() {
+    return still_life(lambertian("red", {0.8F, 0.2F, 0.2F}), lambertian("green", {0.2F, 0.7F, 0.2F}),
+                      lambertian("blue", {0.2F, 0.2F, 0.8F}));
 }
 
 Scene lit(Scene scene, const LightSource& light, const Vec3d& at = {1.5, 3, 2}) {
@@ -57,7 +57,7 @@ Scene lit(Scene scene, const LightSource& light, const Vec3d& at = {1.5, 3, 2}) 
 }
 LightSource without_shadows() { return {.casts_shadows = false}; }
 
-/// The bodies as meshes of triangles: an icosahedron in place of each sphere.
+/// The objects as triangle meshes, with an icosahedron instead of each sphere.
 Scene with_meshes(Scene scene) {
     const Scene icosphere = named_scene("icosphere/2");
     scene.meshes = icosphere.meshes;
@@ -72,7 +72,7 @@ Scene with_meshes(Scene scene) {
     return scene;
 }
 
-/// A ball of water in a ball of glass, a bubble of air in a block, and a body that reaches into another.
+/// A ball of water in a ball of glass, a bubble of air in a block, and a solid that reaches into another.
 Scene nested() {
     Scene scene = still_life(glass("glass", 1.5F, {0.3F, 0.1F, 0.2F}, 2), glass("block", 1.6F, {0, 0.4F, 0.8F}, 1),
                              glass("water", 1.33F, {0.6F, 0.2F, 0.1F}, 1));
@@ -89,7 +89,7 @@ Scene nested() {
 }
 
 Scene camera_in_water() {
-    Scene scene = still_life(glass("glass", 1.5F), matt("green", {0.2F, 0.7F, 0.2F}),
+    Scene scene = still_life(glass("glass", 1.5F), lambertian("green", {0.2F, 0.7F, 0.2F}),
                              glass("water", 1.33F, {0.2F, 0.05F, 0.02F}));
     Node pool{.name = "pool", .trs = {.translation = {0, 0.9, 3.2}}};
     pool.geometry.push_back({SphereShape{1.5}, 3, {}});
@@ -97,17 +97,17 @@ Scene camera_in_water() {
     return scene;
 }
 
-/// A picture of 8 x 8 texels; every third is a hole.
-Image checks(const char* name, bool holes) {
+/// An image of 8 x 8 texels, of which every third is masked out.
+Image checks(const char* name, bool masked) {
     Image image{name, 8, 8, {}};
     for (std::uint32_t i = 0; i < 64; ++i) {
         const std::uint32_t level = (i * 37 + i / 8 * 91) % 200 + 40;
-        const std::uint32_t alpha = holes && i % 3 == 0 ? 0U : 255U;
+        const std::uint32_t alpha = masked && i % 3 == 0 ? 0U : 255U;
         image.texels.push_back(level | (255 - level) << 8 | (i * 4) << 16 | alpha << 24);
     }
     return image;
 }
-/// Normals that lean to all sides.
+/// A normal map with normals tilted in all directions.
 Image bumps() {
     Image image{"bumps", 8, 8, {}};
     for (std::uint32_t i = 0; i < 64; ++i) {
@@ -116,10 +116,10 @@ Image bumps() {
     return image;
 }
 
-/// Every kind of primitive with a picture: ball, block, an ellipsoid, a turned block, a mesh.
-Scene textured(bool colours, bool normals, bool holes) {
-    Scene scene = matt_scene();
-    scene.images = {checks("checks", holes), bumps()};
+/// Every kind of primitive with a texture: sphere, box, ellipsoid, rotated box, mesh.
+Scene textured(bool colours, bool normals, bool masked) {
+    Scene scene = diffuse_scene();
+    scene.images = {checks("checks", masked), bumps()};
     scene.textures = {{0, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear},
                       {0, Wrap::clamp_to_edge, Wrap::repeat, Filter::nearest},
                       {1, Wrap::repeat, Wrap::repeat, Filter::linear}};
@@ -128,7 +128,7 @@ Scene textured(bool colours, bool normals, bool holes) {
         if (colours)
             material.diffuse_texture = TextureReference{i % 2 == 0 ? 0U : 1U, {0.1F, 0.2F}, 0.3F, {1.5F, 2.5F}};
         if (normals) material.normal_texture = TextureReference{2, {0, 0}, 0, {2, 2}};
-        if (holes && i > 0) material.alpha_mode = AlphaMode::mask;
+        if (masked && i > 0) material.alpha_mode = AlphaMode::mask;
     }
     Node egg{.name = "egg", .trs = {{0.1, 0.35, -0.6}, {0.2, 0.1, 0.3, 0.9}, {1, 1.4, 0.8}}};
     egg.geometry.push_back({SphereShape{0.3}, 1, {}});
@@ -153,11 +153,11 @@ Material lamp(const Vec3f& radiance) {
     material.optics.emission = radiance;
     return material;
 }
-/// A ball and a sheet of a triangle and a quad that glow, above the scene.
+/// An emissive ball, and an emissive sheet of a triangle and a quad, above the scene.
 Scene with_lamps(Scene scene) {
     const auto first = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.insert(scene.materials.end(), {lamp({6, 5, 4}), lamp({2, 3, 4})});
-    Node ball{.name = "glowing ball", .trs = {.translation = {1.2, 1.6, 1}}};
+    Node ball{.name = "emissive ball", .trs = {.translation = {1.2, 1.6, 1}}};
     ball.geometry.push_back({SphereShape{0.3}, first, {}});
     Mesh sheet{.name = "sheet",  // its front is below
                .positions = {{-0.6F, 0, -0.4F}, {0.6F, 0, -0.4F}, {0.6F, 0, 0.4F}, {-0.6F, 0, 0.4F}, {0, 0, 1.2F}},
@@ -169,8 +169,8 @@ Scene with_lamps(Scene scene) {
     scene.nodes.insert(scene.nodes.end(), {ball, panel});
     return scene;
 }
-/// A ball so small and so far that the point of a shadow ray's target is as coarse as the ball: its surface is often
-/// hit before the ray's end.
+/// An emissive ball so small and far that rounding moves the end of a shadow ray by as much as its size: rays often hit
+/// its surface before their end.
 Scene with_star(Scene scene) {
     const auto number = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(lamp({4e10F, 3e10F, 2e10F}));
@@ -179,10 +179,10 @@ Scene with_star(Scene scene) {
     scene.nodes.push_back(star);
     return scene;
 }
-/// The same lamps under pictures: of the sheet at its second set of texture coordinates, some of it beyond the picture.
+/// The same lamps with emissive textures; the sheet uses its second set of texture coordinates, partly outside [0, 1].
 Scene with_pictured_lamps() {
-    Scene scene = with_lamps(matt_scene());
-    scene.images = {checks("glow", false)};
+    Scene scene = with_lamps(diffuse_scene());
+    scene.images = {checks("emission", false)};
     for (std::size_t i = 0; i < 40; ++i) scene.images[0].texels[i] &= 0xFF000000U;  // black
     scene.textures = {{0, Wrap::repeat, Wrap::mirrored_repeat, Filter::linear}};
     const std::size_t ball = scene.materials.size() - 2;
@@ -191,7 +191,7 @@ Scene with_pictured_lamps() {
     scene.meshes.back().texcoords = {{}, {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0.5F, -0.5F}}};
     return scene;
 }
-/// The sheet of textured() with colours at its vertices, whose alpha cuts, and its normals at a second set of
+/// The sheet of textured() with vertex colours, whose alpha masks, and a normal map at a second set of texture
 /// coordinates.
 Scene with_vertex_colours() {
     Scene scene = textured(true, true, false);
@@ -201,11 +201,11 @@ Scene with_vertex_colours() {
     Material& material = scene.materials[4];
     material.normal_texture->texcoord = 1;
     material.alpha_mode = AlphaMode::mask;
-    // a body under the same material has no vertices: it is white
+    // a solid with the same material has no vertices: its vertex colour is white
     scene.nodes[scene.nodes.size() - 2].geometry[0].material = 4;
     return scene;
 }
-/// A ball and a sheet that no light changes, among others that they do not light.
+/// An unlit ball and an unlit sheet among other objects.
 Scene with_unlit() {
     Scene scene = textured(true, false, false);
     scene.materials[1].unlit = true;
@@ -214,7 +214,7 @@ Scene with_unlit() {
     scene.meshes[0].colours = {{{1, 0.2F, 0.3F}, 1}, {{0.4F, 1, 0.1F}, 1}, {}, {{0.1F, 0.3F, 1}, 1}, {}};
     return scene;
 }
-/// Open meshes whose backs are not there: a sheet seen from behind, one from the front, and a roof above both.
+/// Open meshes with culled backs: a sheet seen from behind, one from the front, and a roof above both.
 Scene with_culled_faces() {
     Scene scene = textured(false, false, false);
     scene.materials[4].sides = FaceSides::culled;
@@ -228,17 +228,16 @@ Scene with_culled_faces() {
     return scene;
 }
 Material polished(std::string name, const Vec3f& colour, float metallic, float roughness) {
-    Material material = matt(std::move(name), colour);
+    Material material = lambertian(std::move(name), colour);
     material.microfacets = Microfacets{metallic, roughness};
     return material;
 }
-/// A smooth metal, a rough one, and a varnished body.
+/// A smooth metal, a rough one, and a dielectric with a diffuse base.
 Scene polished_scene() {
     return still_life(polished("gold", {0.9F, 0.7F, 0.3F}, 1, 0.15F), polished("worn", {0.6F, 0.6F, 0.7F}, 0.7F, 0.6F),
                       polished("varnish", {0.1F, 0.2F, 0.5F}, 0, 0.4F));
 }
-/// Every kind of primitive with microfacets under a picture, whose normals lean and whose faces are seen from both
-/// sides.
+/// Every kind of primitive with textured microfacets, normal maps, and double-sided faces.
 Scene worn_scene() {
     Scene scene = textured(true, true, false);
     for (std::size_t i = 1; i < scene.materials.size(); ++i) {
@@ -252,7 +251,7 @@ Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
     scene.indirect_light = indirect;
     return scene;
 }
-/// Within a turned picture of 12 x 6 texels with a bright window.
+/// Adds a rotated environment picture of 12 x 6 texels with a bright window.
 Scene within_picture(Scene scene, bool illuminates, bool indirect) {
     scene = in_daylight(std::move(scene), illuminates, indirect);
     EnvironmentImage image{{12, 6, {}}, 0.7, 0.8F};
@@ -273,30 +272,34 @@ std::vector<EffectScene> make_scenes() {
     const Effect shadows = Effect::shadows;
     const EffectMask glass_only = Effect::refraction;
     std::vector<EffectScene> scenes;
+    // Punctual lights and shadows
     const LightSource plain = without_shadows();
-    scenes.push_back({"phong", lit(matt_scene(), plain), {}});
-    scenes.push_back({"no light at all", matt_scene(), {}});
-    scenes.push_back({"shadows", lit(matt_scene(), {}), shadows});
-    scenes.push_back({"fall-off", lit(matt_scene(), {.intensity = 9, .inverse_square = true, .casts_shadows = false}),
+    scenes.push_back({"phong", lit(diffuse_scene(), plain), {}});
+    scenes.push_back({"no light at all", diffuse_scene(), {}});
+    scenes.push_back({"shadows", lit(diffuse_scene(), {}), shadows});
+    scenes.push_back({"fall-off",
+                      lit(diffuse_scene(), {.intensity = 9, .inverse_square = true, .casts_shadows = false}),
                       Effect::inverse_square});
-    scenes.push_back({"spot", lit(matt_scene(), {.kind = LightKind::spot, .inner_cone = 0.1, .outer_cone = 0.5}),
+    scenes.push_back({"spot", lit(diffuse_scene(), {.kind = LightKind::spot, .inner_cone = 0.1, .outer_cone = 0.5}),
                       shadows | Effect::spot_lights});
     scenes.push_back(
-        {"sun", lit(matt_scene(), {.kind = LightKind::directional}), shadows | Effect::directional_lights});
-    scenes.push_back({"shadows of meshes", lit(with_meshes(matt_scene()), {}), shadows});
+        {"sun", lit(diffuse_scene(), {.kind = LightKind::directional}), shadows | Effect::directional_lights});
+    scenes.push_back({"shadows of meshes", lit(with_meshes(diffuse_scene()), {}), shadows});
+    // Mirrors and dielectrics
     scenes.push_back(
         {"mirrors",
-         lit(still_life(mirror({0.9F, 0.8F, 0.7F}), mirror({0.5F, 0.5F, 0.9F}), matt("blue", {0.2F, 0.2F, 0.8F})),
+         lit(still_life(mirror({0.9F, 0.8F, 0.7F}), mirror({0.5F, 0.5F, 0.9F}), lambertian("blue", {0.2F, 0.2F, 0.8F})),
              plain),
          Effect::reflection});
     const Material clear = glass("glass", 1.5F);
-    scenes.push_back({"glass", lit(still_life(clear, matt("green", {0.2F, 0.7F, 0.2F}), glass("diamond", 2.4F)), plain),
+    scenes.push_back({"glass",
+                      lit(still_life(clear, lambertian("green", {0.2F, 0.7F, 0.2F}), glass("diamond", 2.4F)), plain),
                       glass_only});
-    scenes.push_back(
-        {"tinted glass",
-         lit(still_life(glass("tinted", 1.5F, {2, 0.5F, 0.1F}), glass("ice", 1.31F), matt("blue", {0.2F, 0.2F, 0.8F})),
-             plain),
-         glass_only | Effect::absorption});
+    scenes.push_back({"tinted glass",
+                      lit(still_life(glass("tinted", 1.5F, {2, 0.5F, 0.1F}), glass("ice", 1.31F),
+                                     lambertian("blue", {0.2F, 0.2F, 0.8F})),
+                          plain),
+                      glass_only | Effect::absorption});
     scenes.push_back({"nested glass", lit(nested(), plain), glass_only | Effect::absorption | Effect::nested_media});
     scenes.push_back(
         {"camera in water", lit(camera_in_water(), plain), glass_only | Effect::absorption | Effect::nested_media});
@@ -304,6 +307,7 @@ std::vector<EffectScene> make_scenes() {
         {"glass meshes",
          lit(with_meshes(still_life(clear, mirror({0.6F, 0.6F, 0.6F}), glass("tinted", 1.4F, {1, 1, 0}))), {}),
          shadows | glass_only | Effect::absorption | Effect::nested_media | Effect::reflection});
+    // Textures, normal maps and alpha masks
     const EffectMask lamps = Effect::shadows | Effect::area_lights | Effect::emission;
     scenes.push_back({"textures", lit(textured(true, false, false), plain), Effect::textures});
     scenes.push_back({"normal maps", lit(textured(false, true, false), plain), Effect::normal_maps});
@@ -311,23 +315,26 @@ std::vector<EffectScene> make_scenes() {
                       shadows | Effect::textures | Effect::normal_maps | Effect::cutouts});
     scenes.push_back({"cut-outs under a star", with_star(textured(true, true, true)),
                       lamps | Effect::textures | Effect::normal_maps | Effect::cutouts});
-    scenes.push_back({"round lens", lit(through(matt_scene(), {0.1, 3}), plain), Effect::lens});
-    scenes.push_back({"five blades", lit(through(matt_scene(), {0.15, 2.4, 5, 0.3}), plain), Effect::lens});
-    scenes.push_back({"lamps", with_lamps(matt_scene()), lamps});
-    scenes.push_back({"daylight", in_daylight(matt_scene(), true, false), shadows | Effect::environment_light});
-    scenes.push_back({"indirect", in_daylight(lit(with_meshes(matt_scene()), {}), false, true),
+    // Lenses, area lights and indirect light
+    scenes.push_back({"round lens", lit(through(diffuse_scene(), {0.1, 3}), plain), Effect::lens});
+    scenes.push_back({"five blades", lit(through(diffuse_scene(), {0.15, 2.4, 5, 0.3}), plain), Effect::lens});
+    scenes.push_back({"lamps", with_lamps(diffuse_scene()), lamps});
+    scenes.push_back({"daylight", in_daylight(diffuse_scene(), true, false), shadows | Effect::environment_light});
+    scenes.push_back({"indirect", in_daylight(lit(with_meshes(diffuse_scene()), {}), false, true),
                       shadows | Effect::indirect | Effect::roulette});
-    scenes.push_back({"lamps, indirect", in_daylight(with_lamps(matt_scene()), true, true),
+    scenes.push_back({"lamps, indirect", in_daylight(with_lamps(diffuse_scene()), true, true),
                       lamps | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back({"pictured lamps", with_pictured_lamps(), lamps | Effect::textures});
     scenes.push_back({"pictured lamps, indirect", in_daylight(with_pictured_lamps(), false, true),
                       lamps | Effect::textures | Effect::indirect | Effect::roulette});
+    // Vertex colours, unlit materials and culled faces
     scenes.push_back({"vertex colours", lit(with_vertex_colours(), {}),
                       shadows | Effect::textures | Effect::normal_maps | Effect::cutouts});
     scenes.push_back({"unlit", lit(with_unlit(), plain), Effect::textures | Effect::emission});
     scenes.push_back({"unlit, indirect", in_daylight(lit(with_unlit(), {}), false, true),
                       shadows | Effect::textures | Effect::emission | Effect::indirect | Effect::roulette});
     scenes.push_back({"culled faces", lit(with_culled_faces(), {}), shadows | Effect::cutouts});
+    // Microfacets
     const Effect facets = Effect::microfacets;
     scenes.push_back({"microfacets", lit(polished_scene(), plain), facets});
     scenes.push_back({"microfacets, lamps", with_lamps(polished_scene()), lamps | facets});
@@ -335,10 +342,11 @@ std::vector<EffectScene> make_scenes() {
                       lamps | facets | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back({"worn metal", in_daylight(lit(worn_scene(), {}), true, false),
                       shadows | facets | Effect::textures | Effect::normal_maps | Effect::environment_light});
+    // Environment pictures
     const EffectMask surroundings = shadows | Effect::environment_light | Effect::environment_picture;
     scenes.push_back(
-        {"picture behind", within_picture(lit(matt_scene(), plain), false, false), Effect::environment_picture});
-    scenes.push_back({"picture", within_picture(matt_scene(), true, false), surroundings});
+        {"picture behind", within_picture(lit(diffuse_scene(), plain), false, false), Effect::environment_picture});
+    scenes.push_back({"picture", within_picture(diffuse_scene(), true, false), surroundings});
     scenes.push_back({"picture, microfacets", within_picture(polished_scene(), true, false), surroundings | facets});
     scenes.push_back({"picture, lamps, indirect", within_picture(with_lamps(polished_scene()), true, true),
                       surroundings | lamps | facets | Effect::indirect | Effect::roulette});

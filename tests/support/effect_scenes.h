@@ -1,4 +1,4 @@
-/// Scenes that call for effects, small enough for the oracle.
+/// Scenes that need effects, small enough for the oracle.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace tandem::test {
 struct EffectScene {
     std::string name;
     Scene scene;
-    EffectMask effects;  ///< that it calls for
+    EffectMask effects;  ///< that it needs
 };
 
-/// Each effect alone, and mixtures; none of those that kernels know nothing of (host_effects).
+/// Each effect alone, and combinations; without those of the host (host_effects).
 [[nodiscard]] const std::vector<EffectScene>& effect_scenes();
 
 }  // namespace tandem::test

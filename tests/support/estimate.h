@@ -1,4 +1,4 @@
-/// Means of random samples, with how far they may be from right.
+/// Means of random samples, with their tolerance.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class Estimate {
     double squares_ = 0;  ///< sum of squared deviations
 };
 
-/// Within 4.5 standard errors, which a right estimator misses once in 150 000 tests, plus a bound on rounding.
+/// Within 4.5 standard errors, which a correct estimator misses once in 150 000 tests, plus a bound on rounding.
 inline void expect_mean(const Estimate& estimate, double expected, const std::string& name) {
     EXPECT_NEAR(estimate.mean(), expected, 4.5 * estimate.standard_error() + 1e-12 * std::abs(expected)) << name;
 }

@@ -1,5 +1,5 @@
-/// The oracle of the geometry tests: intersections in arithmetic of 400 decimal digits, in which the sums and products
-/// of floats that occur are exact, straight from the definitions. Shares no formula with lib/tandem/kernel/shapes.
+/// The oracle of the geometry tests: intersections from the definitions, in arithmetic of 400 decimal digits, which is
+/// exact for the sums and products of floats that occur. Shares no formula with lib/tandem/kernel/shapes.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -48,8 +48,8 @@ inline std::optional<Big> hit_ball(const BigVector& origin, const BigVector& dir
 
 struct BoxHit {
     Big t;
-    int axis;       ///< of the face; the lowest of several
-    bool entering;  ///< false: the origin is inside and t the exit
+    int axis;       ///< of the face; at edges and corners the lowest
+    bool entering;  ///< false: the origin is inside, and t is the exit
 };
 
 /// The same for a closed box.
@@ -72,8 +72,7 @@ inline std::optional<BoxHit> hit_box(const BigVector& origin, const BigVector& d
     return BoxHit{*far, far_axis, false};
 }
 
-/// Whether the plane of a face of another axis is crossed within 2^-50 of the hit: then the axis is a tie after
-/// rounding.
+/// Whether the ray crosses the plane of another face within 2^-50 of the hit, so that the axes tie after rounding.
 inline bool nearly_tied(const BigVector& origin, const BigVector& direction, const BigVector& lower,
                         const BigVector& upper, const BoxHit& hit) {
     for (int i = 0; i < 3; ++i) {
@@ -114,7 +113,7 @@ inline std::optional<TriangleHit> hit_triangle(const BigVector& origin, const Bi
     return hit.t > 0 ? std::optional<TriangleHit>(hit) : std::nullopt;
 }
 
-/// Distance of a float from the exact value in units of its last place there.
+/// Distance of a float from the exact value, in ulps.
 inline double error_in_ulps(float value, const Big& exact) {
     const float nearest = mpfr_get_flt(exact.backend().data(), MPFR_RNDN);
     if (std::isinf(nearest) || std::isinf(value)) return nearest == value ? 0 : HUGE_VAL;
@@ -123,7 +122,7 @@ inline double error_in_ulps(float value, const Big& exact) {
     return static_cast<double>(Big(abs(Big(value) - exact) / Big(ulp)));
 }
 
-/// A ray as a C++ literal, for the one line that reproduces a failure.
+/// A ray as a C++ literal, to reproduce a failure.
 inline std::string reproducer(const Ray<float>& ray) {
     char text[200];
     std::snprintf(text, sizeof text, "Ray<float>{{%aF, %aF, %aF}, {%aF, %aF, %aF}}", static_cast<double>(ray.origin.x),

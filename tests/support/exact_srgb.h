@@ -5,7 +5,7 @@
 
 namespace tandem::test {
 
-/// The light that the value c stands for.
+/// The linear value of the sRGB value c.
 inline Big exact_linear_of_srgb(const Big& c) {
     if (c <= Big("0.04045")) return c / Big("12.92");
     return pow((c + Big("0.055")) / Big("1.055"), Big("2.4"));

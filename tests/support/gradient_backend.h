@@ -1,5 +1,5 @@
-/// A backend for tests of what surrounds backends: its films are gradients that depend on the job, unless a test makes
-/// others; its hooks let a test step in, and it counts what it was asked for.
+/// A backend for tests of the code around backends. Its films are gradients that depend on the job, unless a test
+/// replaces them. Hooks let a test intervene, and calls are counted.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
     double uniform(double low, double high) {
-        // not std::uniform_real_distribution, whose numbers differ between libraries
+        // not std::uniform_real_distribution, which differs between libraries
         return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
     }
     Vec3d in_cube(double half) {
@@ -90,7 +90,7 @@ PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
         node.geometry.push_back(geometry);
         scene.nodes.push_back(node);
     }
-    return prepare(scene, {.origin = Vec3d{0, 0, 0}});  // as hard as it says, far from the origin
+    return prepare(scene, {.origin = Vec3d{0, 0, 0}});  // keeps the scene far from the origin
 }
 
 std::vector<Ray<float>> make_rays(const PreparedScene& scene, std::size_t count, std::uint64_t seed) {

@@ -1,4 +1,4 @@
-/// Random scenes and rays of adversarial size and place, for comparing backends ray by ray.
+/// Random scenes and rays with adversarial sizes and positions, to compare backends ray by ray.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace tandem::test {
 
-/// What a random scene is like.
+/// The parameters of a random scene.
 struct HardScene {
     std::string name;
     double scale;        ///< edge of the cloud of primitives, metres
     double offset;       ///< distance of the cloud from the world's origin, metres
     double spread;       ///< sizes are scale * 10^-U(0, spread)
     int count;           ///< primitives
-    bool faces = false;  ///< triangles and quads by turns; else spheres, boxes, ellipsoids and parallelepipeds
+    bool faces = false;  ///< triangles and quads in turn; else spheres, boxes, ellipsoids and parallelepipeds
 };
 
 [[nodiscard]] std::vector<HardScene> hard_scenes();

@@ -21,7 +21,7 @@ std::string input_error(Call call) {
     return {};
 }
 
-/// For EXPECT_TRUE: says the text when `part` is not in it.
+/// For EXPECT_TRUE: prints the text if `part` is not in it.
 inline testing::AssertionResult contains(const std::string& text, const std::string& part) {
     if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
     return testing::AssertionFailure() << "\"" << text << "\" does not contain \"" << part << "\"";

@@ -1,4 +1,4 @@
-/// How often LightReservoir takes a light, over all numbers that it may draw.
+/// The probabilities of LightReservoir, over all random numbers.
 #pragma once
 
 #include "support/sequence_start.h"
@@ -13,9 +13,8 @@ IncidentLight<Real> light_of(const Vec3<Real>& reflected, std::uint32_t primitiv
     return result;
 }
 
-/// The chance with which the second of two lights is taken. Three numbers of 24 bits decide, a later one only where
-/// those before leave it open, and the lower the number the sooner the light is taken: so there is one place in each at
-/// which the decision turns.
+/// The probability that the second of two lights is taken. Three 24-bit numbers decide, a later one only if the earlier
+/// ones leave it open. Lower numbers take the light, so each number has one threshold.
 template <class Real>
 double chance_of_second(Real first, Real second) {
     constexpr std::uint32_t most = (1U << 24) - 1;
@@ -25,7 +24,7 @@ double chance_of_second(Real first, Real second) {
         choice.offer(light_of<Real>({second, Real(0), Real(0)}, 1));
         return choice.chosen().primitive == 1;
     };
-    // how many of the numbers from 0 on are taken
+    // how many of the numbers, from 0 on, take the light
     const auto count = [&](const auto& taken) {
         std::uint32_t begin = 0, end = most + 1;
         while (begin < end) {

@@ -1,11 +1,11 @@
-/// How much memory a test took.
+/// The memory of a test.
 #pragma once
 
 #include <sys/resource.h>
 
 namespace tandem::test {
 
-/// The most memory that the process has had, in MiB.
+/// The peak memory of the process, in MiB.
 inline long peak_memory() {
     rusage usage = {};
     ::getrusage(RUSAGE_SELF, &usage);

@@ -1,11 +1,11 @@
-/// Films whose planes hold values that tell pixels, channels and planes apart.
+/// Films whose values differ for every pixel, channel and plane.
 #pragma once
 
 #include "tandem/film/film.h"
 
 namespace tandem::test {
 
-/// Value i of pixel values, for planes of every type.
+/// Value i, for planes of every type.
 inline void put(Vec3d& to, double value) { to = {value, value + 0.25, value + 0.5}; }
 inline void put(float& to, double value) { to = static_cast<float>(value); }
 inline void put(std::uint32_t& to, double value) { to = static_cast<std::uint32_t>(4e9 + value); }

@@ -1,4 +1,4 @@
-/// Closed forms for polygons seen from a point, in 400 digits, from the definitions: they share nothing with
+/// Closed forms for polygons seen from a point, in 400 digits, from the definitions. They share nothing with
 /// lib/tandem/kernel/lights.
 #pragma once
 
@@ -15,7 +15,7 @@ inline Big angle_between(const BigVector& a, const BigVector& b) {
     return atan2(sqrt(dot(c, c)), dot(a, b));
 }
 
-/// Girard's theorem: the angles' sum less pi.
+/// The solid angle of a triangle by Girard's theorem: the sum of the angles minus pi.
 inline double girard(const Vec3d& point, const Vec3d& v0, const Vec3d& v1, const Vec3d& v2) {
     const BigVector p = big(point);
     const BigVector corner[] = {big(v0) - p, big(v1) - p, big(v2) - p};

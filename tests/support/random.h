@@ -1,4 +1,4 @@
-/// Random numbers for tests: a splitmix64 stream per case, so that a case is reproduced by its number alone.
+/// Random numbers for tests: a splitmix64 stream per case, so that its number alone reproduces a case.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,7 @@ class Random {
         const auto magnitude = static_cast<float>(std::exp2(uniform(lower, upper)));
         return coin() ? magnitude : -magnitude;
     }
-    /// Any bit pattern: NaN, infinity and subnormals too.
+    /// Any bit pattern, including NaN, infinity and subnormals.
     float any_float() {
         const auto pattern = static_cast<std::uint32_t>(bits() >> 32);
         float value;

@@ -7,7 +7,7 @@
 
 namespace tandem::test {
 
-/// A camera, a sphere of radius 1 at the node "body", a light, an animated node: all that a scene can have.
+/// A scene with a bit of everything: a camera, a sphere of radius 1 at the node "body", a light, an animated node.
 inline Scene small_scene() {
     Scene scene;
     scene.name = "small";

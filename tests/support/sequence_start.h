@@ -1,4 +1,4 @@
-/// The start of a ShortSequence from the numbers that are wanted: what it does with its words, turned round.
+/// Inverts ShortSequence: finds the start that gives the wanted numbers.
 #pragma once
 
 #include <bit>

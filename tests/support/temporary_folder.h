@@ -1,4 +1,4 @@
-/// A folder that a test has for itself, removed with all that is in it.
+/// A temporary folder of a test, removed with its contents.
 #pragma once
 
 #include <unistd.h>
@@ -16,7 +16,7 @@ class TemporaryFolder {
   public:
     TemporaryFolder() {
         std::string pattern = (std::filesystem::temp_directory_path() / "tandem-test-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make a folder " + pattern);
+        if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot create a folder " + pattern);
         path_ = pattern;
     }
     ~TemporaryFolder() {
@@ -28,7 +28,7 @@ class TemporaryFolder {
 
     [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-    /// Names of all that is in the folder, hidden files too, sorted.
+    /// The sorted names of everything in the folder, including hidden files.
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> result;
         for (const auto& entry : std::filesystem::directory_iterator(path_)) {

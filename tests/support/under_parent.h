@@ -1,11 +1,11 @@
-/// A scene somewhere else, and of another size.
+/// Moves and scales a whole scene.
 #pragma once
 
 #include "tandem/scene/scene.h"
 
 namespace tandem::test {
 
-/// The scene under one more node, which moves and scales everything in it; animation goes on below it. Metres.
+/// The scene under an additional node, which moves and scales everything, including its animation. Metres.
 inline Scene under_parent(Scene scene, const Vec3d& translation, double scale) {
     const auto parent = static_cast<std::int32_t>(scene.nodes.size());
     for (Node& node : scene.nodes) {

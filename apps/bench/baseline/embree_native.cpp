@@ -55,9 +55,9 @@ Hit trace_one(RTCScene scene, const Ray<float>& ray) {
 
 struct EmbreeNative::State {
     State(int threads, EmbreeFlags flags) : arena(threads == 0 ? tbb::task_arena::automatic : threads) {
-        // The number of threads is the arena's: Embree joins it for the build.
+        // Embree builds with the threads of this arena.
         device = rtcNewDevice(nullptr);
-        if (device == nullptr) throw EnvironmentError("Embree cannot make a device");
+        if (device == nullptr) throw EnvironmentError("Embree cannot create a device on this machine");
         scene = rtcNewScene(device);
         if (flags == EmbreeFlags::robust) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     }
@@ -68,7 +68,7 @@ struct EmbreeNative::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Takes the geometry, which has its buffers, into the scene and builds it.
+    /// Adds the geometry, whose buffers are set, to the scene and builds it.
     void build(RTCGeometry geometry, std::size_t primitives) {
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);

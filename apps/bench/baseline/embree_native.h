@@ -1,4 +1,4 @@
-/// Raw Embree, as a program without Tandem would use it: a baseline for rays per second, and for right answers.
+/// Raw Embree, as a program without Tandem would use it: a baseline for rays per second and for correct answers.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace tandem::bench {
 
-/// What an Embree scene is asked to be: fast, or to lose fewer rays between triangles (RTC_SCENE_FLAG_ROBUST).
+/// The flags of an Embree scene: fast, or fewer leaks between triangles (RTC_SCENE_FLAG_ROBUST).
 enum class EmbreeFlags { plain, robust };
 
 /// Embree's own geometry (RTC_GEOMETRY_TYPE_SPHERE_POINT, _TRIANGLE) and one rtcIntersect1 per ray, blocks of rays

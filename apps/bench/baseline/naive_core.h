@@ -2,7 +2,7 @@
 // naive_cpu.cpp, which is compiled once without and once with optimisation, and by naive_kernel.cu; each has its own
 // namespace NAIVE_NAMESPACE, so that the linker cannot mix them.
 //
-// It is meant to be plain: floats, powf, the textbook quadratic, the scene in the code. It uses nothing of Tandem and
+// It is plain on purpose: floats, powf, the textbook quadratic, the scene in the code. It uses nothing of Tandem and
 // no template of the standard library, whose copies the linker would share between -O0 and -O3.
 #pragma once
 
@@ -58,7 +58,7 @@ class Camera {
 };
 
 // Marsaglia's XORWOW (Journal of Statistical Software 8(14), 2003), seeded by a linear congruential generator and run
-// in for a while: one state per pixel, 1984 + pixel as in the paper.
+// in for a while: one state per pixel, seeded with 1984 + pixel as in the paper.
 struct RandomState {
     unsigned int x, y, z, w, v, d;
 };
@@ -93,7 +93,7 @@ NAIVE_HD inline unsigned int pixel_seed(int pixel, unsigned int sequence) {
     return 1984u + (unsigned int)pixel + sequence * 100000007u;
 }
 
-// t of the first crossing in front of the origin, or a negative number.
+// t of the first hit in front of the origin, or a negative number.
 NAIVE_HD inline float hit_sphere(const Vec3& centre, float radius, const Ray& r) {
     const Vec3 oc = r.origin - centre;
     const float a = dot(r.direction, r.direction);
@@ -130,7 +130,7 @@ NAIVE_HD inline float hit_cube(const Vec3& centre, float side, const Ray& r) {
     return t_min > 0 ? t_min : t_max;
 }
 
-// The face that the point is nearest to.
+// The normal of the face nearest to the point.
 NAIVE_HD inline Vec3 cube_normal(const Vec3& centre, const Vec3& p) {
     const Vec3 d = p - centre;
     const float ax = fabsf(d.x), ay = fabsf(d.y), az = fabsf(d.z);
@@ -161,7 +161,7 @@ NAIVE_HD inline Vec3 sphere_colour(int i) {
     return Vec3(i == 0 ? 0.8f : 0.2f, i == 1 ? 0.8f : 0.2f, i == 2 ? 0.8f : 0.2f);
 }
 
-// 0 to 2: a sphere; 3: the cube; -1: nothing.
+// The nearest hit. 0 to 2: a sphere; 3: the cube; -1: none.
 NAIVE_HD inline int nearest(const NaiveFrame& frame, const Ray& r, float& nearest_t) {
     int object = -1;
     nearest_t = 1e30f;

@@ -1,4 +1,4 @@
-// What the builds of the naive renderer share: the animation, the sharing of rows among threads, the text file.
+// Shared by the builds of the naive renderer: the animation, the distribution of rows to threads, the text file.
 #include <atomic>
 #include <cerrno>
 #include <cmath>

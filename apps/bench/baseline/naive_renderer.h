@@ -1,12 +1,12 @@
-/// The paper's method, re-created plainly as a baseline to measure against: one scene in the code, floats, a random
-/// state per pixel, a picture as text. naive_core.h has the method, naive_cpu.cpp and naive_kernel.cu its loops.
+/// The paper's method, reimplemented plainly as a baseline: one scene in the code, floats, a random state per pixel, an
+/// image as text. naive_core.h has the method, naive_cpu.cpp and naive_kernel.cu its loops.
 #pragma once
 
 #include <string>
 
 namespace tandem::bench {
 
-/// What moves: metres, world space. Frame `number` of docs/paper.md.
+/// The moving parts of frame `number` of docs/paper.md: metres, world space.
 struct NaiveFrame {
     float light[3];
     float cube[3];  ///< centre
@@ -25,10 +25,10 @@ struct NaiveJob {
 /// The same source, compiled in one of several ways.
 struct NaiveBuild {
     const char* flags;  ///< "-O0" or "-O3"
-    bool optimised;     ///< what the compiler itself says
+    bool optimised;     ///< as the compiler's macros say
     /// Colours of row `y` from the top: 3 * width floats.
     void (*render_row)(const NaiveJob& job, const NaiveFrame& frame, int y, float* rgb);
-    /// What the ray through the centre of a pixel meets: 0 to 2 a sphere, 3 the cube, -1 nothing.
+    /// What the ray through the centre of a pixel hits: 0 to 2 a sphere, 3 the cube, -1 nothing.
     int (*object_at_centre)(const NaiveJob& job, const NaiveFrame& frame, int x, int y);
 };
 

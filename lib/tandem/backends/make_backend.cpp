@@ -20,7 +20,8 @@ const BackendEntry& find_entry(const std::string& name) {
     for (const BackendEntry& entry : backend_registry()) {
         if (name == entry.name) return entry;
     }
-    throw InputError(fmt::format("no backend is named '{}'; there are {}", name, fmt::join(backend_names(), ", ")));
+    throw InputError(
+        fmt::format("there is no backend '{}'; the backends are {}", name, fmt::join(backend_names(), ", ")));
 }
 
 }  // namespace

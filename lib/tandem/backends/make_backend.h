@@ -9,14 +9,14 @@
 
 namespace tandem {
 
-/// "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a
+/// Makes "cpu", "cuda" or "oracle". Throws InputError for another name, and EnvironmentError, with the reason, for a
 /// backend that this build or this machine cannot run.
 [[nodiscard]] std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options = {});
 
-/// The names that make_backend() takes.
+/// The names that make_backend() accepts.
 [[nodiscard]] std::vector<std::string> backend_names();
 
-/// Why a backend cannot run here, or empty if it can.
+/// Why a backend cannot run here; empty if it can.
 [[nodiscard]] std::string why_unavailable(const std::string& name);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// Which backends this build has.
+/// The backends of this build.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ struct BackendEntry {
     std::unique_ptr<Backend> (*make)(const BackendOptions& options);
 };
 
-/// cpu, cuda, oracle; a backend that was not built is listed too and says so.
+/// cpu, cuda, oracle. A backend that was not built is listed too; its why_unavailable() says so.
 [[nodiscard]] std::span<const BackendEntry> backend_registry();
 
 }  // namespace tandem

@@ -1,5 +1,5 @@
-/// The two kinds of error that callers meet. A bug is an assert; an expected miss is a std::optional. A message says
-/// what is wrong, where (file, node, JSON path, flag) and what to do.
+/// The two exceptions that callers may have to handle. A bug is an assert; an expected miss is a std::optional. A
+/// message says what is wrong, where (file, node, JSON path, flag) and what to do.
 #pragma once
 
 #include <stdexcept>

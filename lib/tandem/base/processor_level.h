@@ -1,4 +1,4 @@
-/// Which of the x86-64 levels this processor has. Asks by features: compilers of our oldest systems do not know the
+/// The x86-64 level of this processor. It is derived from single features: the oldest supported compilers cannot query
 /// levels by name.
 #pragma once
 

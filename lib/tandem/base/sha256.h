@@ -1,4 +1,4 @@
-/// SHA-256, by OpenSSL's libcrypto.
+/// SHA-256, computed by OpenSSL's libcrypto.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class Sha256 {
     Sha256& operator=(const Sha256&) = delete;
 
     void update(const void* data, std::size_t bytes);
-    /// Object representation of a plain value.
+    /// Adds the object representation of a plain value.
     template <class T>
     void update_value(const T& value) {
         update(&value, sizeof(value));

@@ -1,4 +1,4 @@
-/// Which Tandem this is.
+/// The version of Tandem.
 #pragma once
 
 namespace tandem {

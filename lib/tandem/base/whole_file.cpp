@@ -24,7 +24,7 @@ constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-/// Whose fault an errno is.
+/// Throws InputError or EnvironmentError, depending on the errno.
 bool is_wrong_path(int error) {
     constexpr int wrong[] = {ENOENT, ENOTDIR, EISDIR, EACCES, EPERM, EROFS, ENAMETOOLONG, ELOOP, ENOTEMPTY, EEXIST};
     return std::find(std::begin(wrong), std::end(wrong), error) != std::end(wrong);
@@ -44,7 +44,7 @@ class Descriptor {
     Descriptor& operator=(const Descriptor&) = delete;
 
     [[nodiscard]] int number() const { return number_; }
-    /// 0, or the errno: some file systems report a failed write only here.
+    /// Closes the file. 0, or the errno: some file systems report a failed write only now.
     int close() {
         const int number = std::exchange(number_, -1);
         return number >= 0 && ::close(number) != 0 ? errno : 0;
@@ -54,13 +54,13 @@ class Descriptor {
     int number_;
 };
 
-/// The folder that `path` is in; "." for a bare name.
+/// The folder of `path`; "." for a bare name.
 std::filesystem::path folder_of(const std::string& path) {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     return folder.empty() ? "." : folder;
 }
 
-/// A name beside `path` that no other thread or process takes.
+/// A name beside `path` that no other thread or process uses.
 std::string temporary_name(const std::string& path) {
     static std::atomic<std::uint64_t> count{0};
     const std::string name = std::filesystem::path(path).filename().string();
@@ -77,7 +77,7 @@ int write_all(int descriptor, std::span<const std::byte> bytes) {
     return 0;
 }
 
-/// Creates the file `name` with the bytes. 0, or the errno; then the file may be there in part.
+/// Creates the file `name` with the bytes. 0, or the errno; then the file may be incomplete.
 int write_new_file(const std::string& name, std::span<const std::byte> bytes, Durability durability) {
     Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file.number() < 0) return errno;
@@ -89,14 +89,14 @@ int write_new_file(const std::string& name, std::span<const std::byte> bytes, Du
 }  // namespace
 
 Bytes read_file(const std::string& path) {
-    // a pipe would make open() wait for its other end
+    // O_NONBLOCK: opening a pipe would wait for its other end
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.number() < 0) throw InputError(fmt::format("cannot read '{}': {}", path, reason(errno)));
     struct stat status = {};
     if (::fstat(file.number(), &status) != 0)
         throw InputError(fmt::format("cannot read '{}': {}", path, reason(errno)));
     if (!S_ISREG(status.st_mode)) throw InputError(fmt::format("cannot read '{}': it is not a regular file", path));
-    if (status.st_size > most_bytes) throw InputError(fmt::format("cannot read '{}': it is over 16 GiB", path));
+    if (status.st_size > most_bytes) throw InputError(fmt::format("cannot read '{}': it is larger than 16 GiB", path));
     Bytes bytes(static_cast<std::size_t>(status.st_size));
     std::size_t size = 0;
     while (size < bytes.size()) {

@@ -41,14 +41,14 @@ bool halves_overlap(const Body&) {
 /// hidden.
 constexpr double shared_alike = 1.0 / 8;
 
-/// Gives every light its range of the numbers of 64 bits. `powers`: of each, above 0; their sum is finite.
+/// Gives every light its range of the 64-bit numbers. `powers`: of each light, above 0; their sum is finite.
 void share_out(std::vector<AreaLight>& lights, const std::vector<double>& powers) {
     if (lights.empty()) return;
     const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
     const auto by_power = [&](double power) {
         return static_cast<std::uint64_t>(power / total * ((1 - shared_alike) * 0x1p64));
     };
-    std::uint64_t rest = 0;  // 2^64 less what is shared by power, modulo 2^64
+    std::uint64_t rest = 0;  // 2^64 minus what is shared by power, modulo 2^64
     for (const double power : powers) rest -= by_power(power);
     const std::uint64_t count = lights.size();
     const std::uint64_t each = rest / count, left_over = rest % count;

@@ -14,12 +14,12 @@ namespace {
 
 constexpr int bin_count = 16;
 constexpr std::uint32_t preferred_leaf_size = 2;
-/// From here on ranges are halved, which ends within log2(max_bvh_primitives) = 28 more levels.
+/// Below this depth ranges are halved, which ends within log2(max_bvh_primitives) = 28 more levels.
 constexpr int sah_depth = max_bvh_depth - 30;
 
 float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// The sphere around `middle` that reaches all of the points.
+/// The smallest sphere around `middle` that contains all points.
 template <class... Points>
 Sphere sphere_to(const Vec3f& middle, const Points&... points) {
     double radius2 = 0;

@@ -1,4 +1,4 @@
-/// Builds the hierarchies that the CUDA backend traverses.
+/// Builds the BVHs that the CUDA backend traverses.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace tandem {
 
-/// The structure in host memory. Leaf entries are in the order of the leaves: the bounding sphere of a primitive (of
-/// a sphere, the sphere itself), which rejects most rays, and the primitive's id.
+/// A BVH in host memory. Leaf entries are in the order of the leaves: the bounding sphere of a primitive (of a sphere,
+/// the sphere itself), which rejects most rays, and the primitive's id.
 struct Bvh {
     std::vector<BvhNode> nodes;  ///< the root is nodes[0]
     std::vector<Sphere> entry_spheres;
@@ -22,8 +22,8 @@ struct Bvh {
 /// (kernel/traversal/proposal.h). Throws InputError for more than max_bvh_primitives. The scene must not be empty.
 [[nodiscard]] Bvh build_bvh(const SceneView& scene, float margin);
 
-/// What is wrong with a hierarchy (a primitive missing or twice, a box that does not hold its child, too deep), or
-/// empty. For tests and debugging.
+/// What is wrong with a BVH (a primitive missing or twice, a box that does not contain its child, too deep); empty if
+/// nothing is. For tests and debugging.
 [[nodiscard]] std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, float margin);
 
 }  // namespace tandem

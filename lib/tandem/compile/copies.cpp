@@ -12,7 +12,7 @@ namespace tandem {
 
 namespace {
 
-/// What primitives are compared by, beside their materials: words without a gap.
+/// What identifies a primitive, beside its material: 32-bit words without padding.
 const Sphere& shape_of(const Sphere& sphere) { return sphere; }
 const Box& shape_of(const Box& box) { return box; }
 const Placement& shape_of(const Placement& body) { return body; }
@@ -27,7 +27,7 @@ struct QuadShape {
 };
 QuadShape shape_of(const Quad& face) { return {{face.v0, face.v1, face.v2, face.v3}, face.attributes.sides}; }
 
-/// Do the values at its corners say where a face has holes?
+/// Whether the alpha mask of a face depends on the values at its corners.
 template <class Primitive>
 bool may_have_holes(const Primitive& primitive, const MaterialTextures* textures) {
     if constexpr (requires { primitive.attributes; }) {
@@ -71,14 +71,14 @@ class Finder {
     static constexpr std::uint32_t empty = 0xFFFFFFFFU;
     static constexpr std::size_t batch = 32;
 
-    /// A primitive that is none's copy, and a part of its hash: most others are told apart without a look at them.
+    /// A primitive that is not a copy, and a part of its hash, which tells most others apart without reading them.
     struct Entry {
         std::uint32_t hash;
         std::uint32_t number;
     };
 
-    /// The primitives of one kind, in the order of their ids. A table of millions is in no cache, so the hashes of a
-    /// batch come first, and their places are on their way while the next ones are computed.
+    /// The primitives of one kind, in the order of their ids. A table of millions of entries misses the caches, so the
+    /// hashes of a batch are computed first and their slots are prefetched meanwhile.
     template <class Primitive>
     void search(const std::vector<Primitive>& primitives) {
         const std::uint32_t* material_of = scene_.material_of.data() + first_id_;
@@ -99,7 +99,7 @@ class Finder {
 
     [[nodiscard]] std::size_t place_of(std::uint64_t hash) const { return (hash >> 32) & (table_.size() - 1); }
 
-    /// Puts primitive i into the table, or among the copies if its like is there.
+    /// Adds primitive i to the table or, if an equal one is there, to the copies.
     template <class Primitive>
     void add(const std::vector<Primitive>& primitives, const std::uint32_t* material_of, std::uint32_t i,
              std::uint64_t hash) {
@@ -126,7 +126,7 @@ class Finder {
     std::vector<PrimitiveCopy> copies_;
 };
 
-/// Takes the elements of copies out of an array by primitive whose first element is that of `first_id`.
+/// Removes the elements of copies from an array by primitive whose first element is that of `first_id`.
 template <class T>
 void remove(const std::vector<PrimitiveCopy>& copies, std::size_t first_id, std::vector<T>& array) {
     auto copy = std::lower_bound(copies.begin(), copies.end(), first_id,
@@ -174,7 +174,7 @@ std::uint32_t TracedIds::traced(std::uint32_t id) const {
 
 std::uint32_t TracedIds::of_scene(std::uint32_t traced) const {
     if (traced >= first_special_id) return traced;
-    // before copy k there are copies_[k].id - k that are none
+    // copies_[k].id - k primitives before copy k are not copies
     std::size_t first = 0, end = copies_.size();
     while (first < end) {
         const std::size_t middle = (first + end) / 2;

@@ -12,7 +12,7 @@ namespace tandem {
 
 namespace {
 
-/// "material 'glass'", or by its number if it has no name.
+/// "material 'glass'", or with its number if it has no name.
 std::string label(const char* what, const std::string& name, std::size_t index) {
     return name.empty() ? fmt::format("{} {}", what, index) : fmt::format("{} '{}'", what, name);
 }
@@ -45,13 +45,13 @@ void add_light(const LightSource& light, const std::string& name, Needs& needs) 
     if (light.casts_shadows) needs.add(Effect::shadows, name + " casts shadows");
     if (light.kind == LightKind::spot) needs.add(Effect::spot_lights, name + " is a spot light");
     if (light.kind == LightKind::directional) {
-        needs.add(Effect::directional_lights, name + " shines from one direction");
+        needs.add(Effect::directional_lights, name + " is a directional light");
     } else if (light.inverse_square) {
         needs.add(Effect::inverse_square, name + " falls off with distance");
     }
 }
 
-/// `coloured`: what is known of textures, by their number. Many materials may share one.
+/// `coloured`: caches has_colours() by the number of the texture, since many materials may share one.
 void add_pictures(const PreparedTextures& textures, std::size_t material, const std::string& name,
                   std::map<std::uint32_t, bool>& coloured, Needs& needs) {
     if (textures.materials.empty()) return;
@@ -62,9 +62,9 @@ void add_pictures(const PreparedTextures& textures, std::size_t material, const 
     if (has_colours(textures, of_material.emission)) needs.add(Effect::textures, name + " has an emissive texture");
     if (has_colours(textures, of_material.metallic_roughness))
         needs.add(Effect::textures, name + " has a metallic-roughness texture");
-    if (of_material.colour_slot != no_slot) needs.add(Effect::textures, name + " has vertices with colours");
+    if (of_material.colour_slot != no_slot) needs.add(Effect::textures, name + " has vertex colours");
     if (of_material.normal.texture != no_texture) needs.add(Effect::normal_maps, name + " has a normal map");
-    if (of_material.alpha_cutoff > 0) needs.add(Effect::cutouts, name + " is cut out by its alpha");
+    if (of_material.alpha_cutoff > 0) needs.add(Effect::cutouts, name + " has an alpha mask");
 }
 
 void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& needs) {
@@ -89,8 +89,8 @@ void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs)
     if (!is_open(shutter)) return;
     const std::size_t camera = prepared.camera_node;
     const std::string opens =
-        fmt::format("{} has its shutter open for {:g} s, in which ", label("camera", scene.nodes[camera].name, camera),
-                    shutter.close - shutter.open);
+        fmt::format("{} has its shutter open for {:g} s, during which ",
+                    label("camera", scene.nodes[camera].name, camera), shutter.close - shutter.open);
     for (const std::size_t node : nodes_in_motion(scene, camera, prepared.time)) {
         const std::string what = node == camera ? "it" : label("node", scene.nodes[node].name, node);
         needs.add(Effect::motion_blur, opens + what + " moves");
@@ -98,12 +98,12 @@ void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs)
 }
 
 void add_material(const Optics& optics, const std::string& name, Needs& needs) {
-    const float glow = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
+    const float radiance = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
     if (optics.unlit != 0) needs.add(Effect::emission, name + " is unlit");
-    if (glow > 0 && optics.unlit == 0)
-        needs.add(Effect::emission, fmt::format("{} glows with a radiance of {:g}", name, glow));
+    if (radiance > 0 && optics.unlit == 0)
+        needs.add(Effect::emission, fmt::format("{} emits a radiance of {:g}", name, radiance));
     const float mirror = std::max({optics.mirror.x, optics.mirror.y, optics.mirror.z});
-    if (mirror > 0) needs.add(Effect::reflection, fmt::format("{} is a mirror of reflectance {:g}", name, mirror));
+    if (mirror > 0) needs.add(Effect::reflection, fmt::format("{} is a mirror with reflectance {:g}", name, mirror));
     if (!(optics.transmission > 0)) return;
     needs.add(Effect::refraction, fmt::format("{} has transmission {:g}", name, optics.transmission));
     const float absorption = std::max({optics.absorption.x, optics.absorption.y, optics.absorption.z});
@@ -123,7 +123,7 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     if (scene.environment_image) {
         const FloatImage& picture = scene.environment_image->picture;
         needs.add(Effect::environment_picture,
-                  fmt::format("the environment is a picture of {} x {} texels", picture.width, picture.height));
+                  fmt::format("the environment is a picture with {} x {} texels", picture.width, picture.height));
     }
     if (prepared.material_of.empty()) return needs.take();  // nothing receives light
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -138,7 +138,7 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         add_pictures(prepared.textures, i, name, coloured, needs);
         if (!prepared.microfacets.empty() && prepared.microfacets[i].is_there != 0) {
             const Microfacets& facets = prepared.microfacets[i];
-            needs.add(Effect::microfacets, fmt::format("{} has a roughness of {:g}, and is {:.3g} % metal", name,
+            needs.add(Effect::microfacets, fmt::format("{} has roughness {:g} and is {:.3g} % metal", name,
                                                        facets.roughness, facets.metallic * 100));
         }
     }
@@ -151,13 +151,13 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     if (!prepared.area_lights.empty()) {
         const std::uint32_t first = prepared.material_of[prepared.area_lights.front().primitive];
         const std::string name = label("material", scene.materials[first].name, first);
-        needs.add(Effect::area_lights, name + " lights through its surface");
+        needs.add(Effect::area_lights, name + " is an area light");
         if (prepared.area_light_shadows) needs.add(Effect::shadows, name + " casts shadows");
     }
     if (prepared.media_overlap) {
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             if (!used[i] || !(scene.materials[i].optics.transmission > 0)) continue;
-            needs.add(Effect::nested_media, fmt::format("a body of {} may touch or hold another, or the camera",
+            needs.add(Effect::nested_media, fmt::format("a solid of {} may touch or contain another one, or the camera",
                                                         label("material", scene.materials[i].name, i)));
         }
     }
@@ -172,7 +172,7 @@ EffectMask mask_of(const std::vector<EffectNeed>& needs) {
 
 namespace {
 
-/// Takes the picture away but for its alpha, if that cuts.
+/// Removes the texture, but keeps its alpha if that is a mask.
 void remove_colours(Scene& scene, Material& material) {
     if (!material.diffuse_texture) return;
     if (material.alpha_mode == AlphaMode::opaque) return material.diffuse_texture.reset();

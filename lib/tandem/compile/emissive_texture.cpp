@@ -11,13 +11,13 @@ namespace tandem {
 namespace {
 
 constexpr std::size_t block_edge = 8;
-/// What a light counts at least whose texture may shine somewhere, beside one that is white all over.
+/// The least weight of a light whose texture may not be black everywhere, relative to a white texture.
 constexpr double least_brightness = 1.0 / 256;
 
 /// Texels along one axis, both ends included.
 using Run = std::pair<std::size_t, std::size_t>;
 
-/// The texels that an axis of `size` shows from `first` to `last`, counted on beyond its ends.
+/// The texels of an axis of `size` that the unwrapped range from `first` to `last` shows.
 std::vector<Run> runs_of(double first, double last, std::size_t size, Wrap wrap) {
     const auto edge = static_cast<double>(size);
     if (wrap == Wrap::clamp_to_edge) {
@@ -82,7 +82,7 @@ bool EmissiveTextures::may_shine(const TextureUse& use, std::span<const Point> p
         top = std::min(top, y);
         bottom = std::max(bottom, y);
     }
-    // a texel further than the filter reaches: rounding
+    // one texel more than the filter's support, for rounding
     const auto runs = [](double from, double to, std::uint32_t size, Wrap wrap) {
         return runs_of(std::floor(from * size) - 2, std::floor(to * size) + 2, size, wrap);
     };

@@ -1,4 +1,4 @@
-/// Estimates of an emissive texture's brightness over a light.
+/// Estimates the brightness of an emissive texture over a light.
 #pragma once
 
 #include <map>
@@ -16,12 +16,12 @@ class EmissiveTextures {
     /// `scene` must outlive it.
     explicit EmissiveTextures(const SceneView& scene) : scene_(scene) {}
 
-    /// Approximately the mean over a primitive of the factor of its emission (the mean of red, green and blue); 0 only
-    /// where all of it is black. 1 without a texture.
+    /// Approximately the mean of the texture (over red, green and blue too) on a primitive; 0 only if all of it is
+    /// black. 1 without a texture.
     [[nodiscard]] double brightness(std::uint32_t primitive);
 
   private:
-    /// Which blocks of texels are not black, as sums over all blocks above and to the left.
+    /// Summed-area table of the blocks of texels that are not black.
     struct Blocks {
         std::size_t columns = 0;
         std::vector<std::uint32_t> bright;
@@ -32,7 +32,7 @@ class EmissiveTextures {
     struct Point {
         double u, v;
     };
-    /// May the texture be anything but black in the box around some points?
+    /// Whether the texture may be other than black in the bounding box of some points.
     bool may_shine(const TextureUse& use, std::span<const Point> points);
     double on_triangle(const TextureUse& use, const Vec2f& a, const Vec2f& b, const Vec2f& c);
     double on_sphere(const TextureUse& use);

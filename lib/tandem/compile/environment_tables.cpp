@@ -22,7 +22,7 @@ std::vector<double> band_borders(std::uint32_t height) {
     return borders;
 }
 
-/// Shares all numbers out in proportion to the weights, of which each that is above 0 has at least one.
+/// Distributes all units in proportion to the weights; each weight above 0 gets at least one.
 void share_out(std::span<const double> weights, std::span<std::uint32_t> ends) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto lit = static_cast<std::uint32_t>(

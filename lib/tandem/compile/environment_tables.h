@@ -1,4 +1,4 @@
-/// The tables by which directions are drawn from a picture of the environment (environment_picture.h). On the host.
+/// The tables for sampling directions from an environment picture (environment_picture.h). On the host.
 #pragma once
 
 #include <span>
@@ -13,22 +13,21 @@ namespace tandem {
 struct EnvironmentTables {
     std::vector<double> borders;
     std::vector<std::uint32_t> band_ends, cell_ends;
-    /// Over all directions, linear RGB, without `intensity`. Times 4 pi the light that a point receives from all sides.
+    /// The mean over all directions, linear RGB, without `intensity`.
     Vec3d mean_radiance{0, 0, 0};
 };
 
 /// Needs: width and height from 1 to 65536, and width * height texels, finite and not negative, of at most 2^100.
-/// Gives: chances in proportion to the solid angle of a cell times the brightness (r + g) + b in it, in units of 2^-31
-/// of
-///        the band, and of the sphere. What is not black has at least one unit, and what is black has none. The same
-///        tables on every machine: sums in double, in one order, and no function of the C library.
+/// Gives: probabilities in proportion to the solid angle of a cell times its brightness (r + g) + b, in units of 2^-31,
+///        for the bands and for the cells of a band. A cell that is not black has at least one unit, a black one none.
+///        The tables are the same on every machine: sums in double, in one order, no function of the C library.
 [[nodiscard]] EnvironmentTables make_environment_tables(std::uint32_t width, std::uint32_t height,
                                                         std::span<const Vec3f> texels);
 
-/// The picture of the environment and its tables.
+/// The environment picture and its tables.
 void add_environment_picture(PreparedScene& scene, const EnvironmentImage& image);
 
-/// `texels` and `tables` have to live as long as the view.
+/// `texels` and `tables` must outlive the view.
 [[nodiscard]] EnvironmentPictureView view_of(const EnvironmentPicture& picture, std::span<const Vec3f> texels,
                                              const EnvironmentTables& tables);
 

@@ -45,7 +45,7 @@ bool holds(const Parallelepiped& body, const Vec3d& point) {
     return std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) < 1;
 }
 
-/// What a line from the camera says of the faces of one material: how often it leaves less how often it enters.
+/// The faces of one material along a line from the camera: how often it leaves minus how often it enters.
 int crossing(const Triangle& face, const Ray<double>& ray) {
     double t = 0;
     if (!first_hit(face, ray, t)) return 0;
@@ -74,7 +74,7 @@ std::vector<Body> bodies_around(const SceneView& scene, const std::vector<std::u
     };
     std::vector<Body> around;
     std::map<std::uint32_t, Faces> faces;                                 // by material
-    const Ray<double> ray = {camera, {0.5403023, 0.8414710, 0.3817733}};  // along no plane that people build with
+    const Ray<double> ray = {camera, {0.5403023, 0.8414710, 0.3817733}};  // parallel to no plane of a typical model
     for (const std::uint32_t id : glass) {
         const std::uint32_t material = scene.material_of[id];
         visit_primitive(scene, id, [&](const auto& primitive) {

@@ -1,16 +1,16 @@
-/// Facts about the dielectric solids of a scene that a kernel needs before it starts.
+/// Facts about the dielectric solids of a scene that kernels need in advance.
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 
-/// Fills media_overlap and camera_media; everything else must be there.
+/// Fills media_overlap and camera_media; needs everything else.
 ///
 /// Solids are disjoint if no dielectric is a mesh, which need not be closed, and the bounds of none touch those of
-/// another primitive or contain the camera; spheres are compared by their distance. Over 10^8 pairs are not compared,
-/// and overlap. Of an orthographic camera the middle of its film counts. The media around a camera are ordered by the
-/// size of their solids, the largest as if entered first.
+/// another primitive or contain the camera; spheres are compared by their distance. More than 10^8 pairs are not
+/// compared, but count as overlapping. For an orthographic camera the middle of its film counts. The media around a
+/// camera are ordered by the size of their solids, as if the largest had been entered first.
 void find_media(PreparedScene& scene);
 
 }  // namespace tandem

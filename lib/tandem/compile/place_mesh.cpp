@@ -101,7 +101,7 @@ class Placer {
     static std::uint32_t next_index(std::size_t size) {
         if (size > no_attributes - 4) {
             throw InputError(
-                "the meshes of the scene have more than 4 billion values at corners of faces; split the scene");
+                "the meshes of the scene have more than 4 billion values at the corners of faces; split the scene");
         }
         return static_cast<std::uint32_t>(size);
     }

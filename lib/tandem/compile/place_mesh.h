@@ -1,4 +1,4 @@
-/// From an authored mesh to the faces that kernels read.
+/// Turns an authored mesh into the faces that kernels read.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-/// What place_mesh() made of a mesh.
+/// The result of place_mesh().
 struct PlacedMesh {
     Aabb bounds;  ///< of all its corners
     std::size_t triangles = 0;
@@ -21,14 +21,15 @@ struct PlacedMesh {
 /// their normals and the values of `slots`, and counts degenerate ones in dropped_primitives. A set of texture
 /// coordinates that the mesh lacks is (0, 0), and colours that it lacks are white.
 ///
-/// Every vertex is transformed once, in double, and rounded once, so that faces that share one share its bits. Areas
-/// are judged by the rounded corners, exactly. A quad with one flat half becomes the triangle of the other half. A
-/// transform that mirrors turns the corners round, so that front stays front. Normals go by the inverse transpose, in
-/// the form that a flattening transform has too. Throws InputError if there are too many corners to number.
+/// Every vertex is transformed once, in double, and rounded once, so that faces that share it have the same bits. Areas
+/// are computed exactly, from the rounded corners. A quad with one degenerate half becomes the triangle of the other
+/// half. A mirroring transform reverses the order of the corners, so that fronts stay fronts. Normals are transformed
+/// by the inverse transpose, in a form that exists for flattening transforms too (normal_matrix.h). Throws InputError
+/// if there are too many corners for 32-bit indices.
 PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, FaceSides sides, const CornerSlots& slots,
                       PreparedScene& scene);
 
-/// The bounds of a placed mesh, but for the rounding of its corners.
+/// The bounds of a placed mesh, before its corners are rounded.
 [[nodiscard]] Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object);
 
 }  // namespace tandem

@@ -25,11 +25,11 @@ namespace tandem {
 
 namespace {
 
-/// Relative deviation up to which a linear map counts as a rotation times one scale. A unit quaternion read from a
-/// file gives 1e-16; the deviation moves a surface by far less than the rounding of its centre to float.
+/// Relative deviation up to which a linear map counts as a rotation times a uniform scale. A unit quaternion from a
+/// file gives 1e-16; such a deviation moves a surface far less than the rounding of its centre to float.
 constexpr double similarity_tolerance = 1e-12;
 
-/// The factor by which `m` scales all lengths, or 0 if it does not scale all alike.
+/// The uniform scale of `m`, or 0 if the scale is not uniform.
 double uniform_scale(const Matrix3& m) {
     const Matrix3 columns = transpose(m);
     const double length2 = dot(columns.row[0], columns.row[0]);
@@ -53,7 +53,7 @@ Vec3d unit_axis(const Vec3d& a) {
     return largest > 0 ? normalize(a / largest) : a;
 }
 
-/// Does a transform shrink a body to a line or a point, up to rounding? Animations hide things in this way.
+/// Whether a transform shrinks a solid to a line or a point, up to rounding. Animations hide objects in this way.
 bool is_hidden(const Matrix3& m) {
     double largest = 0;
     for (const Vec3d& row : m.row) largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
@@ -66,10 +66,10 @@ bool is_hidden(const Matrix3& m) {
     return std::max({area2(0, 1), area2(1, 2), area2(2, 0)}) <= 1e-30;
 }
 
-/// Is a body that has a size in float smaller under its transform than any float?
+/// Whether a solid whose size is not zero in float becomes smaller than any float under its transform.
 bool vanishes_in_float(double size, double transformed) { return narrow(size) > 0 && !(narrow(transformed) > 0); }
 
-/// Does it only scale, without mirroring?
+/// Whether the map is a scale without mirroring.
 bool is_upright(const Matrix3& m) { return is_diagonal(m) && m.row[0].x >= 0 && m.row[1].y >= 0 && m.row[2].z >= 0; }
 
 /// The unit sphere, or the cube [-1, 1]^3, in world space.
@@ -84,14 +84,14 @@ Placement place(const Placed& body, const Vec3d& origin, bool is_box) {
     placement.object_from_world = body.unit_from_world;
     placement.centre = body.world_from_unit.translation - origin;
     const auto extent = [&](const Vec3d& row) {
-        // support of the body along a world axis: l1 norm for the cube, l2 for the ball
+        // support of the solid along a world axis: l1 norm for the cube, l2 for the ball
         const double support = is_box ? norm1(row) : std::sqrt(dot(row, row));
         return support * (1 + 1e-15);
     };
     placement.half_extent = {extent(m.row[0]), extent(m.row[1]), extent(m.row[2])};
     const Vec3f centre = narrow(placement.centre);
     const Vec3d moved = placement.centre - widen(centre);
-    // the body's farthest point from its centre, and what rounding the centre moved it
+    // the farthest point of the solid from its centre, and the rounding of the centre
     double radius = 0;
     if (is_box) {
         const Matrix3 c = transpose(m);
@@ -107,7 +107,7 @@ Placement place(const Placed& body, const Vec3d& origin, bool is_box) {
     return placement;
 }
 
-/// What is seen is the material's colour: as emission, which no light adds to.
+/// An unlit material: its colour becomes emission, and it reflects no light.
 void make_unlit(PhongMaterial& phong, Optics& optics) {
     optics = {.emission = phong.diffuse, .unlit = 1};
     phong = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1};
@@ -164,7 +164,7 @@ class Preparer {
     }
 
   private:
-    /// For every material, if any has them.
+    /// For every material, if any has microfacets.
     void add_microfacets() {
         const auto has_them = [](const Material& material) { return material.microfacets && !material.unlit; };
         if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_them)) return;
@@ -173,7 +173,7 @@ class Preparer {
         }
     }
 
-    /// Without copies, which are neither lights nor bodies to a ray.
+    /// Without copies, which are neither lights nor visible to rays.
     void find_what_glows_and_refracts() {
         const auto find = [this](PreparedScene& scene) {
             find_media(scene);
@@ -190,7 +190,7 @@ class Preparer {
         for (AreaLight& light : result_.area_lights) light.primitive = ids.of_scene(light.primitive);
     }
 
-    /// World space, double, until the origin is known.
+    /// In world space and double until the render origin is known.
     struct PlacedSurface {
         const Mesh* mesh;
         Transform world_from_object;
@@ -198,7 +198,7 @@ class Preparer {
         std::size_t node;
     };
 
-    /// Shorter paths are not worth the noise.
+    /// Russian roulette starts only at this vertex: on shorter paths it saves less than its noise costs.
     static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
 
@@ -224,7 +224,7 @@ class Preparer {
             return;
         }
         if (directed && axis == Vec3d{0, 0, 0}) {
-            fail(node, "a light with a direction under a transform that takes it");
+            fail(node, "a light with a direction under a transform that removes it");
         }
         PunctualLight light{};
         const bool falls_off = source.inverse_square && source.kind != LightKind::directional;
@@ -312,12 +312,12 @@ class Preparer {
         add_placement(world_from_object, half, true, material, node);
     }
 
-    /// Spheres and boxes have the axes of the world; a picture that is turned or mirrored needs its own.
+    /// Spheres and boxes have the axes of the world; a texture that is rotated or mirrored needs axes of its own.
     bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
         return !has_texture(result_.textures, material) || is_upright(world_from_object.linear);
     }
 
-    /// `size`: scale from the unit body to the shape.
+    /// `size`: scale from the unit solid to the shape.
     void add_placement(const Transform& world_from_object, const Vec3d& size, bool is_box, std::uint32_t material,
                        std::size_t node) {
         Transform world_from_unit = world_from_object;
@@ -344,7 +344,7 @@ class Preparer {
     void check_reach(const Vec3d& centre, const Vec3d& half_extent, std::size_t node) const {
         for (int i = 0; i < 3; ++i) {
             if (!(std::abs(centre[i]) + half_extent[i] <= double{coordinate_limit})) {
-                fail(node, "something farther than 1e18 from the origin");
+                fail(node, "coordinates farther than 1e18 from the origin");
             }
         }
     }
@@ -354,7 +354,7 @@ class Preparer {
         throw InputError(fmt::format("node {}{} has {}", node, name.empty() ? "" : " '" + name + "'", what));
     }
 
-    /// Chooses the origin of render space and rounds everything there to float.
+    /// Chooses the origin of render space, moves everything there and rounds it to float.
     void move_to_origin() {
         const Vec3d origin = options_.origin ? *options_.origin : precise_origin();
         result_.origin = origin;
@@ -393,7 +393,7 @@ class Preparer {
         }
     }
 
-    /// Arrays that grow would hold twice of what they need, and more while they move.
+    /// Reserves the arrays, because growing ones take twice the memory, and more while they are copied.
     void reserve_faces(const std::vector<CornerSlots>& slots) {
         std::size_t triangles = 0, quads = 0, normals = 0, texcoords = 0;
         for (const PlacedSurface& surface : surfaces_) {
@@ -410,14 +410,14 @@ class Preparer {
         result_.texcoords.reserve(texcoords);
     }
 
-    /// Culls no face whose back cannot be seen: of a closed mesh with the camera outside.
+    /// Turns culling off for faces whose backs cannot be seen: those of a closed mesh with the camera outside.
     FaceSides sides_of(const PlacedSurface& surface, const Transform& render_from_object) const {
         const FaceSides sides = scene_.materials[surface.material].sides;
         if (sides != FaceSides::culled || !surface.mesh->is_closed) return sides;
         return sees_outside_of(bounds_of(*surface.mesh, render_from_object)) ? FaceSides::single_sided : sides;
     }
 
-    /// Do the camera's rays start outside of the box? Those of an orthographic one start all over its plane.
+    /// Whether the camera's rays start outside of the box. Those of an orthographic camera start anywhere on its plane.
     bool sees_outside_of(const Aabb& box) const {
         const Vec3d eye = result_.camera.render_from_camera.translation;
         const Vec3d lower = widen(box.lower) - eye, upper = widen(box.upper) - eye;
@@ -472,7 +472,7 @@ class Preparer {
         }
     }
 
-    // What is to be rounded to float once the origin is known: world space, double.
+    // World space, double; rounded to float once the render origin is known.
     struct Ball {
         Vec3d centre;
         double radius;
@@ -486,7 +486,7 @@ class Preparer {
         PunctualLight light;
     };
 
-    /// Material and node of the primitives of one kind.
+    /// The materials and nodes of the primitives of one kind.
     struct Owners {
         std::vector<std::uint32_t> material;
         std::vector<std::uint32_t> node;

@@ -1,4 +1,4 @@
-/// From the authored scene to flat arrays at one instant.
+/// Prepares an authored scene: flat arrays at one instant.
 #pragma once
 
 #include <optional>
@@ -20,16 +20,18 @@ struct PrepareOptions {
     RenderSettings settings{};
 };
 
-/// Throws InputError with the list of validate() if that is not empty.
+/// Throws InputError with the problems that validate() finds, if there are any.
 void check(const Scene& scene);
 
 /// Deterministic: the same scene gives the same bytes. Transforms are composed in double, moved to the origin of render
 /// space in double, and rounded once.
-/// Spheres under rotation and uniform scale stay spheres, boxes under diagonal transforms stay boxes; the others
-/// become ellipsoids and parallelepipeds. So do those with a texture that are rotated or mirrored, since a sphere and a
-/// box have no orientation; prepare_textures() decides what is a texture. Meshes become triangles and quads
-/// (place_mesh.h). The result is one instant: a frame with motion blur combines several (render/motion_blur.h). Their
-/// times are not rounded, unlike that of a frame.
+///
+/// Spheres under rotation and uniform scale stay spheres, and boxes under diagonal transforms stay boxes; the others
+/// become ellipsoids and parallelepipeds. So do textured ones that are rotated or mirrored, since a sphere and a box
+/// have no orientation; prepare_textures() decides what is a texture. Meshes become triangles and quads (place_mesh.h).
+///
+/// The result is one instant: a frame with motion blur combines several (render/motion_blur.h). Their times are not
+/// rounded, unlike that of a frame.
 /// Throws InputError as check() does, and if the camera is missing.
 [[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
 

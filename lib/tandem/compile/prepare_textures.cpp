@@ -18,7 +18,7 @@ constexpr std::size_t most_texels = std::size_t{1} << 30;
 constexpr std::uint32_t rgb = 0x00FFFFFF;  // the bits of a texel's red, green and blue
 constexpr std::uint32_t green_blue = 0x00FFFF00;
 
-/// Of the channels in `bits`.
+/// Whether all texels are equal in the channels of `bits`.
 bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
     return std::all_of(image.texels.begin(), image.texels.end(),
                        [&](std::uint32_t t) { return (t & bits) == (image.texels[0] & bits); });
@@ -94,7 +94,7 @@ class Preparer {
                 prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
             }
         }
-        // beyond the rounding of the kernels' product
+        // more than the rounding of the kernels' product
         const double cutoff = prepared.alpha_cutoff, rounding = 1e-6;
         result_.is_masked_out.push_back(double{prepared.alpha} * (alpha.most / 255.0) < cutoff * (1 - rounding));
         if (!slots.has_colours && double{prepared.alpha} * (alpha.least / 255.0) > cutoff * (1 + rounding)) {
@@ -113,12 +113,12 @@ class Preparer {
         result_.materials.push_back(prepared);
     }
 
-    /// What a look at every texel says.
+    /// Facts about all texels of an image.
     struct Facts {
         bool has_one_rgb, has_one_rgba;
         AlphaRange alpha;
     };
-    /// Many materials may show one image.
+    /// Cached, because many materials may use one image.
     const Facts& facts_of(const Image& image) {
         const auto known = facts_.find(&image);
         if (known != facts_.end()) return known->second;
@@ -141,7 +141,7 @@ class Preparer {
         }
     }
 
-    /// Red often says something else, such as occlusion.
+    /// Green and blue only: red often holds something else, such as occlusion.
     void add_metallic_roughness(const TextureReference& reference, const CornerSlots& slots, std::size_t index,
                                 MaterialTextures& prepared) {
         const Image& image = image_of(reference);
@@ -158,7 +158,7 @@ class Preparer {
         return {result_.levels[texel & 255U], result_.levels[texel >> 8 & 255U], result_.levels[texel >> 16 & 255U]};
     }
 
-    /// Index of the descriptor. `whitened`: with alpha alone.
+    /// Index of the descriptor. `whitened`: all colours are white, only alpha remains.
     std::uint32_t add(const TextureReference& reference, ColourSpace space, bool whitened) {
         const auto [known, is_new] =
             descriptor_of_.try_emplace({reference.texture, space}, static_cast<std::uint32_t>(result_.textures.size()));

@@ -1,4 +1,4 @@
-/// From authored textures to flat arrays.
+/// Turns authored textures into flat arrays.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,10 @@
 
 namespace tandem {
 
-/// The textures of the materials of a valid scene, without what costs and changes nothing: a texture of
-/// one colour becomes a factor of `phong`, `optics` or `microfacets`, which go by index of the material; a normal map
-/// of one colour becomes one texel; the colours of a picture that differs in alpha alone become white, and a factor; a
-/// mask that lets everything through is none; and pictures that nothing shows are left out. Throws InputError if there
-/// are more than 2^30 texels.
+/// The textures of the materials of a valid scene, simplified where the image stays the same. A texture of one colour
+/// becomes a factor of `phong`, `optics` or `microfacets` (indexed by material); a normal map of one colour becomes one
+/// texel; an image that varies in alpha only becomes white with a factor; a mask that is opaque everywhere is removed;
+/// and images that nothing uses are left out. Throws InputError if there are more than 2^30 texels.
 [[nodiscard]] PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong,
                                                 std::vector<Optics>& optics, std::vector<Microfacets>& microfacets);
 

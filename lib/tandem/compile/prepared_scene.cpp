@@ -50,7 +50,7 @@ CameraView camera_view(const PreparedCamera& camera, int width, int height) {
         view.rotation = camera.lens.rotation / (2 * pi);
         view.blades = camera.lens.blades;
     }
-    // rays are affine in the film position: if those of the corners can be traced, all can
+    // rays are affine in the film position: if the corner rays are traceable, all are
     for (const double x : {0.0, double(width)}) {
         for (const double y : {0.0, double(height)}) {
             if (is_traceable(camera_ray<float>(view, x, y, 0.0F, 0.0F))) continue;
@@ -88,10 +88,10 @@ std::string scene_hash(const PreparedScene& scene) {
     hash.update_value(scene.camera.lens.blades);
     hash.update_value(scene.camera.lens.rotation);
     if (scene.environment_picture.width != 0) hash.update_value(scene.environment_picture);
-    if (!scene.textures.materials.empty()) {  // the hash of a scene without textures is older than they are
+    if (!scene.textures.materials.empty()) {  // scenes without textures keep their older hash
         add(scene.textures.texels);
         add(scene.textures.textures);
-        add(scene.textures.materials);  // levels are always the same
+        add(scene.textures.materials);  // levels are constant
     }
     return hash.hex();
 }

@@ -19,7 +19,7 @@
 
 namespace tandem {
 
-/// Where the camera stands, without the size of a film; camera_view() sets it up for one.
+/// The camera, independent of the size of a film; camera_view() sets it up for one.
 struct PreparedCamera {
     Transform render_from_camera;
     bool orthographic = false;
@@ -27,7 +27,7 @@ struct PreparedCamera {
     double half_height = 1;  ///< tan(yfov / 2), or ymag for an orthographic camera
 };
 
-/// All coordinates are in render space: world space moved by `origin`, so that float is precise where the camera looks
+/// All coordinates are in render space: world space translated so that `origin` becomes zero, where float is precise
 /// (compile/render_origin.h). The axes are those of the world.
 ///
 /// Primitive ids run over the arrays spheres, boxes, ... in the order of primitives.def. Within a kind they follow the
@@ -39,29 +39,29 @@ struct PreparedScene {
 #include "tandem/kernel/view/scene_arrays.def"
     PreparedTextures textures;
     std::vector<std::uint32_t> node_of;  ///< by primitive id: index into Scene::nodes, for messages
-    std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they equal another one
+    std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they are copies
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
     bool area_light_shadows = true;
-    bool several_slots = false;           ///< a material reads colours of corners, or another slot than 0
-    std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds of those that are cut out by their alpha, or culled
-    std::uint32_t culled_node = never;    ///< the first node whose faces are culled from behind
+    bool several_slots = false;           ///< a material reads vertex colours, or another slot than 0
+    std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds with alpha masks or culled faces
+    std::uint32_t culled_node = never;    ///< the first node with culled faces
     std::uint32_t roulette_from = never;  ///< vertex of a path
     CameraMedia camera_media{};
-    bool media_overlap = false;  ///< bodies of glass may lie within, or touch, something else
+    bool media_overlap = false;  ///< dielectric solids may overlap, or touch, other primitives
     Environment environment;
     bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
     EnvironmentPicture environment_picture{};
-    EffectMask effects;  ///< what kernels have to simulate: what the scene calls for, and what was forced on
-    /// Of the Scene, because no ray hits them: faces without area, bodies that their transforms hide (scale 0), and
-    /// what an alpha mask leaves nothing of.
+    EffectMask effects;  ///< the effects to simulate: those that the scene needs, and those forced on
+    /// Primitives of the Scene that no ray can hit: degenerate faces, solids that their transforms hide (scale 0), and
+    /// primitives that their alpha mask removes completely.
     std::uint64_t dropped_primitives = 0;
-    std::uint64_t dropped_lights = 0;  ///< spot and directional lights that a scale of 0 leaves without direction
+    std::uint64_t dropped_lights = 0;  ///< spot and directional lights without a direction because of a scale of 0
 
     Vec3d origin{0, 0, 0};  ///< of render space, in world space, metres
 
     PreparedCamera camera;
 
-    // when this is, and what the camera would see of motion: for derive_effects()
+    // the instant, and what determines motion blur: for derive_effects()
     double time = 0;              ///< seconds, of the animation
     std::size_t camera_node = 0;  ///< index into Scene::nodes
     Shutter shutter{};            ///< closed for an instant of a frame
@@ -69,7 +69,7 @@ struct PreparedScene {
 
 [[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
 
-/// Points between the two spaces; directions, normals and t are the same in both.
+/// Points from one space to the other; directions, normals and t are the same in both.
 [[nodiscard]] inline Vec3d render_from_world(const PreparedScene& scene, const Vec3d& world) {
     return world - scene.origin;
 }
@@ -77,16 +77,16 @@ struct PreparedScene {
     return render + scene.origin;
 }
 
-/// The window of the kernels onto the arrays of `scene`, which must outlive it.
+/// The kernels' view of the arrays of `scene`, which must outlive it.
 [[nodiscard]] SceneView view(const PreparedScene& scene);
 
-/// The camera for a film of width x height pixels; pixels are square. All its rays are traceable and
-/// have directions at least 1 long. Throws InputError if an orthographic one shows points beyond coordinate_limit.
+/// The camera for a film of width x height square pixels. All its rays are traceable and their directions have at least
+/// length 1. Throws InputError if an orthographic camera shows points beyond coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedCamera& camera, int width, int height);
 
-/// SHA-256 over everything above that makes the picture, in hexadecimal: equal hashes mean equal pictures. Not over
-/// node_of and the numbers of what was dropped, which serve messages, nor over copies, which follow from the rest, nor
-/// over origin, effects, time and shutter: a frame with motion blur has a hash of its own (render/motion_blur.h).
+/// SHA-256, in hexadecimal, of everything above that determines the image: equal hashes mean equal images. It leaves
+/// out node_of and the numbers of dropped things, which only serve messages; copies, which follow from the rest; and
+/// origin, effects, time and shutter: a frame with motion blur has its own hash (render/motion_blur.h).
 [[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

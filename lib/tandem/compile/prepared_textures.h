@@ -1,4 +1,4 @@
-/// The textures of a scene as the kernels read them.
+/// The textures of a scene, as kernels read them.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// The arrays of a TextureSet. All are empty where no material has a texture or is cut out.
+/// The arrays of a TextureSet. All are empty if no material has a texture or an alpha mask.
 struct PreparedTextures {
 #define TANDEM_TEXTURE_ARRAY(Type, names) std::vector<Type> names;
 #include "tandem/kernel/texture/texture_arrays.def"
@@ -17,13 +17,13 @@ struct PreparedTextures {
     std::vector<bool> is_masked_out;
 };
 
-/// The window of the kernels onto the arrays, which must outlive it.
+/// The kernels' view of the arrays, which must outlive it.
 [[nodiscard]] TextureSet view(const PreparedTextures& textures);
 
-/// Does the picture of this material depend on where a point lies on its surface?
+/// Whether the shading of this material depends on the texture coordinates.
 [[nodiscard]] bool has_texture(const PreparedTextures& textures, std::size_t material);
 
-/// Does a picture show anything but white?
+/// Whether a texture contains any colour but white.
 [[nodiscard]] bool has_colours(const PreparedTextures& textures, const TextureUse& use);
 
 }  // namespace tandem

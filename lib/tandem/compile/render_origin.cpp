@@ -14,7 +14,7 @@ double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 double largest(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// The point of the box that is nearest to p; on its surface, also from within.
+/// The surface point of the box that is nearest to p, which may be inside.
 Vec3d nearest_of_box(const Vec3d& lower, const Vec3d& upper, const Vec3d& p) {
     Vec3d nearest = p;
     double least = __builtin_huge_val();
@@ -41,7 +41,7 @@ Vec3d nearest_of_segment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
     return a + along * s;
 }
 
-/// The point of a triangle that is nearest to p: below p, or on an edge.
+/// The point of a triangle that is nearest to p: its projection, or a point of an edge.
 Vec3d nearest_of_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2, const Vec3d& p) {
     const Vec3d normal = cross(v1 - v0, v2 - v0);
     const double area2 = dot(normal, normal);
@@ -62,7 +62,7 @@ Vec3d nearest_of_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2, con
     return nearest;
 }
 
-/// Rounds to a multiple of a power of two; numbers that are finer in double than the grid stay.
+/// Rounds to a multiple of `step`, a power of two; numbers whose ulp is not below the step stay as they are.
 double snap(double x, double step) { return std::abs(x) < step * 0x1p52 ? std::rint(x / step) * step : x; }
 
 }  // namespace
@@ -128,7 +128,7 @@ Vec3d RenderOrigin::get() const {
         const double step = std::ldexp(1.0, std::ilogb(length));
         origin = {snap(origin.x, step), snap(origin.y, step), snap(origin.z, step)};
     }
-    // a sum of two coordinates must not pass the limit that each of them keeps
+    // the difference of two coordinates within the limit may exceed it
     const double farthest = std::max({reach_, largest(lower_), largest(upper_), largest(camera_)}) + largest(origin);
     return farthest <= double{coordinate_limit} ? origin : Vec3d{0, 0, 0};
 }

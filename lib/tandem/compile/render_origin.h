@@ -1,34 +1,34 @@
-/// Where the space that is rendered in has its origin.
+/// Chooses the origin of render space.
 #pragma once
 
 #include "tandem/scene/scene.h"
 
 namespace tandem {
 
-/// Floats are dense near zero, so the coordinates that kernels see should be small where the picture is sharp: near the
-/// surface that is nearest to the camera. This finds it.
+/// Floats are dense near zero, so coordinates should be small where the image shows most detail: near the surface point
+/// that is nearest to the camera.
 ///
-/// The rule: the point of a surface that is nearest to the camera, rounded to a grid, whose step is the largest power
-/// of two up to 16 times the smaller of two lengths: the distance of that point from the camera, and the extent of the
-/// scene. So every point of a surface has coordinates of at most 16 times its distance from the camera, and rounding
-/// them to float moves it by an angle of at most 16 u = 9.6e-7, wherever in the world the scene is. A scene that lies
-/// around the world's origin as seen from its camera stays where it is. Scaling a scene by a power of two scales the
-/// origin. Tested by tests/compile/render_origin_test.cpp.
+/// The rule: the origin is that point, rounded to a grid. The step of the grid is the largest power of two up to 16
+/// times the smaller of two lengths: the distance of the point from the camera, and the extent of the scene. So every
+/// surface point has coordinates of at most 16 times its distance from the camera, and rounding them to float moves it
+/// by an angle of at most 16 u = 9.6e-7, wherever in the world the scene is. A scene around the world's origin, as seen
+/// from its camera, stays in place. Scaling a scene by a power of two scales the origin. Tested by
+/// tests/compile/render_origin_test.cpp.
 class RenderOrigin {
   public:
     explicit RenderOrigin(const Vec3d& camera) : camera_(camera) {}
 
-    // World space, metres. Of an ellipsoid, the point towards the centre stands for the nearest one.
+    // World space, metres. For an ellipsoid, the point towards its centre replaces the nearest one.
     void add_sphere(const Vec3d& centre, double radius);
     void add_box(const Vec3d& lower, const Vec3d& upper);
     /// The unit sphere, or the cube [-1, 1]^3, under an invertible transform.
     void add_placed(const Transform& world_from_unit, const Matrix3& unit_from_world, bool is_box);
     void add_mesh(const Mesh& mesh, const Transform& world_from_object);
     void add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2);
-    /// Something that has coordinates but no surface: a light.
+    /// A point without a surface: the position of a light.
     void add_point(const Vec3d& point);
 
-    /// {0, 0, 0} if there is no surface, or if coordinates from elsewhere would pass coordinate_limit.
+    /// {0, 0, 0} if there is no surface, or if coordinates relative to another origin would exceed coordinate_limit.
     [[nodiscard]] Vec3d get() const;
 
   private:

@@ -1,4 +1,4 @@
-/// The effects that a kernel can simulate, as bits; effects.def is the one table.
+/// The effects that kernels can simulate, as bits; effects.def lists them.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class EffectMask {
 
     TANDEM_HD friend constexpr EffectMask operator|(EffectMask a, EffectMask b) { return from_bits(a.bits_ | b.bits_); }
     TANDEM_HD friend constexpr EffectMask operator&(EffectMask a, EffectMask b) { return from_bits(a.bits_ & b.bits_); }
-    /// What is in `a` and not in `b`.
+    /// The effects in `a` that are not in `b`.
     TANDEM_HD friend constexpr EffectMask operator-(EffectMask a, EffectMask b) {
         return from_bits(a.bits_ & ~b.bits_);
     }
@@ -53,14 +53,14 @@ TANDEM_HD constexpr EffectMask operator|(Effect a, Effect b) { return EffectMask
 
 inline constexpr EffectMask all_effects = EffectMask::from_bits((1U << effect_count) - 1);
 
-/// A set that is known when a kernel is compiled: effects outside it leave no code. Kernels ask has() of the type.
-/// Another type may know its set only when it is linked (cuda/linked_facts.h): `most` is what it can have.
+/// A set that is known when a kernel is compiled: effects outside it leave no code. Kernels call has() of the type.
+/// Another type may know its set only at link time (cuda/linked_facts.h); `most` is then the largest possible set.
 template <std::uint32_t bits>
 struct EffectSet {
     static constexpr EffectMask most = EffectMask::from_bits(bits);
     [[nodiscard]] TANDEM_HD static constexpr bool has(Effect effect) { return most.has(effect); }
     [[nodiscard]] TANDEM_HD static constexpr bool has_any(EffectMask of) { return most.has_any(of); }
-    /// A fact of a scene or a job: a kernel that is linked for it has it as a constant.
+    /// A fact about a scene or a job; a constant in a kernel that is linked for it.
     [[nodiscard]] TANDEM_HD static constexpr std::uint32_t light_count(std::uint32_t count) { return count; }
     template <class T>
     [[nodiscard]] TANDEM_HD static constexpr const T& limits(const T& limits) {
@@ -91,13 +91,13 @@ inline constexpr EffectMask bouncing_effects =
 /// The effects that send rays from surfaces: without them there is one ray per sample.
 inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;
 
-/// Can a path continue beyond its first vertex? For types.
+/// Whether paths can continue beyond their first vertex, as known from the type.
 template <class Effects>
 TANDEM_HD constexpr bool can_bounce() {
     return Effects::most.has_any(bouncing_effects);
 }
 
-/// Does it?
+/// Whether paths continue beyond their first vertex.
 template <class Effects>
 TANDEM_HD constexpr bool has_bounces() {
     return Effects::has_any(bouncing_effects);

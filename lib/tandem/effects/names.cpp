@@ -24,8 +24,8 @@ EffectMask parse_name(std::string_view name) {
     for (const EffectName& entry : effect_names()) {
         if (name == entry.name) return entry.effect;
     }
-    throw InputError(
-        fmt::format("there is no effect '{}'; take {}, all or none", name, fmt::join(names_in(all_effects, ""), ", ")));
+    throw InputError(fmt::format("there is no effect '{}'; the effects are {}, all or none", name,
+                                 fmt::join(names_in(all_effects, ""), ", ")));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ ForcedEffects parse_effects(std::string_view text) {
             force(parse_name(word.substr(1)), word.front() == '+');
         } else {
             throw InputError(
-                fmt::format("effects are forced as '+name' or '-name', with commas between, or by 'all' or 'none'; "
+                fmt::format("effects are forced by '+name' or '-name', separated by commas, or by 'all' or 'none'; "
                             "'{}' is neither",
                             word));
         }

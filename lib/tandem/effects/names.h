@@ -23,7 +23,7 @@ struct EffectName {
 /// "shadows, refraction"; "none" for the empty set.
 [[nodiscard]] std::string to_string(EffectMask mask);
 
-/// Effects that are forced on, or forced off, whether or not the scene needs them.
+/// Effects that are forced on or off, whether or not the scene needs them.
 struct ForcedEffects {
     EffectMask on;
     EffectMask off;

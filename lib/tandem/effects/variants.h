@@ -1,4 +1,4 @@
-/// Kernels compiled ahead of time for a closed list of sets of effects.
+/// Variants: kernels compiled ahead of time for fixed sets of effects.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ struct KernelVariant {
     EffectMask effects;
 };
 
-/// The first of `variants` that covers `effects`: they are ordered by what they cost, and the last has all effects.
+/// The first of `variants` that covers `effects`. They are ordered by their cost, and the last has all effects.
 template <std::size_t count>
 [[nodiscard]] constexpr std::size_t variant_for(const KernelVariant (&variants)[count], EffectMask effects) {
     std::size_t variant = 0;

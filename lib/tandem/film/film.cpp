@@ -18,7 +18,7 @@ constexpr std::size_t plane_alignment = 64;
 
 std::size_t aligned(std::size_t bytes) { return (bytes + plane_alignment - 1) / plane_alignment * plane_alignment; }
 
-/// Calls f(FilmPlane, its values) for each that is there; `Planes`: FilmPlanes or ConstFilmPlanes.
+/// Calls f(FilmPlane, its values) for each plane of the film; `Planes`: FilmPlanes or ConstFilmPlanes.
 template <class Planes, class F>
 void for_each_plane(const Planes& planes, F f) {
 #define TANDEM_PLANE(name, Value, rule, channels, help) \

@@ -1,4 +1,4 @@
-/// What a camera saw: the sums of the samples of every pixel, and the planes beside them that were asked for.
+/// The film: the sums of the samples of every pixel, and the other planes that were requested.
 #pragma once
 
 #include <cstddef>
@@ -31,15 +31,15 @@ class Film {
     [[nodiscard]] std::span<Vec3d> sums() { return {sums_.get(), pixel_count()}; }
     [[nodiscard]] std::span<const Vec3d> sums() const { return {sums_.get(), pixel_count()}; }
 
-    /// Which planes it has.
+    /// The planes of the film.
     [[nodiscard]] PlaneMask plane_mask() const { return plane_mask_; }
     [[nodiscard]] FilmPlanes planes();
     [[nodiscard]] ConstFilmPlanes planes() const;
 
-    /// Mean radiance of a pixel, one rounding to float.
+    /// Mean radiance of a pixel, rounded once to float.
     [[nodiscard]] Vec3f mean(std::size_t pixel) const { return narrow(sums()[pixel] / static_cast<double>(samples_)); }
 
-    /// Adds a film of the samples that follow. Throws InputError if size or planes differ.
+    /// Adds a film of the following samples. Throws InputError if size or planes differ.
     void add(const Film& later);
 
   private:
@@ -50,17 +50,17 @@ class Film {
     std::shared_ptr<Vec3d> sums_;
 };
 
-/// Of the memory of a film.
+/// The size of a film's memory.
 [[nodiscard]] std::size_t film_bytes(std::size_t pixels, PlaneMask planes);
 
-/// Where the planes are in the memory of a film; `sums` is its beginning, of this machine or of a GPU.
+/// The addresses of the planes in the memory of a film, which starts at `sums`, on the host or on a GPU.
 [[nodiscard]] FilmPlanes planes_in(Vec3d* sums, std::size_t pixels, PlaneMask planes);
 
 /// SHA-256 of size, samples and the bits of all sums (little endian), in hexadecimal: equal hashes mean equal
-/// films, bit for bit. Planes beside the colour do not count.
+/// films, bit for bit. The planes beside the colour are not included.
 [[nodiscard]] std::string film_hash(const Film& film);
 
-/// SHA-256 of the bits of one plane, in hexadecimal. The film must have it.
+/// SHA-256 of the bits of one plane, in hexadecimal. The film must have the plane.
 [[nodiscard]] std::string plane_hash(const Film& film, FilmPlane plane);
 
 }  // namespace tandem

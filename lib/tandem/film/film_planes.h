@@ -1,4 +1,4 @@
-/// The planes of a film beside its colour, as plain pointers; planes.def is the one table. Kernels read it.
+/// The planes of a film beside its colour, as plain pointers for kernels; planes.def lists them.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ enum class FilmPlane : std::uint32_t {
 #undef TANDEM_PLANE
 };
 
-/// How the samples of a pixel become its value, and how films of other samples are added to it.
-/// mean: the film keeps the sum; files hold the mean. variance: the film keeps the sum of the squares; files hold the
-/// unbiased estimate of the variance of the mean. first: that of the film's first sample. count: added up.
+/// How the samples of a pixel, and films of other samples, combine.
+/// mean: the film keeps the sum; files hold the mean. variance: the film keeps the sum of squares; files hold the
+/// unbiased estimate of the variance of the mean. first: the value of the film's first sample. count: the sum.
 enum class PlaneRule { mean, variance, first, count };
 
 /// A set of planes.
@@ -38,7 +38,7 @@ struct PlaneMask {
 
 constexpr PlaneMask operator|(FilmPlane a, FilmPlane b) { return PlaneMask(a) | PlaneMask(b); }
 
-/// Those that follow a rule.
+/// The planes that follow a rule.
 [[nodiscard]] constexpr PlaneMask planes_by(PlaneRule wanted) {
     PlaneMask planes;
 #define TANDEM_PLANE(name, Value, rule, channels, help) \
@@ -48,14 +48,14 @@ constexpr PlaneMask operator|(FilmPlane a, FilmPlane b) { return PlaneMask(a) | 
     return planes;
 }
 
-/// The values of all pixels, by plane, row by row from the top left; null for a plane that was not asked for.
+/// The values of all pixels, by plane, row by row from the top left; null for a plane that was not requested.
 struct FilmPlanes {
 #define TANDEM_PLANE(name, Value, rule, channels, help) Value* name = nullptr;
 #include "tandem/film/planes.def"
 #undef TANDEM_PLANE
 };
 
-/// The same, for reading.
+/// The same, read-only.
 struct ConstFilmPlanes {
 #define TANDEM_PLANE(name, Value, rule, channels, help) const Value* name = nullptr;
 #include "tandem/film/planes.def"

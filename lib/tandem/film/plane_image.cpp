@@ -9,15 +9,15 @@ namespace tandem {
 
 namespace {
 
-/// Unbiased, of the mean of `samples` values, from their sum and the sum of their squares. Rounding cannot make it
-/// negative.
+/// The unbiased variance of the mean of `samples` values, from their sum and the sum of their squares. Rounding cannot
+/// make it negative.
 double variance_of_mean(double sum, double squares, double samples) {
     if (samples < 2) return std::numeric_limits<double>::infinity();
     const double deviation = squares - sum * sum / samples;
     return deviation > 0 ? deviation / (samples - 1) / samples : 0;
 }
 
-/// What files get of a pixel's value; `sum`: that of the colour.
+/// The value of a pixel in files; `sum`: that of the colour.
 template <PlaneRule rule>
 Vec3f written(const Vec3d& value, const Vec3d& sum, double samples) {
     if constexpr (rule == PlaneRule::mean) return narrow(value / samples);

@@ -1,4 +1,4 @@
-/// The planes of a film as files hold them.
+/// The planes of a film as they are written to files.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace tandem {
 
-/// Row by row from the top left, with the channels of a pixel side by side (PlaneInfo::channels).
+/// Row by row from the top left, the channels of a pixel adjacent (PlaneInfo::channels).
 struct PlaneImage {
     FilmPlane plane;
-    std::vector<float> values;           ///< of a plane of floats; else empty
-    std::vector<std::uint32_t> numbers;  ///< of a plane of whole numbers; else empty
+    std::vector<float> values;           ///< of a float plane; else empty
+    std::vector<std::uint32_t> numbers;  ///< of an integer plane; else empty
 };
 
-/// Those that the film has, in the order of planes.def. Means and variances are rounded once, to float. The variance of
-/// a single sample is not known: it is infinite.
+/// The planes of the film, in the order of planes.def. Means and variances are rounded once, to float. The variance of
+/// a single sample is unknown, so it is infinite.
 [[nodiscard]] std::vector<PlaneImage> plane_images(const Film& film);
 
 }  // namespace tandem

@@ -11,7 +11,7 @@ namespace tandem {
 
 namespace {
 
-/// The parts between commas; one, which may be empty, if there is none.
+/// The parts between commas; without a comma the whole text, which may be empty.
 std::vector<std::string> split(std::string_view text) {
     std::vector<std::string> parts;
     while (true) {
@@ -63,8 +63,9 @@ PlaneMask parse_planes(std::string_view text) {
         } else if (word == "all") {
             planes |= all_planes();
         } else {
-            throw InputError(fmt::format("there is no plane '{}'; name some of {}, with commas between, or all", word,
-                                         fmt::join(names_of(all_planes()), ", ")));
+            throw InputError(
+                fmt::format("there is no plane '{}'; the planes are {}; separate them by commas, or use all", word,
+                            fmt::join(names_of(all_planes()), ", ")));
         }
     }
     return planes;

@@ -1,4 +1,4 @@
-/// The planes of films in words.
+/// Planes of films by name.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct PlaneInfo {
 /// "albedo,normal", in the order of planes.def; empty for none.
 [[nodiscard]] std::string to_string(PlaneMask planes);
 
-/// Names with commas between, in any order, or "all". Throws InputError that lists the names.
+/// Parses names separated by commas, in any order, or "all". Throws InputError that lists the names.
 [[nodiscard]] PlaneMask parse_planes(std::string_view text);
 
 }  // namespace tandem

@@ -16,7 +16,7 @@ namespace tandem::gltf {
 
 namespace {
 
-/// Elements that an accessor without a buffer view may have: they cost the file nothing, but memory here.
+/// Limit of elements of an accessor without a buffer view: they cost the file nothing, but memory here.
 constexpr std::size_t most_zeros = std::size_t{1} << 24;
 
 /// glTF 2.0, 3.6.2.2.
@@ -124,7 +124,7 @@ class Reader {
         check_type();
         const Json* viewed = find(json_, "bufferView");
         if (viewed == nullptr && count_ > most_zeros) {
-            fail(fmt::format("has {} elements and no buffer view to hold them; give it one", count_));
+            fail(fmt::format("has {} elements but no buffer view; add one", count_));
         }
         const Json* sparse = find(json_, "sparse");
         const bool reads_all = need_.elements == nullptr || sparse != nullptr;
@@ -164,7 +164,7 @@ class Reader {
                          normalised_ ? ", normalised" : "", need_.for_what, need_.used_at, words(need_.components)));
     }
 
-    /// Of an object with a bufferView; check_schema() has made sure that all of it lies in the buffer.
+    /// The bytes of an object with a bufferView; check_schema() has made sure that they are in the buffer.
     View view(const Json& object, std::size_t element) const {
         const Json& view = source_.document.json["bufferViews"][object["bufferView"].get<std::size_t>()];
         const std::size_t offset =
@@ -210,7 +210,7 @@ class Reader {
     void check_finite() const {
         const auto bad = std::find_if_not(values_.begin(), values_.end(), [](float v) { return std::isfinite(v); });
         if (bad == values_.end()) return;
-        fail(fmt::format("element {} holds a number that is not finite; export the file anew",
+        fail(fmt::format("element {} has a number that is not finite; export the file again",
                          static_cast<std::size_t>(bad - values_.begin()) / width_));
     }
 

@@ -68,7 +68,7 @@ class AnimationReader {
         }
         const Json* node = find(target, "node");
         if (node == nullptr) {
-            report_.add(Treatment::ignored, "animation without a node", path, "it has nothing to move");
+            report_.add(Treatment::ignored, "animation without a node", path, "there is nothing to move");
             return;
         }
         const auto index = node->get<std::size_t>();
@@ -78,11 +78,12 @@ class AnimationReader {
             return;
         }
         if (driven_.contains({index, name})) {
-            source_.document.fail(path, fmt::format("drives the {} of node {} a second time; keep one", name, index));
+            source_.document.fail(
+                path, fmt::format("animates the {} of node {} a second time; keep one channel", name, index));
         }
         if (scene_.nodes[*node_of_[index]].matrix) {
-            source_.document.fail(path, fmt::format("drives node {}, which is placed by a matrix; give it translation, "
-                                                    "rotation and scale",
+            source_.document.fail(path, fmt::format("animates node {}, which has a matrix; give it translation, "
+                                                    "rotation and scale instead",
                                                     index));
         }
         AnimationChannel read = read_keys(channel["sampler"].get<std::size_t>(), *animated, path);
@@ -119,20 +120,20 @@ class AnimationReader {
         const auto unordered =
             std::adjacent_find(read.times.begin(), read.times.end(), [](float a, float b) { return !(a < b); });
         if (read.times.front() < 0 || unordered != read.times.end()) {
-            source_.document.fail(where + ".input", "has key times that do not rise strictly from 0 or more");
+            source_.document.fail(where + ".input", "has key times that are negative or not strictly increasing");
         }
         if (is_rotation) mend_rotations(read, groups, where);
         return read;
     }
 
-    /// Of the three groups of a cubic key the middle one is the value.
+    /// The middle one of the three groups of a cubic key is the value.
     void mend_rotations(AnimationChannel& channel, std::size_t groups, const std::string& where) {
         for (std::size_t at = groups == 3 ? 4 : 0; at < channel.values.size(); at += 4 * groups) {
             float* q = &channel.values[at];
             if (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0) continue;
             q[3] = 1;
             flaws_.replace("rotation key", where + ".output",
-                           "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+                           "is (0, 0, 0, 0), which is not a rotation; Tandem uses (0, 0, 0, 1)");
         }
     }
 
@@ -153,7 +154,7 @@ void note_length(const Scene& scene, ImportReport& report) {
     constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
     if (double{end} <= time_of_frame(scene, last)) return;
     report.add(Treatment::approximated, "length of the animation", "animations[0]",
-               fmt::format("its last key is at {} s; frames have numbers up to {} only, which is at {} s", end, last,
+               fmt::format("its last key is at {} s, but the last possible frame, {}, is at {} s", end, last,
                            time_of_frame(scene, last)));
 }
 

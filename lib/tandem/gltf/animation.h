@@ -1,4 +1,4 @@
-/// Animation channels of a file.
+/// Reads the animation channels of a file.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace tandem::gltf {
 
-/// Adds the channels of the first animation to the scene. `node_of`: by node of the file its number in the scene, or
-/// nothing if the scene does not have it. A channel with a flaw is left out.
+/// Adds the channels of the first animation to the scene. `node_of`: the number in the scene of each node of the file,
+/// if the scene has it. A channel with a flaw is left out.
 void read_animation(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of, Scene& scene,
                     ImportReport& report, FlawLog& flaws);
 
-/// Notes an animation that goes on beyond the last frame that has a number.
+/// Notes an animation that continues after the last possible frame.
 void note_length(const Scene& scene, ImportReport& report);
 
 }  // namespace tandem::gltf

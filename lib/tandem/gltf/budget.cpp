@@ -11,7 +11,7 @@ Budget::Budget(const Source& source) : whole_(std::max<std::size_t>(5'000'000, d
 void Budget::spend(const Document& document, const std::string& json_path, std::size_t amount) {
     if (amount > left_) {
         document.refuse(json_path,
-                        fmt::format("brings what is read of accessors to more than {} elements, the limit for a "
+                        fmt::format("brings the elements read from accessors to more than {}, the limit for a "
                                     "file of this size; repeat the data less often",
                                     whole_));
     }

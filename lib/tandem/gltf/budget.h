@@ -1,4 +1,4 @@
-/// How much a small file may ask for.
+/// Limits the memory that a small file may cause.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace tandem::gltf {
 
-/// Counts what a few words of JSON can multiply (one mesh at many nodes, one accessor in many channels), so that a
-/// small file cannot fill the memory.
+/// Counts what a short JSON text can multiply (one mesh at many nodes, one accessor in many channels), so that a small
+/// file cannot fill the memory.
 class Budget {
   public:
-    /// Five million, or as many as the file has bytes of data.
+    /// The budget is five million elements, or as many as the file has bytes of data.
     explicit Budget(const Source& source);
 
-    /// Refuses the file once more than the budget has been spent.
+    /// Refuses the file if the budget is exceeded.
     void spend(const Document& document, const std::string& json_path, std::size_t amount);
 
   private:

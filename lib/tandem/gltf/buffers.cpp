@@ -18,7 +18,7 @@ struct Place {
     enum class Kind { chunk, data_uri, file };
 
     Kind kind = Kind::chunk;
-    std::size_t bytes = 0;         ///< that are there
+    std::size_t bytes = 0;         ///< available
     std::string_view digits;       ///< of a data URI
     std::filesystem::path file{};  ///< to read
 };
@@ -31,7 +31,7 @@ Place locate(const Document& document, const Json& buffer, const std::string& pa
             document.fail(uri_path, "is absent, and the file has no binary chunk; name a file or embed the data");
         }
         if (&buffer != &document.json["buffers"][0]) {
-            document.fail(uri_path, "is absent; only the first buffer may live in the binary chunk of a .glb");
+            document.fail(uri_path, "is absent; only the first buffer may be in the binary chunk of a .glb");
         }
         return {Place::Kind::chunk, document.chunk->size(), {}};
     }
@@ -88,7 +88,8 @@ Source load_buffers(Document document) {
             bytes = source.storage[known->second];
         }
         const auto length = buffer["byteLength"].get<std::size_t>();
-        if (bytes.size() < length) source.document.fail(path + ".uri", "changed while it was read");
+        if (bytes.size() < length)
+            source.document.fail(path + ".uri", "names a file that changed while it was read; run the program again");
         source.buffers.back() = bytes.first(length);
     }
     return source;

@@ -14,7 +14,7 @@ Display read_display(const Document& document, const Json* scene, const std::str
     if (const Json* transfer = find(*content, "transfer"))
         display.transfer = parse_transfer(transfer->get<std::string>());
     display.exposure_stops = content->value("exposure", display.exposure_stops);
-    report.add(Treatment::rendered, name, path, "8-bit pictures are " + in_words(display));
+    report.add(Treatment::rendered, name, path, "8-bit images are " + in_words(display));
     return display;
 }
 

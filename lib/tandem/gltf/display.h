@@ -1,4 +1,4 @@
-/// TANDEM_display: how the pictures of a scene are meant.
+/// TANDEM_display: exposure and transfer function of 8-bit images.
 #pragma once
 
 #include "tandem/gltf/document.h"

@@ -18,7 +18,7 @@ namespace tandem::gltf {
 namespace {
 
 constexpr int deepest_nesting = 64;
-/// The tree of a JSON text takes up to some twenty times its bytes.
+/// Limit of the JSON text: its tree takes up to about twenty times as much memory.
 constexpr std::size_t longest_json = std::size_t{512} << 20;
 
 constexpr std::uint32_t glb_magic = 0x46546C67;   // "glTF"
@@ -34,12 +34,12 @@ std::uint32_t word_at(ByteView bytes, std::size_t offset) {
     return word;
 }
 
-/// Takes the chunks of a .glb apart (glTF 2.0, 4.4).
+/// Splits a .glb into its chunks (glTF 2.0, 4.4).
 class GlbReader {
   public:
     GlbReader(Document& document, ByteView bytes, FlawLog& flaws) : document_(document), bytes_(bytes), flaws_(flaws) {}
 
-    /// The JSON text; the binary chunk goes into the document.
+    /// Returns the JSON text; the binary chunk goes into the document.
     ByteView run() {
         check_header();
         std::size_t at = header_bytes;
@@ -47,7 +47,7 @@ class GlbReader {
         if (bytes_.size() - at >= chunk_header_bytes && word_at(bytes_, at + 4) == bin_chunk) {
             document_.chunk = take_chunk(at, "second");
         }
-        while (bytes_.size() - at >= chunk_header_bytes) take_chunk(at, "further");  // unknown ones are to be skipped
+        while (bytes_.size() - at >= chunk_header_bytes) take_chunk(at, "further");  // unknown ones must be skipped
         if (at < bytes_.size()) note_rest("the last chunk", bytes_.size() - at);
         return json;
     }
@@ -62,7 +62,7 @@ class GlbReader {
     void check_header() {
         const auto require_bytes = [this](std::size_t count) {
             if (bytes_.size() >= count) return;
-            fail(fmt::format("is too short for a .glb file: it has {} bytes of {} at least; it may be truncated",
+            fail(fmt::format("is too short for a .glb file: it has {} of at least {} bytes; it may be truncated",
                              bytes_.size(), count));
         };
         require_bytes(8);
@@ -73,13 +73,14 @@ class GlbReader {
         const std::size_t length = word_at(bytes_, 8);
         if (length < header_bytes + chunk_header_bytes) {
             fail(
-                fmt::format("says in its header that it has {} bytes, fewer than any .glb file; the header is wrong, "
-                            "so write the file anew",
+                fmt::format("has a length of {} bytes in its header, less than any .glb file; the header is wrong, "
+                            "so export the file again",
                             length));
         }
         if (length > bytes_.size()) {
-            fail(fmt::format("says in its header that it has {} bytes, but has {}: {} are missing; it may be truncated",
-                             length, bytes_.size(), length - bytes_.size()));
+            fail(fmt::format(
+                "has a length of {} bytes in its header, but only {} bytes: {} are missing; it may be truncated",
+                length, bytes_.size(), length - bytes_.size()));
         }
         if (length < bytes_.size()) note_rest("the end that the header gives", bytes_.size() - length);
         bytes_ = bytes_.first(length);
@@ -90,15 +91,15 @@ class GlbReader {
                          Flaw(document_.file, "header", fmt::format("{} bytes follow {}", count, behind)));
     }
 
-    /// `type`: what it must be; 0 for any.
+    /// `type`: the required type; 0 for any.
     ByteView take_chunk(std::size_t& at, const char* which, std::uint32_t type = 0) const {
         const std::size_t length = word_at(bytes_, at);
         if (type != 0 && word_at(bytes_, at + 4) != type) {
-            fail(fmt::format("is a .glb file whose {} chunk is not the JSON; write that chunk first", which));
+            fail(fmt::format("is a .glb file whose {} chunk is not JSON; the JSON chunk must be first", which));
         }
         at += chunk_header_bytes;
         if (length > bytes_.size() - at) {
-            fail(fmt::format("says that its {} chunk has {} bytes, but only {} follow; it may be truncated", which,
+            fail(fmt::format("has a {} chunk with a length of {} bytes, but only {} follow; it may be truncated", which,
                              length, bytes_.size() - at));
         }
         const ByteView chunk = bytes_.subspan(at, length);
@@ -111,15 +112,15 @@ class GlbReader {
     FlawLog& flaws_;
 };
 
-/// nlohmann's message without its bracketed identifier.
+/// The message of nlohmann's parser without its bracketed identifier.
 std::string plain_message(const std::exception& error) {
     const std::string message = error.what();
     const std::size_t end = message.find("] ");
     return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-/// The depth of the deepest bracket outside of strings. Before the parse, since its callback, which knows the depth
-/// too, makes the time grow with the square of the length of an array.
+/// The nesting depth of brackets outside of strings. Counted before parsing: the parser's callback knows the depth too,
+/// but makes the time quadratic in the length of an array.
 int nesting_of(std::string_view text) {
     int depth = 0;
     int deepest = 0;
@@ -127,7 +128,7 @@ int nesting_of(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if (in_string && c == '\\') {
-            ++i;  // what an escape names is part of the string
+            ++i;  // the escaped character is part of the string
         } else if (c == '"') {
             in_string = !in_string;
         } else if (!in_string && (c == '[' || c == '{')) {
@@ -155,7 +156,7 @@ std::size_t utf8_length(std::string_view text) {
     return is_overlong || is_beyond ? 0 : length;
 }
 
-/// The text with a question mark for every byte that is not UTF-8; nothing if it is all UTF-8.
+/// The text with a question mark for every byte that is not UTF-8; empty if all of it is UTF-8.
 std::optional<std::string> as_utf8(std::string_view text) {
     std::string repaired;
     std::size_t taken = 0;
@@ -176,11 +177,12 @@ Json parse(const Document& document, ByteView bytes, FlawLog& flaws) {
         throw InputError(fmt::format("{}: {}", document.file.string(), printable(what)));
     };
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (text.empty()) fail("is empty; a glTF file holds a JSON object");
+    if (text.empty()) fail("is empty; a glTF file contains a JSON object");
     if (text.size() > longest_json) {
-        fail("has more than 512 MiB of JSON; put the data into buffers of their own");
+        fail("has more than 512 MiB of JSON; move the data into buffer files");
     }
-    if (nesting_of(text) > deepest_nesting) fail(fmt::format("nests its JSON deeper than {} levels", deepest_nesting));
+    if (nesting_of(text) > deepest_nesting)
+        fail(fmt::format("nests its JSON deeper than {} levels; flatten it", deepest_nesting));
     const std::optional<std::string> repaired = as_utf8(text);
     if (repaired) text = *repaired;
     Json json;
@@ -189,8 +191,8 @@ Json parse(const Document& document, ByteView bytes, FlawLog& flaws) {
     } catch (const Json::exception& error) {
         fail("is not well-formed JSON: " + plain_message(error));
     }
-    if (!json.is_object()) fail("does not hold a JSON object; a glTF file starts with '{'");
-    if (repaired) flaws.replace("text that is not UTF-8", "root", "question marks stand for its bytes");
+    if (!json.is_object()) fail("is not a JSON object; a glTF file starts with '{'");
+    if (repaired) flaws.replace("text that is not UTF-8", "root", "Tandem replaces its bytes by question marks");
     return json;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 EnvironmentFile read_picture(const Document& document, const std::string& json_path, const std::string& uri) {
     if (uri.starts_with("data:")) {
-        document.fail(json_path, "embeds a picture; name a .hdr, .exr or .pfm file beside the glTF file");
+        document.fail(json_path, "embeds a picture; name a .hdr, .exr or .pfm file beside the glTF file instead");
     }
     const LocatedFile located = locate_beside(document, json_path, uri);
     if (located.is_lfs_pointer) {
@@ -48,7 +48,7 @@ bool read_environment(const Document& document, const Json* scene, const std::st
     }
     environment.illuminates = found->value("illuminates", uri != nullptr) ? 1U : 0U;
     result.indirect_light = found->value("indirect", false);
-    // light that is computed takes the place of the ambient term
+    // computed light replaces the ambient term
     if (environment.illuminates != 0 || result.indirect_light) environment.ambient = {0, 0, 0};
     environment.ambient = read_colour(*found, "ambient", environment.ambient);
     if (uri == nullptr) return true;
@@ -56,7 +56,7 @@ bool read_environment(const Document& document, const Json* scene, const std::st
     EnvironmentFile file = read_picture(document, uri_path, uri->get<std::string>());
     if (file.negative_texels > 0) {
         report.add(Treatment::approximated, "negative light", uri_path,
-                   fmt::format("{} texels have negative values, which are taken for 0", file.negative_texels));
+                   fmt::format("{} texels have negative values, which become 0", file.negative_texels));
     }
     result.environment_image = {std::move(file.picture), found->value("rotation", 0.0),
                                 found->value("intensity", 1.0F)};

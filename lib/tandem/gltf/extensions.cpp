@@ -33,7 +33,7 @@ struct Reason {
     std::string_view reason;
 };
 
-constexpr std::string_view for_triangles = "it serves triangle meshes in a way that Tandem does not read";
+constexpr std::string_view for_triangles = "Tandem does not read this form of triangle meshes";
 constexpr std::string_view for_textures = "Tandem reads textures in PNG and JPEG only";
 constexpr std::string_view for_animation = "Tandem animates translation, rotation and scale of nodes only";
 
@@ -44,13 +44,13 @@ constexpr std::array<Reason, 14> reasons = {{
     {"EXT_meshopt_", for_triangles},
     {"KHR_meshopt_", for_triangles},
     {"KHR_materials_variants", "materials stay as the primitives name them"},
-    {"KHR_materials_", "of materials Tandem renders base colour, metal and roughness, glass and emission"},
+    {"KHR_materials_", "Tandem renders base colour, metal and roughness, dielectrics and emission only"},
     {"KHR_texture_", for_textures},
     {"EXT_texture_", for_textures},
     {"MSFT_texture_", for_textures},
     {"KHR_animation_pointer", for_animation},
     {"KHR_physics_", "Tandem does not simulate motion"},
-    {"KHR_xmp", "it does not change the picture"},
+    {"KHR_xmp", "it does not affect the image"},
     {"EXT_lights_image_based", "the background is the gradient of TANDEM_environment"},
 }};
 
@@ -63,7 +63,7 @@ bool is_rendered_extension(std::string_view name) {
 std::string why_ignored(std::string_view name) {
     const auto found =
         std::find_if(reasons.begin(), reasons.end(), [&](const Reason& r) { return name.starts_with(r.prefix); });
-    return std::string(found == reasons.end() ? "Tandem does not know it" : found->reason);
+    return std::string(found == reasons.end() ? "Tandem does not support it" : found->reason);
 }
 
 }  // namespace tandem::gltf

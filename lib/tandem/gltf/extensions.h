@@ -1,4 +1,4 @@
-/// What Tandem makes of extensions, by name.
+/// Support of extensions, by name.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace tandem::gltf {
 
-/// Whether Tandem renders what an extension says, so that a file may require it.
+/// Whether Tandem renders an extension, so that a file may require it.
 [[nodiscard]] bool is_rendered_extension(std::string_view name);
 
-/// Why an extension that is not rendered is ignored, for the report.
+/// Why an extension is ignored, for the report.
 [[nodiscard]] std::string why_ignored(std::string_view name);
 
 }  // namespace tandem::gltf

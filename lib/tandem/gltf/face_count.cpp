@@ -13,16 +13,16 @@ namespace tandem::gltf {
 
 namespace {
 
-/// Of memory, for a small file and for each byte of data of a larger one.
+/// Memory limits: for a small file, and for each byte of data of a larger one.
 constexpr double most_bytes = 3.8e8, bytes_per_byte = 190;
-/// Of a face: in the prepared scene and in an acceleration structure, and what its corners carry.
+/// Memory of a face: in the prepared scene and in an acceleration structure, and for the values at its corners.
 constexpr double bytes_per_face = 235, bytes_of_normals = 36, bytes_of_texcoords = 24, bytes_of_colours = 48;
-/// A primitive without faces, and a shape, cost time as well.
+/// Primitives without faces, and shapes, cost time too.
 constexpr double least_faces = 4;
 
 // Counts are below 2^53 and their products may be above 2^64, so they are doubles.
 
-/// What showing a mesh or primitive once takes.
+/// The cost of one use of a mesh or primitive.
 struct Cost {
     double faces = 0;
     double bytes = 0;
@@ -88,10 +88,9 @@ void check_face_count(const Source& source, const std::vector<std::optional<std:
     const double limit = std::max(most_bytes, bytes_per_byte * bytes);
     if (sum.bytes <= limit) return;
     source.document.refuse(
-        "nodes",
-        fmt::format("{} of them show what counts as {:.0f} faces in all, and takes {:.2f} GB of memory; a file "
-                    "with {:.0f} bytes of data may take {:.2f} GB, so show fewer",
-                    shown, sum.faces, sum.bytes / 1e9, bytes, limit / 1e9));
+        "nodes", fmt::format("{} of them show the equivalent of {:.0f} faces, which takes {:.2f} GB of memory; a file "
+                             "with {:.0f} bytes of data may take {:.2f} GB, so show fewer",
+                             shown, sum.faces, sum.bytes / 1e9, bytes, limit / 1e9));
 }
 
 }  // namespace tandem::gltf

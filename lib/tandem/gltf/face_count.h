@@ -1,4 +1,4 @@
-/// How many faces the nodes of a file show.
+/// Limits the number of faces that the nodes of a file show.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace tandem::gltf {
 
-/// Refuses a file whose nodes and instances repeat its meshes into faces that would take more than 380 MB of memory, or
-/// 190 bytes for each byte of its data. A face takes 235 bytes and what its corners carry, whichever the mesh that it
-/// repeats; what has no faces, as a sphere or lines, counts as four. Copies nothing. `node_of`: by node of the file,
-/// nothing if the scene does not have it. Throws InputError.
+/// Refuses a file whose nodes and instances repeat its meshes so often that the faces would take more than 380 MB of
+/// memory, or more than 190 bytes for each byte of its data. A face takes 235 bytes plus the values at its corners; a
+/// primitive without faces, such as a sphere or lines, counts as four faces. Copies nothing. `node_of`: the number in
+/// the scene of each node of the file, if the scene has it. Throws InputError.
 void check_face_count(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of);
 
 }  // namespace tandem::gltf

@@ -12,7 +12,7 @@ namespace {
 
 using Run = std::span<const std::uint32_t>;
 
-/// Adds the triangles of corners without a restart.
+/// Adds the triangles of a sequence of corners without a primitive restart.
 void add_triangles(Run corners, Mode mode, std::vector<std::uint32_t>& triangles) {
     if (mode == triangle_list) {
         triangles.insert(triangles.end(), corners.begin(),
@@ -56,9 +56,8 @@ std::vector<std::uint32_t> triangles_of(const Document& document, Corners corner
         from = end + 1;
     }
     if (first != all.end()) {
-        const std::string what =
-            fmt::format("entry {} is {}, which glTF forbids; as on GPUs, the {} begins anew behind it",
-                        first - all.begin(), *corners.restart, mode_name(mode));
+        const std::string what = fmt::format("entry {} is {}, which glTF forbids; as on GPUs, the {} restarts after it",
+                                             first - all.begin(), *corners.restart, mode_name(mode));
         if (triangles.empty()) document.fail(path + ".indices", what + ", and no triangle is left");
         flaws.replace("primitive restart", path + ".indices", what);
         return triangles;

@@ -1,4 +1,4 @@
-/// The triangles that the corners of a mesh primitive make.
+/// Builds triangles from the corners of a mesh primitive.
 #pragma once
 
 #include <cstdint>
@@ -10,36 +10,36 @@
 
 namespace tandem::gltf {
 
-/// Of a mesh primitive (glTF 2.0, 3.7.2.1). The others have no triangles.
+/// The modes of mesh primitives that have triangles (glTF 2.0, 3.7.2.1).
 enum Mode : std::uint64_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
 
-/// Of a primitive; 4 where it has none.
+/// The mode of a primitive; 4 if it has none.
 [[nodiscard]] std::uint64_t mode_of(const Json& primitive);
 
-/// "triangle strip", for instance.
+/// For example "triangle strip".
 [[nodiscard]] const char* mode_name(std::uint64_t mode);
 
-/// The vertices of a primitive in the order in which its mode counts them.
+/// The vertices of a primitive, in the order of its mode.
 struct Corners {
     std::vector<std::uint32_t> vertices;
-    std::optional<std::uint32_t> restart;  ///< the largest value of the type of the indices, if there are any
+    std::optional<std::uint32_t> restart;  ///< the largest value of the index type, if there are indices
 };
 
-/// Three vertices for each triangle. Corners at the end that make no whole triangle are left out, with a note.
+/// Three vertices for each triangle. Left-over corners at the end are left out, with a note.
 ///
-/// glTF forbids the largest value of the type of the indices, because GPUs begin the list, strip or fan anew behind it.
-/// So do we, with a note. Throws a Flaw if there is no triangle.
+/// glTF forbids the largest value of the index type, because GPUs restart the list, strip or fan after it. We do the
+/// same, with a note. Throws a Flaw if there is no triangle.
 [[nodiscard]] std::vector<std::uint32_t> triangles_of(const Document& document, Corners corners, Mode mode,
                                                       const std::string& path, FlawLog& flaws);
 
-/// Leaves out triangles with a vertex that is not below `vertices`, with a note. Throws a Flaw if none is left.
+/// Leaves out triangles with a vertex index of `vertices` or more, with a note. Throws a Flaw if none is left.
 void leave_out_missing_vertices(const Document& document, std::vector<std::uint32_t>& triangles, std::size_t vertices,
                                 const std::string& path, FlawLog& flaws);
 
-/// Gives the vertices that triangles have the numbers from 0, in their order, and returns their old numbers.
+/// Renumbers the used vertices from 0, keeping their order, and returns their old numbers.
 [[nodiscard]] std::vector<std::uint32_t> renumber_vertices(std::vector<std::uint32_t>& triangles);
 
-/// Leaves out triangles one of whose vertices `is_bad`, and returns how many.
+/// Leaves out triangles with a vertex that `is_bad`, and returns their number.
 template <class IsBad>
 std::size_t remove_triangles(std::vector<std::uint32_t>& triangles, IsBad is_bad) {
     std::size_t kept = 0;

@@ -19,11 +19,11 @@ struct Feature {
     const char* reason;
 };
 
-constexpr const char* film_decides = "the film decides the shape of the picture";
+constexpr const char* film_decides = "the size of the film determines the aspect ratio";
 constexpr const char* no_clipping = "a ray tracer has no clipping planes";
 constexpr const char* no_morphing = "Tandem does not render morph targets yet";
 
-/// By place in the file, with [] for any index.
+/// By path in the file, with [] for any index.
 const std::map<std::string, Feature>& ignored_features() {
     static const std::map<std::string, Feature> features = {
         {"nodes[].weights", {"morph weights", no_morphing}},
@@ -35,11 +35,11 @@ const std::map<std::string, Feature>& ignored_features() {
         {"cameras[].orthographic.xmag", {"camera xmag", film_decides}},
         {"cameras[].orthographic.znear", {"camera znear", no_clipping}},
         {"cameras[].orthographic.zfar", {"camera zfar", no_clipping}},
-        {"materials[].occlusionTexture", {"occlusion texture", "Tandem renders no textures of occlusion"}},
+        {"materials[].occlusionTexture", {"occlusion texture", "Tandem does not render occlusion textures"}},
         {"extensions.KHR_lights_punctual.lights[].range",
          {"light range", "light falls off with the square of the distance"}},
         {"materials[].extensions.KHR_materials_transmission.transmissionTexture",
-         {"transmission texture", "Tandem renders no textures of transmission"}},
+         {"transmission texture", "Tandem does not render transmission textures"}},
         {"materials[].extensions.KHR_materials_volume.thicknessTexture",
          {"thickness texture", "the thickness is that of the shape"}},
         {"meshes[].primitives[].extensions.EXT_implicit_geometry.sphere.slice",
@@ -55,7 +55,7 @@ class Walker {
     Walker(const Document& document, ImportReport& report) : document_(document), report_(report) {}
 
     void run() {
-        for (const ImportNote& note : report_.notes()) {  // what had a flaw is not in the document any more
+        for (const ImportNote& note : report_.notes()) {  // flawed parts were removed from the document
             if (note.treatment == Treatment::ignored) met_.insert(note.feature);
         }
         walk(document_.json, "", "");
@@ -65,21 +65,21 @@ class Walker {
             if (met_.contains(name)) continue;
             if (const auto inside = inside_ignored_.find(name); inside != inside_ignored_.end()) {
                 report_.add(Treatment::ignored, name, inside->second.path,
-                            fmt::format("it is inside of {}, which is ignored", inside->second.outer));
+                            fmt::format("it is inside {}, which is ignored", inside->second.outer));
                 continue;
             }
             if (name == mesh_quantization) {
                 report_.add(Treatment::rendered, name, fmt::format("extensionsUsed[{}]", i),
-                            "integers stand for positions, normals and texture coordinates");
+                            "positions, normals and texture coordinates may be integers");
                 continue;
             }
             report_.add(Treatment::ignored, name, fmt::format("extensionsUsed[{}]", i),
-                        "the file lists it and uses it nowhere");
+                        "the file lists it but does not use it");
         }
     }
 
   private:
-    /// `place`: the path with [] for every index. Depth is bounded by read_document().
+    /// `place`: the path with [] for every index. read_document() bounds the depth.
     void walk(const Json& value, const std::string& path, const std::string& place) {
         if (const auto found = ignored_features().find(place); found != ignored_features().end()) {
             report_.add(Treatment::ignored, found->second.name, path, found->second.reason);
@@ -112,7 +112,7 @@ class Walker {
         walk(member, path + dot + name, place + dot + name);
     }
 
-    /// Remembers the extensions that objects inside of an ignored one use.
+    /// Remembers the extensions that are used inside an ignored one.
     void find_inside(const Json& value, const std::string& outer, const std::string& path) {
         for (const auto& [name, member] : value.items()) {
             if (!member.is_structured()) continue;
@@ -134,7 +134,7 @@ class Walker {
 
     const Document& document_;
     ImportReport& report_;
-    std::set<std::string> met_;                     ///< extensions that some object uses
+    std::set<std::string> met_;                     ///< extensions that objects use
     std::map<std::string, Inside> inside_ignored_;  ///< extensions of objects within ignored extensions
 };
 

@@ -1,4 +1,4 @@
-/// Names what a file uses and Tandem leaves out, wherever it stands.
+/// Reports the features of a file that Tandem ignores.
 #pragma once
 
 #include "tandem/gltf/document.h"
@@ -6,9 +6,9 @@
 
 namespace tandem::gltf {
 
-/// Walks over the whole document, also what the default scene does not reach, and notes every extension that is not
-/// rendered and every core feature that is not. What is rendered, or depends on values, the readers note themselves.
-/// Needs check_schema().
+/// Walks over the whole document, including what the default scene does not reach, and notes every extension and every
+/// core feature that is not rendered. The readers themselves note what is rendered and what depends on values. Needs
+/// check_schema().
 void note_ignored_features(const Document& document, ImportReport& report);
 
 }  // namespace tandem::gltf

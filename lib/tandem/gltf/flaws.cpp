@@ -12,7 +12,7 @@ namespace tandem::gltf {
 
 namespace {
 
-/// May a flaw there take geometry away?
+/// Whether a flaw there may remove geometry.
 bool concerns_geometry(std::string_view json_path) {
     static constexpr std::array<std::string_view, 6> places = {"buffer", "accessors", "meshes",
                                                                "nodes",  "scene",     "extensions.KHR_implicit_shapes"};

@@ -1,4 +1,4 @@
-/// What is wrong with a part of a file, and going on without that part.
+/// Flaws: errors in a part of a file, from which the import can recover.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace tandem::gltf {
 
-/// A part of a file that cannot be taken as it stands. Code that can go on without that part catches the flaw and hands
-/// it to a FlawLog. Where nobody can, it is the InputError that refuses the file.
+/// An error in a part of a file. Code that can continue without that part catches the flaw and passes it to a FlawLog.
+/// A flaw that is not caught refuses the file, as an InputError.
 class Flaw : public InputError {
   public:
-    /// The message is "FILE: JSON_PATH: WHAT". `root`: the flaw behind this one, as "JSON_PATH: WHAT"; this one itself
-    /// if it is empty.
+    /// The message is "FILE: JSON_PATH: WHAT". `root`: the flaw that caused this one, as "JSON_PATH: WHAT"; empty if
+    /// this is the first.
     Flaw(const std::filesystem::path& file, std::string json_path, std::string what, std::string root = "");
 
     [[nodiscard]] const std::string& json_path() const { return json_path_; }
@@ -29,24 +29,24 @@ class Flaw : public InputError {
     std::string root_;
 };
 
-/// Writes the flaws of one file into its report.
+/// Adds the flaws of one file to its report.
 class FlawLog {
   public:
     explicit FlawLog(ImportReport& report) : report_(report) {}
 
-    /// The scene is without `feature`.
+    /// The scene lacks `feature`.
     void leave_out(std::string_view feature, const Flaw& flaw);
 
-    /// The scene has a part of `feature` only.
+    /// The scene has only a part of `feature`.
     void shorten(std::string_view feature, const Flaw& flaw);
 
-    /// The scene has something else in place of what the file says; `reason` says what.
+    /// The scene has something else instead; `reason` says what.
     void replace(std::string_view feature, std::string_view json_path, std::string_view reason);
 
-    /// The file says something that glTF forbids, and the scene has it as it stands.
+    /// The file violates glTF, but the scene has the feature as it is in the file.
     void tolerate(std::string_view feature, std::string_view json_path, std::string_view reason);
 
-    /// For a scene without any geometry: refuses the file if a flaw may be why. Throws the first one.
+    /// For a scene without geometry: refuses the file if a flaw may be the reason, by throwing the first such flaw.
     void refuse_lost_geometry() const;
 
   private:

@@ -28,7 +28,7 @@ BoxShape box_from(const Json& box) {
 
 bool is_none(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
 
-/// The values of one attribute, or none if the file has none.
+/// The values of one attribute; empty if the file has none.
 struct Attribute {
     std::vector<float> values;
     std::size_t width = 0;
@@ -89,7 +89,7 @@ void GeometryReader::complete_texcoords(Mesh& mesh, const std::vector<std::uint3
         if (!mesh.texcoords[set].empty()) continue;
         mesh.texcoords[set].assign(mesh.positions.size(), Vec2f{0, 0});
         report_.add(Treatment::approximated, "texture without coordinates", path + ".attributes",
-                    fmt::format("there is no TEXCOORD_{}; the corner of the texture covers all", set));
+                    fmt::format("there is no TEXCOORD_{}; the texture's corner texel covers the whole mesh", set));
     }
 }
 
@@ -100,7 +100,7 @@ void GeometryReader::note_sides(const Geometry& geometry, const std::string& pat
     mesh.is_closed = is_closed(mesh);
     if (mesh.is_closed) return;
     report_.add(Treatment::rendered, "single-sided faces", path,
-                "rays go through them from behind, as the material is not doubleSided");
+                "rays pass through them from behind, because the material is not doubleSided");
 }
 
 std::optional<Shape> GeometryReader::read_shape(std::size_t mesh, std::size_t index, const std::string& path) {
@@ -109,7 +109,7 @@ std::optional<Shape> GeometryReader::read_shape(std::size_t mesh, std::size_t in
     const Json* reference = find_extension(primitive, implicit_shapes);
     if (geometry != nullptr && reference != nullptr) {
         source_.document.fail(
-            path, fmt::format("has a shape of {} and one of {}; keep one", implicit_geometry, implicit_shapes));
+            path, fmt::format("has a shape of {} and one of {}; keep only one", implicit_geometry, implicit_shapes));
     }
     std::optional<Shape> shape;
     if (geometry != nullptr) shape = read_implicit_geometry(*geometry, path);
@@ -138,7 +138,7 @@ std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t ind
         scene_.meshes.push_back(std::move(read));
         primitives_.push_back({known->first, std::move(elements)});
     }
-    report_.add(notes);  // not before the mesh could be read
+    report_.add(notes);  // only after the mesh has been read
     if (!is_drawn) return std::nullopt;
     return MeshShape{known->second};
 }
@@ -175,8 +175,8 @@ std::optional<Shape> GeometryReader::read_implicit_shape(const Json& reference, 
         return std::nullopt;
     }
     if (shape.contains(type == "sphere" ? "box" : "sphere")) {
-        source_.document.fail(shape_path,
-                              fmt::format("is of type '{}' and has the parameters of another; keep one", type));
+        source_.document.fail(
+            shape_path, fmt::format("is of type '{}' and has the parameters of another type; keep only one", type));
     }
     report_.add(Treatment::rendered, feature, where, "exactly, without triangles");
     const Json parameters = shape.value(type, Json::object());
@@ -211,7 +211,7 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
     for (const auto& [name, index] : attributes.items()) {
         if (name == "TRANSLATION" || name == "ROTATION" || name == "SCALE") continue;
         report_.add(Treatment::ignored, fmt::format("instance attribute {}", name),
-                    fmt::format("{}.attributes.{}", path, name), "Tandem places instances and does not vary them");
+                    fmt::format("{}.attributes.{}", path, name), "Tandem places instances but does not vary them");
     }
     if (counted.empty()) {
         source_.document.fail(path + ".attributes", "has neither TRANSLATION nor ROTATION nor SCALE; add one");
@@ -225,7 +225,7 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
             if (is_none(instances[i].rotation)) {
                 instances[i].rotation = {};
                 flaws_.replace("rotation of an instance", path + ".attributes.ROTATION",
-                               "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+                               "is (0, 0, 0, 0), which is not a rotation; Tandem uses (0, 0, 0, 1)");
             }
         }
         if (scale.width != 0) instances[i].scale = scale.vec3(i);
@@ -236,7 +236,7 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
 std::uint32_t GeometryReader::material_of(const Json& primitive, const std::string& path) {
     if (const Json* index = find(primitive, "material")) return index->get<std::uint32_t>();
     report_.add(Treatment::approximated, "default material", path,
-                "the primitive names no material; it is white, as Phong's model can show it");
+                "the primitive names no material; Tandem uses white, in Phong's model");
     if (!default_material_) {
         default_material_ = static_cast<std::uint32_t>(scene_.materials.size());
         scene_.materials.push_back(default_material());
@@ -259,7 +259,7 @@ void GeometryReader::note_unused_shapes() {
         if (used[i]) continue;
         report_.add(Treatment::ignored, fmt::format("{} shape", implicit_shapes),
                     fmt::format("extensions.{}.shapes[{}]", implicit_shapes, i),
-                    "no mesh primitive names it; shapes for other purposes, such as colliders, are not drawn");
+                    "no mesh primitive uses it; shapes for other purposes, such as colliders, are not rendered");
     }
 }
 

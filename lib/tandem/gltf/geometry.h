@@ -1,4 +1,4 @@
-/// Meshes: triangles, spheres and boxes from two extensions, and their instances.
+/// Reads meshes: triangles, spheres and boxes from two extensions, and their instances.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace tandem::gltf {
 
-/// On a node, to repeat its mesh.
+/// An extension of nodes that repeats their mesh.
 inline constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
 
-/// Reads the geometry of nodes. Materials that primitives do not name become one default material at the end.
+/// Reads the geometry of nodes. Primitives without a material share one default material at the end.
 class GeometryReader {
   public:
     GeometryReader(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws)
         : source_(source), scene_(scene), report_(report), flaws_(flaws), budget_(source) {}
 
-    /// What is attached to node `index` of the file, less the primitives that have a flaw.
+    /// The geometry attached to node `index` of the file, without the primitives that have a flaw.
     [[nodiscard]] std::vector<Geometry> read(std::size_t index);
 
     /// A primitive of the file: of a mesh, by its number there.
@@ -35,24 +35,24 @@ class GeometryReader {
             return std::tie(a.mesh, a.index) < std::tie(b.mesh, b.index);
         }
     };
-    /// Where a mesh of the scene was read from.
+    /// The origin of a mesh of the scene in the file.
     struct Origin {
         Primitive primitive;
         std::optional<std::vector<std::uint32_t>> elements;  ///< as in PrimitiveMesh
     };
     [[nodiscard]] const Origin& origin_of(std::uint32_t mesh) const { return primitives_[mesh]; }
 
-    /// Notes the shapes of KHR_implicit_shapes that no primitive of the file uses.
+    /// Notes the shapes of KHR_implicit_shapes that no primitive uses.
     void note_unused_shapes();
 
   private:
     std::optional<Geometry> read_primitive(std::size_t mesh, std::size_t index, const std::vector<Trs>& instances);
-    /// Of primitive `index` of a mesh of the file.
+    /// The geometry of primitive `index` of a mesh of the file.
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
     /// A textured mesh needs texture coordinates.
     void complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path);
-    /// Notes what becomes of the backs of single-sided faces.
+    /// Notes how the backs of single-sided faces are rendered.
     void note_sides(const Geometry& geometry, const std::string& path);
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);

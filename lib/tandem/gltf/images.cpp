@@ -13,7 +13,7 @@ namespace tandem::gltf {
 
 namespace {
 
-/// Of an image's file. A texture of the largest size takes no more when it is not compressed at all.
+/// Size limit of an image file: that of an uncompressed texture of the largest size.
 constexpr std::uintmax_t most_bytes = std::uintmax_t{5} << 28;
 
 class ImageReader {
@@ -30,7 +30,7 @@ class ImageReader {
         return std::move(result_);
     }
 
-    /// Runs `call`, whose InputErrors are of what is at `json_path`.
+    /// Runs `call`; its InputErrors become flaws at `json_path`.
     template <class Call>
     static void as_flaw(const Document& document, const std::string& json_path, Call call) {
         try {
@@ -70,7 +70,8 @@ class ImageReader {
     void in_file(const std::string& uri) {
         const LocatedFile located = locate_beside(document_, result_.json_path, uri);
         if (located.bytes > most_bytes) {
-            document_.fail(result_.json_path, fmt::format("has {} bytes, too many", located.bytes));
+            document_.fail(result_.json_path,
+                           fmt::format("has {} bytes, more than an image may have; make it smaller", located.bytes));
         }
         result_.name = located.path.filename().string();
         result_.place = located.path.string();

@@ -44,7 +44,8 @@ Trs read_trs(const Json& node, const std::string& path, FlawLog& flaws) {
         trs.rotation = {(*q)[0].get<double>(), (*q)[1].get<double>(), (*q)[2].get<double>(), (*q)[3].get<double>()};
         if (*q == Json{0, 0, 0, 0}) {
             trs.rotation = {};
-            flaws.replace("rotation", path + ".rotation", "is (0, 0, 0, 0), which is none; Tandem takes (0, 0, 0, 1)");
+            flaws.replace("rotation", path + ".rotation",
+                          "is (0, 0, 0, 0), which is not a rotation; Tandem uses (0, 0, 0, 1)");
         }
     }
     return trs;
@@ -56,7 +57,7 @@ Transform read_matrix(const Json& matrix) {
     return {{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
 }
 
-/// What an author calls a node that has no name of its own: the name of what it carries.
+/// The name of what a nameless node carries.
 std::string carried_name(const Document& document, const Json& node) {
     for (const auto& [member, array] : {std::pair{"camera", "cameras"}, std::pair{"mesh", "meshes"}}) {
         const Json* index = find(node, member);
@@ -104,14 +105,15 @@ class SceneBuilder {
         const std::size_t count = document_.length("scenes");
         if (count == 0) {
             chosen_path_ = "nodes";
-            report_.add(Treatment::approximated, "file without scenes", "nodes", "all root nodes make up the scene");
+            report_.add(Treatment::approximated, "file without scenes", "nodes",
+                        "the scene consists of all root nodes");
             return;
         }
         const auto index = document_.json.value("scene", std::size_t{0});
         chosen_ = &document_.json["scenes"][index];
         chosen_path_ = fmt::format("scenes[{}]", index);
         if (count > 1 && find(document_.json, "scene") == nullptr) {
-            report_.add(Treatment::approximated, "no default scene", "scenes", "Tandem takes the first one");
+            report_.add(Treatment::approximated, "no default scene", "scenes", "Tandem uses the first one");
         }
         for (std::size_t i = 0; i < count; ++i) {
             if (i == index) continue;
@@ -166,7 +168,7 @@ class SceneBuilder {
         return children == nullptr ? none : *children;
     }
 
-    /// A scene is to list roots only.
+    /// A scene must list only root nodes.
     void note_listed_children(const std::vector<bool>& reached) {
         const Json* roots = chosen_ == nullptr ? nullptr : find(*chosen_, "nodes");
         for (std::size_t k = 0; roots != nullptr && k < roots->size(); ++k) {
@@ -176,8 +178,8 @@ class SceneBuilder {
             flaws_.replace(
                 "child listed by the scene", fmt::format("{}.nodes[{}]", chosen_path_, k),
                 fmt::format("node {} is a child of node {}; {}", root, parent,
-                            reached[parent] ? "Tandem takes it once, below that node"
-                                            : "the scene does not reach that node, so Tandem takes it for a root"));
+                            reached[parent] ? "Tandem uses it once, below that node"
+                                            : "the scene does not reach that node, so Tandem treats it as a root"));
             if (!reached[parent]) parent_of_[root] = Node::no_parent;
         }
     }
@@ -228,7 +230,7 @@ class SceneBuilder {
         const Json& camera = document_.json["cameras"][index];
         const auto type = camera["type"].get<std::string>();
         report_.add(Treatment::rendered, type + " camera", node_path + ".camera",
-                    "its height; the width follows the film");
+                    "its height; the width follows from the film's shape");
         Shutter shutter;
         if (const Json* json = find_extension(camera, "TANDEM_camera_shutter")) {
             shutter = read_shutter(*json, index);
@@ -253,7 +255,7 @@ class SceneBuilder {
         node.light = gltf::read_light(light, node_path + ".extensions.KHR_lights_punctual", report_);
     }
 
-    /// glTF knows seconds only. A scene may say how many frames make one in its extras.
+    /// glTF only has seconds. A scene may set the number of frames per second in its extras.
     void read_frame_rate() {
         const Json* extras = chosen_ == nullptr ? nullptr : find(*chosen_, "extras");
         const Json* rate = extras == nullptr || !extras->is_object() ? nullptr : find(*extras, "frames_per_second");
@@ -262,12 +264,12 @@ class SceneBuilder {
             const double value = rate->is_number() ? rate->get<double>() : 0;
             if (!(value >= 1e-3 && value <= 1e6)) document_.fail(path, "must be a number from 0.001 to 1000000");
             scene_.frames_per_second = value;
-            report_.add(Treatment::rendered, "frame rate", path, fmt::format("{} frames a second", value));
+            report_.add(Treatment::rendered, "frame rate", path, fmt::format("{} frames per second", value));
         } else if (!scene_.animation.empty()) {
             report_.add(
                 Treatment::approximated, "frame rate", "animations[0]",
-                fmt::format("glTF has none; Tandem takes {} frames a second{}", scene_.frames_per_second,
-                            chosen_ == nullptr ? "; in a file with scenes, extras.frames_per_second of one sets it"
+                fmt::format("glTF has none; Tandem uses {} frames per second{}", scene_.frames_per_second,
+                            chosen_ == nullptr ? "; in a file with scenes, extras.frames_per_second of a scene sets it"
                                                : fmt::format(" unless {} says otherwise", path)));
         }
     }

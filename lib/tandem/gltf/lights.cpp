@@ -31,7 +31,7 @@ void read_cone(const Json& light, const std::string& path, LightSource& source, 
     source.outer_cone = std::max(source.outer_cone, narrowest);
     source.inner_cone = source.outer_cone * (1 - narrowest);
     report.add(Treatment::approximated, "cone of a spot light", path,
-               "its innerConeAngle is not below its outerConeAngle; Tandem takes a sharp edge at that one");
+               "its innerConeAngle is not below its outerConeAngle; Tandem uses a sharp edge at the outer angle");
 }
 
 /// Kernels read colour times intensity, as floats.
@@ -41,7 +41,7 @@ void limit_brightness(const std::string& path, LightSource& source, ImportReport
     if (!(double{brightest} * double{source.intensity} > double{largest})) return;
     source.intensity = std::nextafter(largest / brightest, 0.0F);
     report.add(Treatment::approximated, "brightness of a light", path,
-               "its color times its intensity is beyond 3.4e38; Tandem takes that");
+               "its color times its intensity is above 3.4e38; Tandem uses that limit");
 }
 
 }  // namespace
@@ -63,11 +63,12 @@ std::optional<LightSource> read_light(const Json& light, const std::string& path
     const bool falls_off = phong == nullptr || phong->value("falloff", true);
     source.casts_shadows = phong == nullptr || phong->value("shadows", true);
     source.inverse_square = falls_off && source.kind != LightKind::directional;
-    // what Phong's model takes for a surface to be as bright as a Lambertian one under that illuminance
+    // so that a surface in Phong's model is as bright as a Lambertian one under that illuminance
     if (falls_off) source.intensity = static_cast<float>(source.intensity / std::numbers::pi);
     limit_brightness(path, source, report);
     report.add(Treatment::rendered, feature, path,
-               falls_off ? "in candela, or lux from one direction" : "Phong's model takes colour times intensity");
+               falls_off ? "intensity in candela, or in lux for directional lights"
+                         : "Phong's model uses colour times intensity");
     return source;
 }
 

@@ -1,4 +1,4 @@
-/// Lights: KHR_lights_punctual and TANDEM_lights_phong.
+/// Reads lights: KHR_lights_punctual and TANDEM_lights_phong.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,7 @@
 
 namespace tandem::gltf {
 
-/// `light`: an element of KHR_lights_punctual.lights; `path`: the use of it by a node. Nothing for a light of a type
-/// that the extension does not know.
+/// `light`: an element of KHR_lights_punctual.lights; `path`: its use by a node. Empty for a light of an unknown type.
 [[nodiscard]] std::optional<LightSource> read_light(const Json& light, const std::string& path, ImportReport& report);
 
 }  // namespace tandem::gltf

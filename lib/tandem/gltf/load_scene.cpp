@@ -17,7 +17,7 @@ namespace tandem {
 
 namespace {
 
-/// The camera that is wanted; adds it if it is a view.
+/// Finds the requested camera; adds it if it is a view.
 std::size_t take_camera(ImportResult& file, const LoadOptions& options) {
     Scene& scene = file.scene;
     if (const auto found = find_camera(scene, options.camera)) return *found;
@@ -32,10 +32,10 @@ std::size_t take_camera(ImportResult& file, const LoadOptions& options) {
     if (has_none) {
         const char* moment = scene.animation.empty() ? "" : ", as the scene is at frame 0";
         file.report.add(Treatment::approximated, "no camera", file.scene_path,
-                        fmt::format("framed {}{}; --camera takes another view", framing.description, moment));
+                        fmt::format("framed {}{}; --camera selects another view", framing.description, moment));
     }
     if (framing.is_empty) {
-        file.report.add(Treatment::approximated, "no surfaces", file.scene_path, "the picture is the background");
+        file.report.add(Treatment::approximated, "no surfaces", file.scene_path, "the image shows only the background");
     }
     return scene.nodes.size() - 1;
 }
@@ -57,7 +57,7 @@ Scene load_scene(const std::string& specification, ImportReport* report, const L
         add_default_light(result.scene, camera);
         result.report.add(
             Treatment::approximated, "no light", result.scene_path,
-            "lit by an even sky and a light from the upper left of the camera; --light none leaves it dark");
+            "lit by a uniform background and a light from the upper left of the camera; --light none leaves it dark");
     }
     if (report != nullptr) *report = std::move(result.report);
     return std::move(result.scene);

@@ -10,13 +10,13 @@ namespace {
 
 constexpr const char* unlit_name = "KHR_materials_unlit";
 
-/// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % head-on: what
-/// is left of glass, and of microfacets that are not simulated.
+/// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % at normal
+/// incidence: approximates the opaque part of dielectrics, and microfacets that are not simulated.
 PhongMaterial phong_from_base_colour(const Vec3f& base_colour) {
     return {base_colour * 0.1F, base_colour, {0.04F, 0.04F, 0.04F}, 32};
 }
 
-/// What metallic-roughness says where something else is taken.
+/// Notes the metallic-roughness properties that are not used.
 void note_unused_factors(const Json& pbr, const std::string& path, const char* reason, ImportReport& report) {
     for (const auto& [member, feature] :
          {std::pair{"metallicRoughnessTexture", "metallic-roughness texture"},
@@ -26,20 +26,20 @@ void note_unused_factors(const Json& pbr, const std::string& path, const char* r
     }
 }
 
-/// `material`: with what is read of it so far.
+/// `material`: as far as it has been read.
 void read_metallic_roughness(const Json* pbr, const std::string& path, Material& material, ImportReport& report) {
     const Vec3f white = {1, 1, 1};
     material.phong = phong_from_base_colour(pbr == nullptr ? white : read_colour(*pbr, "baseColorFactor", white));
     const bool is_glass = material.optics.transmission > 0;
     if (is_glass || material.unlit) {
         if (pbr != nullptr) {
-            note_unused_factors(
-                *pbr, path, is_glass ? "bodies of glass have smooth borders" : "an unlit material reflects no light",
-                report);
+            note_unused_factors(*pbr, path,
+                                is_glass ? "dielectrics have smooth surfaces" : "an unlit material reflects no light",
+                                report);
         }
         if (material.unlit) return;
         report.add(Treatment::approximated, "metallic-roughness material", path,
-                   "a body of glass; what it does not transmit has Phong's model with the base colour");
+                   "a dielectric; the part that is not transmitted is Phong's model with the base colour");
         return;
     }
     const Microfacets absent;
@@ -63,7 +63,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
     constexpr std::size_t most_materials = 100'000;
     if (described != nullptr && described->size() > most_materials) {
         source.document.refuse("materials",
-                               fmt::format("has {} elements, and Tandem takes {}; leave out those that nothing "
+                               fmt::format("has {} elements, but Tandem reads at most {}; leave out those that nothing "
                                            "uses",
                                            described->size(), most_materials));
     }
@@ -82,20 +82,20 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
                 read_colour(*phong, "specular", absent.specular), phong->value("shininess", absent.shininess)};
             report.add(Treatment::rendered, "TANDEM_materials_phong", path + ".extensions.TANDEM_materials_phong",
                        "Phong's model");
-            if (pbr != nullptr) note_unused_factors(*pbr, path, "TANDEM_materials_phong takes their place", report);
+            if (pbr != nullptr) note_unused_factors(*pbr, path, "TANDEM_materials_phong replaces them", report);
         } else {
             read_metallic_roughness(pbr, path, material, report);
         }
-        // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
+        // the far side of a dielectric must be visible, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
         if (material.unlit) {
             report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),
-                       "the base colour is what is seen; no light changes it, and it lights nothing");
+                       "the base colour is shown as it is; the surface neither receives nor emits light");
         }
         if (read.value("doubleSided", false)) {
             material.sides = FaceSides::double_sided;
             report.add(Treatment::rendered, "doubleSided", path + ".doubleSided",
-                       "faces of meshes turn to the side that a ray comes from; closed shapes have one side");
+                       "faces of meshes are shaded on both sides; closed shapes have one side");
         }
         materials.push_back(std::move(material));
     }

@@ -1,4 +1,4 @@
-/// Materials.
+/// Reads materials.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace tandem::gltf {
 
-/// One material per material of the file, in its order. TANDEM_materials_phong as it stands; any other is
-/// metallic-roughness, or glass whose other terms are approximated from its base colour.
+/// One material per material of the file, in its order. TANDEM_materials_phong is used as it is; any other material is
+/// metallic-roughness, or a dielectric whose other terms are approximated from its base colour.
 [[nodiscard]] std::vector<Material> read_materials(const Source& source, ImportReport& report);
 
-/// What glTF gives to primitives that name no material, but matt and not a rough metal: white.
+/// The default material of primitives that name none: white as in glTF, but diffuse instead of a rough metal.
 [[nodiscard]] Material default_material();
 
-/// Three numbers of a member, or `absent`.
+/// The three numbers of a member, or `absent`.
 [[nodiscard]] Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent);
 
 }  // namespace tandem::gltf

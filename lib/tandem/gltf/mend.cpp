@@ -39,7 +39,7 @@ class Mender {
         const auto bad = std::find_if_not(mesh_.positions.begin(), mesh_.positions.end(), is_number);
         if (bad == mesh_.positions.end()) return;
         const std::string what =
-            fmt::format("element {} holds a number that is not finite or beyond 1e18", bad - mesh_.positions.begin());
+            fmt::format("element {} has a number that is not finite or beyond 1e18", bad - mesh_.positions.begin());
         const std::size_t all = mesh_.triangles.size() / 3;
         const std::size_t removed = remove_triangles(
             mesh_.triangles, [this](std::uint32_t vertex) { return !is_number(mesh_.positions[vertex]); });
@@ -57,10 +57,11 @@ class Mender {
         std::vector<Vec3f>& normals = mesh_.normals;
         const auto bad = std::find_if_not(normals.begin(), normals.end(), is_number);
         if (bad == normals.end()) return;
-        flaws_.replace("normals", attribute("NORMAL"),
-                       fmt::format("element {} holds a number that is not finite or beyond 1e18; Tandem takes the mean "
-                                   "of the triangles there",
-                                   bad - normals.begin()));
+        flaws_.replace(
+            "normals", attribute("NORMAL"),
+            fmt::format("element {} has a number that is not finite or beyond 1e18; Tandem uses the mean normal "
+                        "of the adjacent triangles",
+                        bad - normals.begin()));
         std::vector<bool> is_bad(normals.size());
         for (std::size_t i = 0; i < normals.size(); ++i) is_bad[i] = !is_number(normals[i]);
         std::vector<Vec3d> sums(normals.size(), Vec3d{0, 0, 0});
@@ -85,7 +86,7 @@ class Mender {
         if (bad == texcoords.end()) return;
         flaws_.replace(
             "texture coordinates", attribute(fmt::format("TEXCOORD_{}", set)),
-            fmt::format("element {} holds a number that is not finite; Tandem takes (0, 0)", bad - texcoords.begin()));
+            fmt::format("element {} has a number that is not finite; Tandem uses (0, 0)", bad - texcoords.begin()));
         std::replace_if(texcoords.begin(), texcoords.end(), is_bad, Vec2f{0, 0});
     }
 

@@ -1,4 +1,4 @@
-/// Numbers of a mesh that stand for nothing.
+/// Repairs meshes with invalid numbers.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace tandem::gltf {
 
-/// Makes the mesh of a primitive at `path` a valid one, with notes: leaves out triangles with a vertex whose position
-/// is not a number up to 1e18; gives vertices whose normal is no such number the mean normal of their triangles, and
-/// those whose texture coordinates are not finite (0, 0). Throws a Flaw if no triangle is left.
+/// Makes the mesh of a primitive at `path` valid, with notes. Leaves out triangles with a vertex whose position is not
+/// finite or beyond 1e18; replaces such normals by the mean normal of their triangles, and texture coordinates that are
+/// not finite by (0, 0). Throws a Flaw if no triangle is left.
 void mend(const Document& document, Mesh& mesh, const std::string& path, FlawLog& flaws);
 
 }  // namespace tandem::gltf

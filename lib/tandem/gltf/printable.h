@@ -1,4 +1,4 @@
-/// Words of a file inside of sentences of ours.
+/// Makes text from a file safe for messages.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace tandem::gltf {
 
-/// Control characters become question marks: a name in a file must not break a line, or reach the terminal as a
-/// command. UTF-8 passes.
+/// Replaces control characters by question marks: a name in a file must not break a line or control the terminal. UTF-8
+/// is kept.
 [[nodiscard]] inline std::string printable(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return (c >= 0 && c < 0x20) || c == 0x7F; }, '?');

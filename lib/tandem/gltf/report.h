@@ -1,4 +1,4 @@
-/// What an import did with what the file uses: nothing is dropped in silence.
+/// The import report: how each feature of a file is treated, so that nothing is dropped silently.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,7 @@
 
 namespace tandem {
 
-/// rendered: as the file means it. approximated: in another way than the file means, said in the reason. ignored: not
-/// in the picture at all.
+/// rendered: as specified. approximated: in another way, which the reason describes. ignored: not at all.
 enum class Treatment { rendered, approximated, ignored };
 
 [[nodiscard]] std::string to_string(Treatment treatment);
@@ -22,15 +21,16 @@ struct ImportNote {
     std::string feature;    ///< e.g. "EXT_implicit_geometry sphere", "light range"
     std::string json_path;  ///< of its first use, e.g. "meshes[2].primitives[0]"
     std::size_t uses = 1;
-    std::string reason;  ///< what Tandem makes of it, and why
+    std::string reason;  ///< how Tandem treats it, and why
 };
 
 class ImportReport {
   public:
-    /// Adds a use; uses of one feature with one treatment and reason become one note with the path of the first.
+    /// Adds a use. Uses of the same feature with the same treatment and reason become one note with the path of the
+    /// first.
     void add(Treatment treatment, std::string_view feature, std::string_view json_path, std::string_view reason);
 
-    /// Adds all uses of another report.
+    /// Adds all notes of another report.
     void add(const ImportReport& other);
 
     [[nodiscard]] const std::vector<ImportNote>& notes() const { return notes_; }

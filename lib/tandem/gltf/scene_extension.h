@@ -1,4 +1,4 @@
-/// Extensions that stand on a scene, or on the root of a file for scenes that have none.
+/// Extensions of a scene, or of the root of a file for scenes without them.
 #pragma once
 
 #include "tandem/gltf/document.h"
@@ -11,8 +11,8 @@ struct SceneExtension {
     std::string path;
 };
 
-/// The extension `name` of the scene, else of the root. `scene` may be null. One of the root that the scene's own
-/// replaces is noted.
+/// The extension `name` of the scene, else of the root. `scene` may be null. Notes an extension of the root that the
+/// scene's own overrides.
 [[nodiscard]] SceneExtension find_scene_extension(const Document& document, const Json* scene,
                                                   const std::string& scene_path, const char* name,
                                                   ImportReport& report);

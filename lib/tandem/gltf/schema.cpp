@@ -25,7 +25,7 @@ using schema::Presence;
 using schema::Property;
 using schema::smallest;
 
-/// `found`: what is there in place of a number of the range.
+/// The range as text. `found`: the value that is not in it.
 std::string range_words(const Property& property, const Json& found) {
     if (property.low == smallest && property.high == largest) return " above 0";
     if (property.low == -largest && property.high == largest) {
@@ -48,13 +48,13 @@ const std::vector<const Property*>& properties_of(const std::string& owner) {
     return found == by_owner.end() ? none : found->second;
 }
 
-/// May an empty object take the place of one that is left out?
+/// Whether an empty object may replace one that is left out.
 bool may_be_empty(const std::string& kind) {
     const auto& rows = properties_of(kind);
     return std::none_of(rows.begin(), rows.end(), [](const Property* row) { return row->care == Care::strict; });
 }
 
-/// What an object must be as a whole, beside its properties one by one.
+/// A check of an object as a whole, beside those of its properties.
 using Rule = void (*)(const Document& document, FlawLog& flaws, Json& object, const std::string& path);
 
 Rule rule_of(const std::string& kind) {
@@ -108,7 +108,7 @@ class Checker {
         }
     }
 
-    /// Runs `check` on a member of `owner`, and does with a flaw of it what the property's care says.
+    /// Runs `check` on a member of `owner`, and treats a flaw according to the property's care.
     template <class Check>
     void take(Json& owner, const Property& property, Check check) {
         try {
@@ -136,7 +136,7 @@ class Checker {
             return leave_out(value, "extensions", flaw);
         }
         check_properties(*extensions, kind + " extensions", where);
-        std::vector<std::string> others;  // whose types the table does not have
+        std::vector<std::string> others;  // which the table does not describe
         for (const auto& [name, extension] : extensions->items()) {
             if (!extension.is_object()) others.push_back(name);
         }
@@ -207,8 +207,8 @@ class Checker {
         }
     }
 
-    /// Of an array. An element that is left out keeps its place, so that the indices of the others hold: it becomes an
-    /// empty object if its kind may be one, else a string that says why.
+    /// Checks an array. An element that is left out keeps its place, so that other indices stay valid: it becomes an
+    /// empty object if its kind allows that, else a string with the reason.
     void check_element(Json& element, const std::string& kind, const std::string& path) {
         try {
             check_object(element, kind, path);
@@ -227,17 +227,17 @@ class Checker {
             if (found > property.usual) {
                 flaws_.tolerate(
                     property.name, path,
-                    fmt::format("is {}; glTF has {} at most, and Tandem takes it all the same", found, property.usual));
+                    fmt::format("is {}; glTF allows {} at most, but Tandem accepts it", found, property.usual));
             }
             return;
         }
         require(property.is_clamped && std::abs(found) <= largest, path, wanted, value);
         const double nearest = std::clamp(found, property.low, property.high);
-        flaws_.replace(property.name, path, fmt::format("{}; Tandem takes {}", not_what(wanted, value), nearest));
+        flaws_.replace(property.name, path, fmt::format("{}; Tandem uses {}", not_what(wanted, value), nearest));
         value = nearest;
     }
 
-    /// A whole number, of 0 or more.
+    /// Checks a whole number of 0 or more.
     void check_whole(Json& value, const std::string& path) const {
         if (value.is_number_float()) {
             const double number = value.get<double>();
@@ -263,7 +263,7 @@ class Checker {
         throw Flaw(document_.file, path, fmt::format("names {}[{}], which is left out ({})", dotted, wanted, why), why);
     }
 
-    /// An array that indices point into; empty if the file has none. `pointer`: a JSON pointer, less the first slash.
+    /// An array that indices refer to; empty if the file has none. `pointer`: a JSON pointer without the first slash.
     const Json& array_of(const char* pointer) {
         static const Json none = Json::array();
         const auto [known, is_new] = arrays_.try_emplace(pointer, &none);

@@ -1,4 +1,4 @@
-/// The types and ranges that glTF prescribes, property by property.
+/// Checks a document against glTF's schema.
 #pragma once
 
 #include "tandem/gltf/document.h"
@@ -6,13 +6,13 @@
 namespace tandem::gltf {
 
 /// Checks every property that Tandem reads: its JSON type, the range of its numbers, the length of its arrays, that
-/// indices point at something, and the rules of structure.h for each object. What it has passed, the rest of the import
-/// reads without asking again. Unknown properties are left alone, as glTF demands.
+/// indices refer to existing elements, and the rules of structure.h for each object. The rest of the import relies on
+/// these checks. Unknown properties are left alone, as glTF demands.
 ///
-/// What is flawed and can be done without is taken out of the JSON, with a note. In an array whose elements cannot be
-/// empty objects, such as `accessors`, a string that says why takes the element's place; what refers to it is flawed in
-/// turn. So a flaw reaches as far as to the first property that may be absent. Throws InputError, with the JSON path,
-/// where nothing takes it up.
+/// Flawed parts that are not essential are removed from the JSON, with a note. In an array whose elements cannot be
+/// empty objects, such as `accessors`, a string with the reason replaces the element; references to it are flawed in
+/// turn. So a flaw propagates to the first property that may be absent. Throws InputError, with the JSON path, if there
+/// is none.
 ///
 /// Whole numbers that are written as 1.0 become integers.
 void check_schema(Document& document, FlawLog& flaws);

@@ -1,4 +1,4 @@
-/// One property of a glTF object: its JSON type, its range, and what becomes of a value that is neither.
+/// One property of a glTF object: its JSON type, its range, and the treatment of invalid values.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,22 @@ namespace tandem::gltf::schema {
 enum class Kind { object, objects, index, indices, index_map, index_maps, whole, number, numbers, text, texts, truth };
 enum class Presence { optional, required };
 
-/// What becomes of a property whose value is not what it must be.
+/// The treatment of an invalid value.
 enum class Care {
-    lenient,  ///< it is left out, and the file is drawn without it
-    strict,   ///< the object that has it is left out
-    vital,    ///< the file is refused: the picture would be another one
+    lenient,  ///< the property is left out
+    strict,   ///< the object with the property is left out
+    vital,    ///< the file is refused: the image would be another one
 };
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The largest float: a number that Tandem keeps as a float must not overflow there.
+/// The largest float: the limit of numbers that Tandem stores as floats.
 inline constexpr double largest = 3.4028234663852886e38;
 inline constexpr double most_whole = 9007199254740992;  // 2^53
 inline constexpr double smallest = std::numeric_limits<double>::min();
 
 /// One property of one object.
 struct Property {
-    const char* owner;  ///< kind of object, a name of this table
+    const char* owner;  ///< kind of object, as named in this table
     const char* name;
     Kind kind;
     const char* argument = "";  ///< object(s): their kind; index: the array; whole, text: the choices, if limited
@@ -34,8 +34,8 @@ struct Property {
     std::size_t count = 0;  ///< numbers: how many; 0 for any number of them
     Presence presence = Presence::optional;
     Care care = Care::lenient;
-    bool is_clamped = false;  ///< number(s): a finite one out of the range becomes the nearest in it
-    double usual = infinity;  ///< number(s): glTF's own limit, where Tandem has a higher one
+    bool is_clamped = false;  ///< number(s): finite values are clamped to the range
+    double usual = infinity;  ///< number(s): glTF's limit, if Tandem allows more
 
     constexpr Property required() const {
         Property copy = with(Care::strict);
@@ -85,7 +85,7 @@ constexpr Property index_map(const char* owner, const char* name, const char* ar
 constexpr Property index_maps(const char* owner, const char* name, const char* array) {
     return {owner, name, Kind::index_maps, array};
 }
-/// A whole number of 0 or more, below 2^53; or one of `choices`, between spaces.
+/// A whole number of 0 or more, below 2^53; or one of `choices`, separated by spaces.
 constexpr Property whole(const char* owner, const char* name, const char* choices = "") {
     return {owner, name, Kind::whole, choices, 0, most_whole};
 }
@@ -101,8 +101,8 @@ constexpr Property text(const char* owner, const char* name, const char* choices
 constexpr Property texts(const char* owner, const char* name) { return {owner, name, Kind::texts}; }
 constexpr Property truth(const char* owner, const char* name) { return {owner, name, Kind::truth}; }
 
-/// All properties that Tandem reads. The arrays of the root come in an order in which what is pointed at comes before
-/// what points at it.
+/// All properties that Tandem reads. The arrays of the root are ordered so that elements precede the references to
+/// them.
 [[nodiscard]] std::span<const Property> all_properties();
 
 }  // namespace tandem::gltf::schema

@@ -13,11 +13,11 @@ constexpr Care strict = Care::strict;
 constexpr Care vital = Care::vital;
 
 /// glTF 2.0, section 5, and the extensions that Tandem reads. Every object may also have `extensions` and, except
-/// the ones inside of extensions, a `name`. The arrays of the root come in an order in which what is pointed at comes
-/// before what points at it.
+/// inside of extensions, a `name`. The arrays of the root are ordered so that elements precede the references to them.
 ///
-/// Lenient is what other viewers do without: names, looks, cameras, lights, animations. Strict is what says how bytes
-/// are to be read. Vital is where geometry stands, and Tandem's own extensions, whose authors look for such an error.
+/// Lenient: what a file can be rendered without, such as names, materials, cameras, lights, animations. Strict: what
+/// defines how bytes are read. Vital: what places geometry, and Tandem's own extensions, whose authors want such
+/// errors.
 constexpr Property properties[] = {
     object("root", "asset", "asset").required(),
     texts("root", "extensionsUsed"),

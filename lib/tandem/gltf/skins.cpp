@@ -69,13 +69,13 @@ class Poser {
         scene_.nodes[index].geometry = std::move(stays);
         if (follows.empty()) return;
         report_.add(Treatment::approximated, "skin", path,
-                    "posed by its joints at rest; animation does not move the mesh yet");
+                    "posed by its joints at rest; animation does not deform the mesh yet");
         Node root{.name = scene_.nodes[index].name};
         root.geometry = std::move(follows);
         scene_.nodes.push_back(std::move(root));
     }
 
-    /// Gives the geometry a mesh where the joints put it; false if it stays as it is.
+    /// Gives the geometry a mesh posed by the joints; false if it stays as it is.
     bool pose(Geometry& geometry, std::size_t skin, const std::string& path) {
         auto* shape = std::get_if<MeshShape>(&geometry.shape);
         if (shape == nullptr) return false;
@@ -96,7 +96,7 @@ class Poser {
         return true;
     }
 
-    /// Index of the posed mesh in the scene; none if the primitive has no joints.
+    /// Index of the posed mesh in the scene; empty if the primitive has no joints.
     std::optional<std::uint32_t> pose_mesh(std::uint32_t index, std::size_t skin) {
         const GeometryReader::Origin& origin = geometry_.origin_of(index);
         const auto [mesh_number, number] = origin.primitive;
@@ -145,7 +145,7 @@ class Poser {
         }
     }
 
-    /// By joint of the skin.
+    /// The transforms of the skin's joints.
     std::vector<Transform> world_from_mesh(std::size_t skin) {
         if (world_from_node_.empty()) world_from_node_ = world_from_nodes(scene_, 0);
         const Json& described = json_["skins"][skin];
@@ -157,7 +157,7 @@ class Poser {
             const auto joint = joints[i].get<std::size_t>();
             if (!node_of_[joint]) {
                 source_.document.fail(fmt::format("{}.joints[{}]", path, i),
-                                      "is a node outside of the scene; put the joints into it");
+                                      "is a node outside of the scene; add the joints to the scene");
             }
             result.push_back(world_from_node_[*node_of_[joint]] * inverse_bind[i]);
         }
@@ -173,8 +173,8 @@ class Poser {
         const std::vector<float> m = read_accessor(source_, accessor->get<std::size_t>(),
                                                    {"MAT4", Components::floats, "the joints of a skin", where});
         if (m.size() < 16 * count) {
-            source_.document.fail(where,
-                                  fmt::format("has {} matrices for {} joints; give each one", m.size() / 16, count));
+            source_.document.fail(
+                where, fmt::format("has {} matrices for {} joints; it needs one per joint", m.size() / 16, count));
         }
         for (std::size_t i = 0; i < count; ++i) {
             const auto at = [&](std::size_t column, std::size_t row) { return double{m[16 * i + 4 * column + row]}; };
@@ -186,7 +186,7 @@ class Poser {
         return result;
     }
 
-    /// Linear blend skinning. Weights count in proportion to their sum; a vertex without any follows its first joint.
+    /// Linear blend skinning. Weights are normalised by their sum; a vertex without weights follows its first joint.
     Transform blend(const std::vector<Influences>& influences, const std::vector<Transform>& joints, std::size_t vertex,
                     const std::string& path) const {
         double total = 0;

@@ -24,7 +24,7 @@ std::uint64_t whole(const Json& object, const char* name, std::uint64_t absent =
     return object.value(name, absent);
 }
 
-/// 0 for what is no number.
+/// 0 for anything but a number.
 int major_version(const Json& version) {
     if (version.is_number()) return version == 1 ? 1 : 0;
     if (!version.is_string()) return 0;
@@ -38,7 +38,7 @@ int major_version(const Json& version) {
 void check_version(const Document& document) {
     const Json* asset = find(document.json, "asset");
     const Json* version = asset == nullptr ? nullptr : find(*asset, "version");
-    // before 1.0 was final, files had no version; its arrays are objects
+    // drafts of glTF 1.0 had no version; in 1.0 the arrays are objects
     const Json* meshes = find(document.json, "meshes");
     const bool has_objects = version == nullptr && meshes != nullptr && meshes->is_object();
     if (has_objects || (version != nullptr && major_version(*version) == 1)) {
@@ -52,7 +52,7 @@ void check_version(const Document& document) {
     const Json* least = find(*asset, "minVersion");
     if (least != nullptr && least->is_string() && *least != "2.0" && *least != "2") {
         document.refuse("asset.minVersion",
-                        fmt::format("asks for version {}; Tandem reads glTF 2.0", least->get<std::string>()));
+                        fmt::format("requires version {}; Tandem reads glTF 2.0", least->get<std::string>()));
     }
 }
 
@@ -62,14 +62,15 @@ void check_required_extensions(const Document& document) {
         if (!required.is_array() || !required[i].is_string()) return;  // check_schema() says so
         const auto name = required[i].get<std::string>();
         if (is_rendered_extension(name)) continue;
-        document.refuse(fmt::format("extensionsRequired[{}]", i),
-                        fmt::format("the file requires {}, which Tandem does not render; export it without, or make "
-                                    "the extension optional",
-                                    name));
+        document.refuse(
+            fmt::format("extensionsRequired[{}]", i),
+            fmt::format("the file requires {}, which Tandem does not render; export the file without it, or make "
+                        "the extension optional",
+                        name));
     }
 }
 
-/// Checks or puts right the parents of nodes.
+/// Checks and repairs the parents of nodes.
 class Hierarchy {
   public:
     Hierarchy(Document& document, FlawLog& flaws)
@@ -77,7 +78,7 @@ class Hierarchy {
 
     void run() {
         for (std::size_t i = 0; i < parent_of_.size(); ++i) take_children(i);
-        // with one parent each, a walk upwards that does not end is a cycle; every node is walked over once
+        // with one parent each, a walk upwards that does not end is a cycle; every node is visited once
         std::vector<std::size_t> walk_of(parent_of_.size(), none);
         for (std::size_t i = 0; i < parent_of_.size(); ++i) {
             std::size_t at = i;
@@ -113,7 +114,7 @@ class Hierarchy {
         if (good.size() != children->size()) node(index)["children"] = std::move(good);
     }
 
-    /// Makes a node of a cycle a root.
+    /// Turns a node of a cycle into a root.
     void cut(std::size_t index) {
         const std::size_t parent = parent_of_[index];
         Json& children = node(parent)["children"];
@@ -136,8 +137,8 @@ void check_extent(const Document& document, const std::string& path, std::uint64
     const std::uint64_t stride = whole(view, "byteStride", bytes);
     const std::uint64_t length = whole(view, "byteLength");
     if (stride < bytes) {
-        document.fail(
-            path, fmt::format("has elements of {} bytes, but bufferView {} steps by {}", bytes, view_index, stride));
+        document.fail(path, fmt::format("has elements of {} bytes, but bufferView {} has a stride of {}", bytes,
+                                        view_index, stride));
     }
     // no product that could overflow: counts are below 2^53
     const bool fits = offset <= length && bytes <= length - offset && count - 1 <= (length - offset - bytes) / stride;
@@ -183,7 +184,7 @@ void check_buffer_view(const Document& document, FlawLog& flaws, Json& view, con
         const std::string what = fmt::format("reaches from byte {} to byte {}, but buffer {} has {} bytes", offset,
                                              offset + length, buffer, bytes);
         if (offset >= bytes) document.fail(path, what);
-        flaws.replace("buffer view", path, what + "; Tandem takes those that are there");
+        flaws.replace("buffer view", path, what + "; Tandem reads those that exist");
         view["byteLength"] = bytes - offset;
     }
     const auto stride = view.find("byteStride");
@@ -191,7 +192,7 @@ void check_buffer_view(const Document& document, FlawLog& flaws, Json& view, con
     const auto step = stride->get<std::uint64_t>();
     if (step >= 4 && step <= 252 && step % 4 == 0) return;
     flaws.tolerate("byteStride", path + ".byteStride",
-                   fmt::format("is {}; glTF has multiples of 4 from 4 to 252, and Tandem takes it all the same", step));
+                   fmt::format("is {}; glTF allows multiples of 4 from 4 to 252, but Tandem accepts it", step));
     if (step == 0) view.erase(stride);  // as if there were none
 }
 
@@ -200,7 +201,7 @@ void check_accessor(const Document& document, FlawLog&, Json& accessor, const st
     const std::string type = accessor["type"];
     const std::uint64_t component = component_bytes(whole(accessor, "componentType"));
     const std::uint64_t bytes = component_count(type) * component;
-    const bool has_padding = type.starts_with("MAT") && component < 4;  // whose matrices nobody reads
+    const bool has_padding = type.starts_with("MAT") && component < 4;  // nothing reads such matrices
     if (accessor.contains("bufferView") && !has_padding) {
         check_extent(document, path, whole(accessor, "bufferView"), whole(accessor, "byteOffset"), count, bytes);
     }
@@ -226,20 +227,20 @@ void check_camera(const Document& document, FlawLog&, Json& camera, const std::s
 
 void check_image(const Document&, FlawLog& flaws, Json& image, const std::string& path) {
     if (!image.contains("bufferView") || image.erase("uri") == 0) return;
-    flaws.replace("image", path + ".uri", "stands beside a bufferView; Tandem takes the bufferView");
+    flaws.replace("image", path + ".uri", "is given in addition to a bufferView; Tandem uses the bufferView");
 }
 
 void check_node(const Document&, FlawLog& flaws, Json& node, const std::string& path) {
     if (!node.contains("matrix")) return;
     for (const char* other : {"translation", "rotation", "scale"}) {
         if (node.erase(other) == 0) continue;
-        flaws.replace(other, fmt::format("{}.{}", path, other), "stands beside a matrix; Tandem takes the matrix");
+        flaws.replace(other, fmt::format("{}.{}", path, other),
+                      "is given in addition to a matrix; Tandem uses the matrix");
     }
     Json& m = node["matrix"];
     if (m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1) return;
-    flaws.replace(
-        "matrix", path + ".matrix",
-        "has a last row other than 0, 0, 0, 1; Tandem takes that one, since nodes are placed without perspective");
+    flaws.replace("matrix", path + ".matrix",
+                  "has a last row other than 0, 0, 0, 1; Tandem uses that row, since node transforms are affine");
     m[3] = m[7] = m[11] = 0;
     m[15] = 1;
 }

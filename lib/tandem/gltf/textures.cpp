@@ -18,10 +18,11 @@ namespace {
 
 constexpr const char* transform_name = "KHR_texture_transform";
 
-/// Of all images of a file: 1 GiB of memory. Of those of a small file: 128 MiB, or 16 texels for each of its bytes.
+/// Texel limits for all images of a file: 1 GiB of memory; for a small file 128 MiB, or 16 texels for each of its
+/// bytes.
 constexpr std::size_t most_texels = std::size_t{1} << 28, small_file_texels = std::size_t{1} << 25;
 constexpr std::size_t texels_per_byte = 16;
-/// Of an edge, while an image is decoded.
+/// Limit of halvings of an edge while an image is decoded.
 constexpr unsigned most_halvings = 12;
 
 Wrap wrap_mode(std::uint64_t mode) {
@@ -71,12 +72,12 @@ class TextureReader {
             if (rough != nullptr && material.microfacets) {
                 material.metallic_roughness_texture =
                     read_use(*rough, pbr_path + ".metallicRoughnessTexture", "metallic-roughness texture",
-                             "linear; green multiplies the roughness, blue the share of metal");
+                             "linear; green multiplies the roughness, blue the metalness");
             }
         }
         if (const Json* info = find(read, "normalTexture")) {
             material.normal_texture = read_use(*info, path + ".normalTexture", "normal texture",
-                                               "linear; in the frame of the texture coordinates");
+                                               "linear; in the tangent frame of the texture coordinates");
             material.normal_scale = info->value("scale", 1.0F);
         }
         if (const Json* info = find(read, "emissiveTexture")) {
@@ -98,10 +99,10 @@ class TextureReader {
         if (mode == "MASK") {
             if (cutoff != nullptr) material.alpha_cutoff = cutoff->get<float>();
             report_.add(Treatment::rendered, "alphaMode MASK", path + ".alphaMode",
-                        "there is no surface where alpha is below alphaCutoff");
+                        "the surface is removed where alpha is below alphaCutoff");
         } else if (mode == "BLEND") {
             report_.add(Treatment::approximated, "alphaMode BLEND", path + ".alphaMode",
-                        "surfaces do not blend; there is none where alpha is below 0.5");
+                        "surfaces do not blend; they are removed where alpha is below 0.5");
         }
         if (cutoff != nullptr && mode != "MASK") {
             report_.add(Treatment::ignored, "alphaCutoff", path + ".alphaCutoff", "alphaMode is not MASK");
@@ -115,7 +116,7 @@ class TextureReader {
         if (transform != nullptr) texcoord = transform->value("texCoord", texcoord);
         if (texcoord > last_texcoord) {
             report_.add(Treatment::ignored, feature, path,
-                        fmt::format("it lies at TEXCOORD_{}; Tandem reads up to TEXCOORD_{}", texcoord, last_texcoord));
+                        fmt::format("it uses TEXCOORD_{}; Tandem reads up to TEXCOORD_{}", texcoord, last_texcoord));
             return std::nullopt;
         }
         const auto index = info["index"].get<std::size_t>();
@@ -138,7 +139,7 @@ class TextureReader {
             use.rotation = transform->value("rotation", use.rotation);
             use.scale = read_vec2(*transform, "scale", use.scale);
             report_.add(Treatment::rendered, transform_name, fmt::format("{}.extensions.{}", path, transform_name),
-                        "texture coordinates are scaled, turned and moved");
+                        "texture coordinates are scaled, rotated and translated");
         }
         return use;
     }
@@ -170,10 +171,10 @@ class TextureReader {
         const bool same = sampler.value("minFilter", filter) == filter;
         report_.add(same ? Treatment::rendered : Treatment::approximated, "texture sampler",
                     fmt::format("samplers[{}]", index),
-                    same ? "its filter and wrap modes" : "there are no mipmaps; magFilter counts at any distance");
+                    same ? "its filter and wrap modes" : "there are no mipmaps; magFilter is used at any distance");
     }
 
-    /// Throws a Flaw, the same one every time.
+    /// Throws a Flaw, the same one at every call.
     std::uint32_t image(std::size_t index) {
         if (const auto known = image_of_.find(index); known != image_of_.end()) return known->second;
         if (const auto known = images_left_out_.find(index); known != images_left_out_.end()) throw known->second;
@@ -197,8 +198,8 @@ class TextureReader {
             source_.document.fail(
                 encoded.json_path,
                 fmt::format(
-                    "brings the images to the work of decoding {} pixels, and those of a file of {} bytes may have "
-                    "that of {}; make them smaller",
+                    "brings the work of decoding the images to {} pixels, but a file of {} bytes may cause only "
+                    "{}; make the images smaller",
                     work_, bytes_, decoding_limit(bytes_)));
         }
         const unsigned shift = make_room(encoded.size);
@@ -215,7 +216,7 @@ class TextureReader {
         return std::clamp(texels_per_byte * bytes_, small_file_texels, most_texels);
     }
 
-    /// Halves images that are there, always the largest, until one more fits; says how often that has to be halved.
+    /// Halves loaded images, always the largest, until one more fits; returns how often the new one must be halved.
     unsigned make_room(const TexelSize& size) {
         unsigned shift = 0;
         const auto wanted = [&] {
@@ -244,7 +245,7 @@ class TextureReader {
             if (image.width == size.width && image.height == size.height) continue;
             flaws_.replace(
                 "large image", fmt::format("images[{}]", index),
-                fmt::format("has {} x {} texels; Tandem takes {} x {}, since all images of a file of {} bytes "
+                fmt::format("has {} x {} texels; Tandem reduces it to {} x {}, since all images of a file of {} bytes "
                             "may have {} texels",
                             size.width, size.height, image.width, image.height, bytes_, texel_limit()));
         }
@@ -268,11 +269,11 @@ class TextureReader {
     Indices textures_left_out_;
     std::map<std::size_t, Flaw> images_left_out_;
     std::map<std::string, std::uint32_t> number_of_place_;  ///< by EncodedImage::place
-    /// Of each image of the scene: its first index in the file, and its size there.
+    /// For each image of the scene: its first index in the file, and its size there.
     std::vector<std::pair<std::size_t, TexelSize>> origins_;
     std::size_t texels_ = 0;
-    std::size_t work_ = 0;  ///< of decoding them
-    std::size_t bytes_;     ///< of the buffers, and of the images elsewhere that were read
+    std::size_t work_ = 0;  ///< of decoding the images
+    std::size_t bytes_;     ///< of the buffers and the image files that were read
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Textures of materials, and what is cut out of surfaces.
+/// Reads textures and alpha masks of materials.
 #pragma once
 
 #include "tandem/gltf/buffers.h"
@@ -7,10 +7,10 @@
 
 namespace tandem::gltf {
 
-/// Gives the materials of `scene`, which are those of the file in its order, their textures and their
-/// alpha, and reads the images that these show; others are not opened, and noted. alphaMode BLEND becomes MASK at
-/// 0.5. A material is without a texture whose image cannot be read. Where the images have more texels than a file of
-/// that size may bring, the largest are halved until they fit.
+/// Adds textures and alpha to the materials of `scene`, which are those of the file in its order, and reads the images
+/// that they use; others are noted but not opened. alphaMode BLEND becomes MASK with a cutoff of 0.5. A texture whose
+/// image cannot be read is left out. If the images have more texels than a file of that size may have, the largest are
+/// halved until they fit.
 void read_textures(const Source& source, Scene& scene, ImportReport& report, FlawLog& flaws);
 
 }  // namespace tandem::gltf

@@ -47,7 +47,7 @@ class TriangleReader {
     }
 
   private:
-    /// Primitives may share vertices, each with some of them, so only those that it has are read. A skin needs all.
+    /// Several primitives may share vertex arrays, so only the vertices that this one uses are read. A skin needs all.
     void choose_vertices(std::vector<std::uint32_t>& triangles, std::size_t vertices) {
         leave_out_missing_vertices(source_.document, triangles, vertices, path_, flaws_);
         if (triangles.size() < vertices && !primitive_["attributes"].contains("JOINTS_0")) {
@@ -57,7 +57,7 @@ class TriangleReader {
         all_vertices_ = vertices;
     }
 
-    /// None for an attribute with a flaw: the mesh is drawn without it.
+    /// Empty for an attribute with a flaw: the mesh is rendered without it.
     template <class Vector>
     std::vector<Vector> optional_vectors(const char* name, const char* type, Components plain, Components quantised) {
         try {
@@ -68,13 +68,13 @@ class TriangleReader {
         }
     }
 
-    /// Does mend() look after numbers that are not finite?
+    /// Whether mend() repairs numbers that are not finite.
     static bool is_mended(std::string_view name) {
         return name == "POSITION" || name == "NORMAL" || name.starts_with("TEXCOORD_");
     }
 
-    /// The elements of an attribute, empty if there is none; `quantised`: what KHR_mesh_quantization allows, and what
-    /// is taken, with a note, in files that do not use it.
+    /// The elements of an attribute; empty if there is none. `quantised`: the types that KHR_mesh_quantization allows,
+    /// and that are accepted, with a note, in files that do not use it.
     template <class Vector>
     std::vector<Vector> vectors(const char* name, const char* type, Components plain, Components quantised) {
         const Json* index = find(primitive_["attributes"], name);
@@ -92,11 +92,10 @@ class TriangleReader {
         need.elements = used_ ? &*used_ : nullptr;
         const std::vector<float> values = read_accessor(source_, accessor, need);
         if (!is_quantised_ && !has_components(source_, accessor, plain)) {
-            flaws_.tolerate(
-                fmt::format("attribute {}", name), where,
-                fmt::format("has integers, which only files that use {} may have; Tandem takes them all the "
-                            "same",
-                            mesh_quantization));
+            flaws_.tolerate(fmt::format("attribute {}", name), where,
+                            fmt::format("has integers, which only files that use {} may have; Tandem accepts them "
+                                        "same",
+                                        mesh_quantization));
         }
         constexpr int width = std::is_same_v<Vector, Vec2f> ? 2 : 3;
         std::vector<Vector> result(vertices_);
@@ -107,7 +106,7 @@ class TriangleReader {
         return result;
     }
 
-    /// COLOR_0 as RGB or RGBA; none if all are white.
+    /// COLOR_0 as RGB or RGBA; empty if all are white.
     std::vector<VertexColour> colours() {
         const Json* index = find(primitive_["attributes"], "COLOR_0");
         if (index == nullptr) return {};
@@ -116,7 +115,7 @@ class TriangleReader {
         const auto type = source_.document.json["accessors"][accessor].value("type", std::string());
         const std::size_t width = type == "VEC4" ? 4 : 3;
         if (element_count(source_, accessor) != all_vertices_) {
-            report_.add(Treatment::ignored, "vertex colours", where, "there is not one for each position");
+            report_.add(Treatment::ignored, "vertex colours", where, "there is not one per position");
             return {};
         }
         budget_.spend(source_.document, where, vertices_);
@@ -136,8 +135,8 @@ class TriangleReader {
         }
         report_.add(in_range ? Treatment::rendered : Treatment::approximated, "vertex colours", where,
                     in_range ? "linear; multiply the base colour"
-                             : "linear; multiply the base colour; some lie outside "
-                               "of 0 to 1 and count as the nearer end");
+                             : "linear; multiply the base colour; some are outside "
+                               "[0, 1] and are clamped");
         if (std::all_of(values.begin(), values.end(), [](float value) { return value == 1; })) return {};
         std::vector<VertexColour> result(vertices_);
         for (std::size_t i = 0; i < vertices_; ++i) {
@@ -168,7 +167,7 @@ class TriangleReader {
     FlawLog& flaws_;
     ImportReport& report_;
     bool is_quantised_ = false;
-    std::optional<std::vector<std::uint32_t>> used_;  ///< the vertices to read; none: all of them
+    std::optional<std::vector<std::uint32_t>> used_;  ///< the vertices to read; empty: all of them
     std::size_t vertices_ = 0, all_vertices_ = 0;     ///< of the mesh, and of POSITION
 };
 
@@ -176,20 +175,20 @@ class TriangleReader {
 
 namespace {
 
-/// Why an attribute is not in the picture; null if it is, or if another reader says so.
+/// Why an attribute is ignored; null if it is not, or if another reader notes it.
 const char* why_ignored_attribute(const std::string& name, const std::vector<std::uint32_t>& sets, bool is_skinned) {
     for (const char* known : {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"}) {
         if (name == known) return nullptr;
     }
     if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) {
-        return is_skinned ? nullptr : "no node with a skin shows the mesh here";
+        return is_skinned ? nullptr : "no node with a skin uses the mesh here";
     }
     const auto is_used = [&](std::uint32_t set) { return name == fmt::format("TEXCOORD_{}", set); };
     if (std::any_of(sets.begin(), sets.end(), is_used)) return nullptr;
     if (name.starts_with("TEXCOORD_")) return "no texture that Tandem renders uses it";
-    if (name.starts_with("COLOR_")) return "glTF gives a meaning to COLOR_0 only";
-    if (name == "TANGENT") return "the frame of normal maps comes from the texture coordinates";
-    return "Tandem does not know it";
+    if (name.starts_with("COLOR_")) return "glTF defines COLOR_0 only";
+    if (name == "TANGENT") return "the tangent frame is derived from the texture coordinates";
+    return "Tandem does not support it";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Triangle meshes.
+/// Reads triangle meshes.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,29 @@
 
 namespace tandem::gltf {
 
-/// The extension that a file lists to store attributes as integers. It puts nothing into the JSON otherwise.
+/// The extension that a file lists to store attributes as integers. It adds nothing else to the JSON.
 inline constexpr const char* mesh_quantization = "KHR_mesh_quantization";
 
-/// Sets of texture coordinates that are read: TEXCOORD_0 up to this one.
+/// The last set of texture coordinates that is read, from TEXCOORD_0 on.
 inline constexpr std::uint32_t last_texcoord = 15;
 
 /// The mesh of a primitive.
 struct PrimitiveMesh {
     Mesh mesh;
-    /// Which elements of the primitive's accessors the mesh has as vertices; none: all, in their order.
+    /// The elements of the primitive's accessors that became vertices of the mesh; empty: all, in their order.
     std::optional<std::vector<std::uint32_t>> elements;
 };
 
-/// Does the primitive have triangles that can be drawn? Notes in the report that they are, or why they are not, and
-/// which attributes are ignored. `sets`: of texture coordinates, those that its material uses. `is_skinned`: the node
-/// has a skin.
+/// Whether the primitive has triangles that can be rendered. Notes that they are, or why not, and which attributes are
+/// ignored. `sets`: the texture coordinates that its material uses. `is_skinned`: the node has a skin.
 [[nodiscard]] bool has_triangles(const Json& primitive, const std::vector<std::uint32_t>& sets, bool is_skinned,
                                  const std::string& path, ImportReport& report);
 
-/// The triangles of such a primitive: a list, a strip or a fan, with or without indices; positions, and where there are
-/// some, normals, the texture coordinates of `sets`, and colours.
+/// Reads the triangles of such a primitive: a list, a strip or a fan, with or without indices; positions and, if the
+/// file has them, normals, the texture coordinates of `sets`, and colours.
 ///
-/// An attribute that cannot be read, or has not as many elements as POSITION, is left out; what triangles_of() and
-/// mend() say of corners and numbers holds. Throws a Flaw if positions or indices cannot be read, or no triangle is
+/// An attribute that cannot be read, or has another number of elements than POSITION, is left out; triangles_of() and
+/// mend() treat invalid corners and numbers. Throws a Flaw if positions or indices cannot be read, or if no triangle is
 /// left.
 [[nodiscard]] PrimitiveMesh read_triangles(const Source& source, const Json& primitive,
                                            const std::vector<std::uint32_t>& sets, const std::string& path,

@@ -21,7 +21,7 @@ std::optional<int> hexadecimal(char c) {
     return std::nullopt;
 }
 
-/// Percent-decoding (RFC 3986, 2.1); a '%' that is no escape stands for itself.
+/// Percent-decoding (RFC 3986, 2.1); a '%' that starts no escape is kept.
 std::string percent_decoded(std::string_view uri) {
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -33,7 +33,7 @@ std::string percent_decoded(std::string_view uri) {
     return decoded;
 }
 
-/// "http:" and the like (RFC 3986, 3.1).
+/// Whether the URI has a scheme, such as "http:" (RFC 3986, 3.1).
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     if (colon == std::string_view::npos || colon == 0 || std::isalpha(static_cast<unsigned char>(uri[0])) == 0) {
@@ -48,12 +48,12 @@ bool has_scheme(std::string_view uri) {
 const char* objection(std::string_view path) {
     if (path.empty()) return "is empty; name a file";
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-    if (std::any_of(path.begin(), path.end(), is_control)) return "holds control characters; rename the file";
-    if (path[0] == '/') return "is an absolute path; put it into the folder of the glTF file";
+    if (std::any_of(path.begin(), path.end(), is_control)) return "contains control characters; rename the file";
+    if (path[0] == '/') return "is an absolute path; put the file into the folder of the glTF file";
     for (std::size_t at = 0; at <= path.size();) {
         const std::size_t end = std::min(path.find('/', at), path.size());
         if (path.substr(at, end - at) == "..") {
-            return "leads out of the folder of the glTF file with '..'; put it into that folder";
+            return "leads out of the folder of the glTF file with '..'; put the file into that folder";
         }
         at = end + 1;
     }
@@ -84,7 +84,7 @@ LocatedFile locate_beside(const Document& document, const std::string& json_path
     const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
     std::error_code error;
     const auto file = std::filesystem::canonical(folder / name, error);
-    if (error) fail(fmt::format("names '{}', which is not there; put it beside the glTF file", name));
+    if (error) fail(fmt::format("names '{}', which does not exist; put it beside the glTF file", name));
     const auto inside = std::filesystem::canonical(folder, error);
     if (error || !is_within(file, inside)) {
         fail(fmt::format("names '{}', a link that leads out of the folder of the glTF file", name));
@@ -107,7 +107,7 @@ Bytes read_beside(const Document& document, const std::string& json_path, const 
 std::string_view base64_digits(const Document& document, const std::string& json_path, std::string_view uri) {
     const std::size_t comma = std::min(uri.find(','), uri.size());
     if (!uri.substr(0, comma).ends_with(";base64")) {
-        document.fail(json_path, "is a data URI that does not begin with 'data:', a media type and ';base64,'");
+        document.fail(json_path, "is a data URI that does not start with 'data:', a media type and ';base64,'");
     }
     std::string_view digits = uri.substr(std::min(comma + 1, uri.size()));
     const std::size_t length = digits.size();

@@ -29,7 +29,7 @@ double distance(double a, double b) {
 
 bool differs_relatively(double a, double b, double tolerance) {
     const double difference = distance(a, b);
-    // written for a NaN and for two opposite infinities, of which no share is left
+    // negated so that NaN and infinite differences count as differing
     return difference > 0 &&
            !(difference <= tolerance * std::max(std::abs(a), std::abs(b)) && std::isfinite(difference));
 }

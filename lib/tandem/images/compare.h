@@ -1,4 +1,4 @@
-/// How far two films are apart.
+/// Compares two films.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-/// When a pixel counts as differing: tolerances.def says what each means. A NaN beside a number differs by every
-/// tolerance, two NaN only by their bits.
+/// When a pixel counts as differing; tolerances.def defines each. A NaN and a number differ at every tolerance, two NaN
+/// only in their bits.
 enum class Tolerance {
 #define TANDEM_TOLERANCE(name, words) name,
 #include "tandem/images/tolerances.def"
@@ -27,13 +27,13 @@ inline constexpr std::array tolerances = {
 
 struct FilmDifference {
     std::size_t pixels = 0;
-    std::size_t differing_sums = 0;  ///< pixels whose sums are not the same bits: what film_hash() sees
+    std::size_t differing_sums = 0;  ///< pixels whose sums differ in a bit, as in film_hash()
     std::array<std::size_t, tolerances.size()> differing_means{};  ///< pixels, by Tolerance
-    double largest = 0;  ///< absolute difference of the means over all channels; infinite if only one of two is a NaN
-    double mean = 0;     ///< the same, mean over all channels
-    double rms = 0;      ///< root of the mean square of the same
+    double largest = 0;  ///< largest absolute difference of the means over all channels; infinite if only one is a NaN
+    double mean = 0;     ///< mean absolute difference over all channels
+    double rms = 0;      ///< root mean square of the differences
 
-    /// The paper's residual rate, as a point of the curve over tolerances: the share of pixels, from 0 to 1.
+    /// The paper's residual rate at one tolerance: the share of differing pixels, from 0 to 1.
     [[nodiscard]] double residual_rate(Tolerance tolerance) const {
         return static_cast<double>(differing_means[static_cast<std::size_t>(tolerance)]) / static_cast<double>(pixels);
     }

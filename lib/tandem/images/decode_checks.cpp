@@ -17,7 +17,7 @@ void check_edges(const std::string& name, const char* format, std::uint64_t widt
                  std::uint64_t most_edge, std::uint64_t most_pixels) {
     const auto good_edge = [&](std::uint64_t edge) { return edge >= 1 && edge <= most_edge; };
     if (good_edge(width) && good_edge(height) && width * height <= most_pixels) return;
-    fail_decoding(name, format, fmt::format("it claims {} x {} pixels", width, height));
+    fail_decoding(name, format, fmt::format("its header claims {} x {} pixels, which is too large", width, height));
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void check_texture_size(const std::string& name, const char* format, std::uint64
 void check_data(const std::string& name, const char* format, std::size_t available, std::size_t needed) {
     if (available >= needed) return;
     fail_decoding(name, format,
-                  fmt::format("the pixels need at least {} bytes, and {} are there; the file is cut off or its header "
+                  fmt::format("the pixels need at least {} bytes, but only {} exist; the file is cut off or its header "
                               "is wrong",
                               needed, available));
 }
@@ -42,7 +42,7 @@ void check_work(const std::string& name, const char* format, std::size_t availab
     const std::size_t limit = decoding_limit(available);
     if (work <= limit) return;
     fail_decoding(name, format,
-                  fmt::format("decoding it is the work of {} pixels, and a file of {} bytes may have that of {}", work,
+                  fmt::format("decoding it is the work of {} pixels, but a file of {} bytes may cause only {}", work,
                               available, limit));
 }
 

@@ -1,23 +1,23 @@
-/// How linear radiance becomes the picture that a person looks at: exposure and transfer function of 8-bit files.
+/// The conversion of linear radiance to 8-bit images: exposure and transfer function.
 #pragma once
 
 #include <string>
 
 namespace tandem {
 
-/// From light to the values of a file, both from 0 to 1. srgb: IEC 61966-2-1, what screens and viewers take a file for.
-/// linear: the values are the light, as the paper wrote its pictures; a screen shows them darker than they are.
+/// Maps radiance to the values of a file, both from 0 to 1. srgb: IEC 61966-2-1, which screens and viewers assume.
+/// linear: no conversion, as in the paper; screens show such images too dark.
 enum class TransferFunction { srgb, linear };
 
 [[nodiscard]] const char* to_string(TransferFunction transfer);
 
-/// The inverse. Throws InputError that lists the names.
+/// Parses a name. Throws InputError that lists the names.
 [[nodiscard]] TransferFunction parse_transfer(const std::string& text);
 
-/// Films do not depend on it, and files of floats neither.
+/// Neither films nor float files depend on it.
 struct Display {
     TransferFunction transfer = TransferFunction::srgb;
-    double exposure_stops = 0;  ///< radiance is multiplied by 2 to this power first; within most_exposure_stops of 0
+    double exposure_stops = 0;  ///< radiance is multiplied by 2^exposure_stops first; at most most_exposure_stops, +-
 
     bool operator==(const Display&) const = default;
 };

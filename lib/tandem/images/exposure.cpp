@@ -20,12 +20,12 @@ constexpr double white = 1;
 
 double log2_wide(double x) { return log_wide<float>(x) / log_wide<float>(2.0); }
 
-/// Of the pixels that count, in ascending order.
+/// The luminances of the pixels that count, in ascending order.
 std::vector<float> sorted_luminances(const FloatImage& image) {
     std::vector<float> luminances;
     luminances.reserve(image.pixels.size());
     for (const Vec3f& pixel : image.pixels) {
-        const float y = narrow(luminance(widen(pixel)));  // not finite if a channel is not
+        const float y = narrow(luminance(widen(pixel)));  // not finite if any channel is not
         if (y >= std::numeric_limits<float>::min() && std::isfinite(y)) luminances.push_back(y);
     }
     std::sort(luminances.begin(), luminances.end());

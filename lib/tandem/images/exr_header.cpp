@@ -21,16 +21,16 @@ constexpr std::uint32_t tiled_flag = 0x200;
 constexpr std::uint32_t deep_flag = 0x800;
 constexpr std::uint32_t multipart_flag = 0x1000;
 
-/// Lines that are compressed together, by the number of the compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
-/// DWAA, DWAB. No later one takes more than the last.
+/// Lines per compressed block, by compression number: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB. Later
+/// ones have no larger blocks than the last.
 constexpr std::uint64_t lines_by_compression[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 constexpr std::size_t compressions = std::size(lines_by_compression);
 
-/// What is decompressed at once, a block of lines or a tile, may always have this many bytes.
+/// A block of lines or a tile, which is decompressed at once, may always have this many bytes.
 constexpr std::uint64_t most_block_bytes = std::uint64_t{64} << 20;
 
-/// Bytes of the values of OpenEXR's types; the others are of any size. OpenEXR reads so many whatever size is given,
-/// and takes what follows a wrong one for the next attribute.
+/// Sizes of OpenEXR's attribute types; other types may have any size. OpenEXR reads this many bytes whatever size the
+/// file gives, and parses what follows a wrong size as the next attribute.
 constexpr std::pair<std::string_view, std::uint32_t> value_sizes[] = {{"box2f", 16},
                                                                       {"box2i", 16},
                                                                       {"chromaticities", 32},
@@ -56,7 +56,7 @@ constexpr std::pair<std::string_view, std::uint32_t> value_sizes[] = {{"box2f", 
                                                                       {"v3f", 12},
                                                                       {"v3i", 12}};
 
-/// What the header of one part claims.
+/// The claims of the header of one part.
 struct Part {
     std::string_view type;
     std::uint64_t width = 0;
@@ -65,11 +65,11 @@ struct Part {
     std::uint64_t pixel_bytes = 0;
     std::uint64_t tile_width = 0;
     std::uint64_t tile_height = 0;
-    std::uint64_t chunk_count = 0;  ///< as written, which is optional
+    std::uint64_t chunk_count = 0;  ///< from the optional attribute
     std::size_t compression = compressions - 1;
 };
 
-/// Runs over bytes; whatever goes past the end throws.
+/// Reads bytes in order; throws at the end.
 class Cursor {
   public:
     Cursor(std::string_view bytes, const std::string& name) : rest_(bytes), name_(name) {}
@@ -87,7 +87,7 @@ class Cursor {
         std::memcpy(&value, take(sizeof(value)).data(), sizeof(value));
         return value;
     }
-    /// Up to a zero byte.
+    /// A string up to a zero byte.
     std::string_view text() {
         const std::string_view taken = take(std::min(rest_.find('\0'), rest_.size()));
         take(1);
@@ -105,7 +105,7 @@ class HeaderCheck {
 
     void run() {
         Cursor header({reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}, name_);
-        if (header.number() != magic) fail("it does not begin as one");
+        if (header.number() != magic) fail("it does not start with OpenEXR's magic number");
         const std::uint32_t flags = header.number();
         const bool multipart = (flags & multipart_flag) != 0;
         std::string_view attribute = header.text();
@@ -118,7 +118,7 @@ class HeaderCheck {
         }
         check_part(first, is_tiled(first));
         if (!multipart) return;
-        // the other parts are not read, but OpenEXR looks at their headers and tables
+        // the other parts are not used, but OpenEXR reads their headers and tables
         for (attribute = header.text(); !attribute.empty(); attribute = header.text()) {
             const Part part = read_part(header, attribute);
             check_part(part, is_tiled(part) || part.type == "deeptile");
@@ -128,7 +128,7 @@ class HeaderCheck {
   private:
     [[noreturn]] void fail(const char* reason) const { fail_decoding(name_, "EXR", reason); }
 
-    /// From the name of the first attribute on.
+    /// Reads a header, from the name of its first attribute.
     Part read_part(Cursor& header, std::string_view attribute) const {
         Part part;
         for (; !attribute.empty(); attribute = header.text()) {
@@ -168,7 +168,7 @@ class HeaderCheck {
         part.height = static_cast<std::uint64_t>(corner[3] - corner[1] + 1);
     }
 
-    /// If there are several lists, OpenEXR takes all of them together.
+    /// If there are several lists, OpenEXR combines them.
     void read_channels(Cursor& value, Part& part) const {
         constexpr std::uint32_t half = 1;
         constexpr std::size_t after_type = 12;  // linearity, sampling
@@ -187,7 +187,7 @@ class HeaderCheck {
     void check_part(const Part& part, bool tiled) {
         if (part.width == 0 || part.channels == 0) fail("its header has no data window or no channels");
         check_size(name_, "EXR", part.width, part.height);
-        // every value has two bytes at least, before compression
+        // every value has at least two bytes before compression
         const std::uint64_t pixels = part.width * part.height;
         check_data(name_, "EXR", bytes_.size(), pixels * part.channels * 2 / most_deflate_ratio);
 

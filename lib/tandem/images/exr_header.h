@@ -1,5 +1,5 @@
-/// A first look at an EXR file, not part of the interface: OpenEXR allocates by the sizes that a header claims, so they
-/// are checked against the bytes that are there before it sees them.
+/// Checks the headers of an EXR file; internal. OpenEXR allocates memory by the sizes that a header claims, so these
+/// are first compared with the size of the file.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace tandem {
 
 /// Throws InputError if a header is cut off or claims more pixels, channels, blocks or bytes than the file can hold, or
-/// if the first part is deep. All else is left to OpenEXR. Layout: "OpenEXR File Layout", openexr.com.
+/// if the first part is deep. OpenEXR checks the rest. Layout: "OpenEXR File Layout", openexr.com.
 void check_exr_header(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace tandem

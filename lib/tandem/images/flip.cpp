@@ -23,7 +23,7 @@ constexpr double pi = std::numbers::pi;
 
 double sum(const Vec3d& v) { return v.x + v.y + v.z; }
 
-/// XYZ over that of white, so that white is (1, 1, 1).
+/// XYZ relative to white, so that white is (1, 1, 1).
 Vec3d relative_xyz(const Vec3d& rgb) {
     return {dot(x_of_rgb, rgb) / sum(x_of_rgb), dot(y_of_rgb, rgb) / sum(y_of_rgb), dot(z_of_rgb, rgb) / sum(z_of_rgb)};
 }
@@ -34,7 +34,7 @@ Vec3d rgb_of(const Vec3d& relative) {
     return (yz * xyz.x + zx * xyz.y + xy * xyz.z) / dot(x_of_rgb, yz);
 }
 
-/// CIELAB, and a and b scaled by lightness: colours matter less in the dark (the paper, section 4.1.2).
+/// CIELAB with a and b scaled by lightness: colours matter less in the dark (the paper, section 4.1.2).
 Vec3d hunt_lab(const Vec3d& rgb) {
     constexpr double delta = 6.0 / 29;
     const auto curve = [](double t) {
@@ -46,23 +46,23 @@ Vec3d hunt_lab(const Vec3d& rgb) {
     return {lightness, 0.01 * lightness * 500 * (f.x - f.y), 0.01 * lightness * 200 * (f.y - f.z)};
 }
 
-/// HyAB: city block in lightness, Euclid in the colours.
+/// HyAB: city-block distance in lightness, Euclidean distance in colour.
 double hyab(const Vec3d& a, const Vec3d& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
 
 constexpr double colour_exponent = 0.7;
 constexpr double feature_exponent = 0.5;
 
-/// What HyAB of the two colours farthest apart, green and blue, becomes.
+/// The compressed HyAB distance of green and blue, the colours that are farthest apart.
 double largest_colour_error() { return std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), colour_exponent); }
 
-/// To [0, 1]: the lower 0.4 of the range takes 0.95 of it.
+/// Maps to [0, 1]: the lower 0.4 of the range becomes 0.95 of it.
 double compressed(double error, double largest) {
     constexpr double knee = 0.4, height = 0.95;
     const double at = knee * largest;
     return error < at ? height / at * error : height + (error - at) / (largest - at) * (1 - height);
 }
 
-/// A part of the eye's point spread: amplitude * sqrt(pi / width) * exp(-(pi x)^2 / width), x in degrees.
+/// A term of the eye's point spread function: amplitude * sqrt(pi / width) * exp(-(pi x)^2 / width), x in degrees.
 struct Spread {
     double amplitude;
     double width;
@@ -73,7 +73,7 @@ constexpr std::array lightness_spread = {Spread{1, 0.0047}};
 constexpr std::array red_green_spread = {Spread{1, 0.0053}};
 constexpr std::array blue_yellow_spread = {Spread{34.1, widest_spread}, Spread{13.5, 0.025}};
 
-/// A sum of Gaussians over both axes whose weights sum to 1.
+/// A sum of separable Gaussians whose weights sum to 1.
 Plane blurred(const Plane& plane, std::span<const Spread> spreads, double pixels_per_degree) {
     const int radius = static_cast<int>(std::ceil(3 * std::sqrt(widest_spread / (2 * pi * pi)) * pixels_per_degree));
     Plane result{plane.width, plane.height, std::vector<double>(plane.values.size())};
@@ -95,7 +95,7 @@ Plane blurred(const Plane& plane, std::span<const Spread> spreads, double pixels
     return result;
 }
 
-/// How much of an edge and of a point there is at a pixel.
+/// The edge and point features at a pixel.
 struct Features {
     Plane edges;
     Plane points;
@@ -121,7 +121,7 @@ Features features_of(const Plane& luminance, double pixels_per_degree) {
     return {magnitude(normalised(first)), magnitude(normalised(second))};
 }
 
-/// A picture as the eye has it: colours that are blurred, features that are not.
+/// An image as perceived: blurred colours, and features of the unblurred image.
 struct Seen {
     std::vector<Vec3d> lab;
     Features features;
@@ -130,13 +130,13 @@ struct Seen {
 Seen seen(const FloatImage& image, const FlipOptions& options) {
     const double pixels_per_degree = options.pixels_per_degree;
     const double factor = exposure_factor(options.display);
-    // what leaves a screen that takes the values of the file for sRGB
+    // the light from a screen that interprets the values of the file as sRGB
     const auto light = [&](float linear) {
         const double value = widen(clamp_to_unit(narrow(widen(linear) * factor)));
         return options.display.transfer == TransferFunction::srgb ? value : linear_of_srgb(value);
     };
     const auto plane = [&] { return Plane{image.width, image.height, std::vector<double>(image.pixels.size())}; };
-    // lightness, red against green, blue against yellow (YCxCz), without the offset of Y, which a blur keeps
+    // lightness, red-green, blue-yellow (YCxCz), without the offset of Y, which a blur preserves
     Plane luminance = plane(), red_green = plane(), blue_yellow = plane();
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const Vec3f& p = image.pixels[i];
@@ -161,11 +161,11 @@ Seen seen(const FloatImage& image, const FlipOptions& options) {
 
 void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
     if (a.width != b.width || a.height != b.height || a.pixels.empty()) {
-        throw InputError(fmt::format("FLIP needs two pictures of one size, but they have {} x {} and {} x {} pixels",
+        throw InputError(fmt::format("FLIP needs two images of equal size, but they have {} x {} and {} x {} pixels",
                                      a.width, a.height, b.width, b.height));
     }
     if (!(options.pixels_per_degree > 0 && options.pixels_per_degree <= 1000)) {
-        throw InputError(fmt::format("FLIP needs more than 0 and at most 1000 pixels to the degree, not {}",
+        throw InputError(fmt::format("FLIP needs more than 0 and at most 1000 pixels per degree, not {}",
                                      options.pixels_per_degree));
     }
 }
@@ -193,7 +193,7 @@ FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions&
 
 FloatImage flip_map(const FlipDifference& difference) {
     const DefaultFpEnvironment guard;
-    // Like magma of matplotlib, straight between its quarters.
+    // matplotlib's magma, interpolated linearly between its quarters
     static const std::array<Vec3d, 5> quarters = {Vec3d{0, 0, 0.02}, Vec3d{0.32, 0.07, 0.48}, Vec3d{0.72, 0.21, 0.47},
                                                   Vec3d{0.99, 0.54, 0.38}, Vec3d{0.99, 0.99, 0.75}};
     FloatImage map{difference.width, difference.height, {}};

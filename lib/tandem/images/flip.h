@@ -1,10 +1,10 @@
-/// How different two pictures look to a person who flips between them.
+/// FLIP: how different two images look to a person who flips between them.
 ///
 /// LDR-FLIP: P. Andersson, J. Nilsson, T. Akenine-Moeller, M. Oskarsson, K. Astroem, M. D. Fairchild, "FLIP: A
 /// Difference Evaluator for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive
-/// Techniques 3 (2), High-Performance Graphics 2020. Both pictures are blurred as the eye blurs them, by a contrast
-/// sensitivity of its own for lightness and for each pair of colours; what is left is compared in CIELAB with Hunt's
-/// adjustment, and made larger where edges and points differ. Computed in double.
+/// Techniques 3 (2), High-Performance Graphics 2020. Both images are blurred as by the eye, with separate contrast
+/// sensitivities for lightness, red-green and blue-yellow. The results are compared in CIELAB with Hunt's adjustment,
+/// and differences of edges and points are amplified. Computed in double.
 #pragma once
 
 #include <vector>
@@ -27,13 +27,13 @@ struct FlipDifference {
     double mean = 0;
 };
 
-/// Of linear pictures as PNG and PPM files with this display show them on a screen, which takes every file for sRGB:
-/// what is compared is the light that leaves it. Clamped, but not rounded to levels. A NaN is black. Symmetric. Throws
-/// InputError if the sizes differ or are zero, or if there are not more than 0 and at most 1000 pixels to the degree.
+/// Compares linear images as a screen shows them in PNG and PPM files with this display, interpreting every file as
+/// sRGB. Values are clamped, but not rounded to levels. A NaN is black. Symmetric. Throws InputError if the sizes
+/// differ or are zero, or if the number of pixels per degree is not above 0 and at most 1000.
 [[nodiscard]] FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options = {});
 
-/// The errors as colours, from black (0) over violet and orange to pale yellow (1). They are what a screen is given:
-/// write them with TransferFunction::linear.
+/// The errors as colours, from black (0) over violet and orange to pale yellow (1). The values are already meant for
+/// the screen: write them with TransferFunction::linear.
 [[nodiscard]] FloatImage flip_map(const FlipDifference& difference);
 
 }  // namespace tandem

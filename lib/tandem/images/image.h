@@ -1,4 +1,4 @@
-/// Pictures in memory: linear float RGB, and 8-bit RGB.
+/// Images in memory: linear float RGB, and 8-bit RGB.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct FloatImage {
     std::vector<Vec3f> pixels;  ///< width * height
 };
 
-/// 8-bit RGB as files and screens have it, row by row from the top left.
+/// 8-bit RGB for files and screens, row by row from the top left.
 struct ByteImage {
     int width = 0;
     int height = 0;
@@ -28,7 +28,7 @@ struct ByteImage {
 [[nodiscard]] std::size_t pixel_count(const FloatImage& image);
 [[nodiscard]] std::size_t pixel_count(const ByteImage& image);
 
-/// The means of all pixels (Film::mean()).
+/// An image of the means of all pixels (Film::mean()).
 [[nodiscard]] FloatImage film_to_image(const Film& film);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// EXR: the only includes of OpenEXR.
+/// EXR files: the only includes of OpenEXR.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -24,7 +24,7 @@ namespace tandem {
 
 namespace {
 
-/// OpenEXR is not to start threads of its own: whoever calls has threads enough.
+/// Keeps OpenEXR from starting threads: the callers have enough threads.
 constexpr int no_threads = 0;
 
 class MemoryInput final : public Imf::IStream {
@@ -39,7 +39,7 @@ class MemoryInput final : public Imf::IStream {
     }
     std::uint64_t tellg() override { return at_; }
     void seekg(std::uint64_t position) override {
-        if (position > bytes_.size()) throw std::runtime_error("its table of offsets points behind its end");
+        if (position > bytes_.size()) throw std::runtime_error("its table of offsets points beyond its end");
         at_ = position;
     }
 
@@ -78,7 +78,7 @@ void add_rgb(Imf::FrameBuffer& frame, const Vec3f& pixel, const Imath::Box2i& wi
     add_slice(frame, "B", &pixel.z, window);
 }
 
-/// A pixel has as many values of 32 bits side by side as there are channels.
+/// A pixel has one 32-bit value per channel, adjacent in memory.
 void add_plane(Imf::Header& header, Imf::FrameBuffer& frame, const PlaneImage& plane) {
     const std::vector<std::string>& channels = info_of(plane.plane).channels;
     const Imath::Box2i& window = header.dataWindow();
@@ -104,7 +104,7 @@ void check_sampling(const Imf::FrameBuffer& frame, const Imf::ChannelList& chann
 void read_pixels(Imf::MultiPartInputFile& file, const Imf::FrameBuffer& frame) {
     const Imath::Box2i& window = file.header(0).dataWindow();
     if (file.header(0).type() == Imf::TILEDIMAGE) {
-        // not as scan lines, for which OpenEXR would hold a whole row of tiles
+        // not as scan lines, for which OpenEXR would keep a whole row of tiles in memory
         Imf::TiledInputPart part(file, 0);
         part.setFrameBuffer(frame);
         part.readTiles(0, part.numXTiles() - 1, 0, part.numYTiles() - 1);
@@ -115,7 +115,7 @@ void read_pixels(Imf::MultiPartInputFile& file, const Imf::FrameBuffer& frame) {
     }
 }
 
-/// Of the first part, in its data window.
+/// The first part, in its data window.
 FloatImage read_image(Imf::MultiPartInputFile& file) {
     const Imf::ChannelList& channels = file.header(0).channels();
     const Imath::Box2i& window = file.header(0).dataWindow();
@@ -184,7 +184,7 @@ DecodedImage decode_exr(std::span<const std::byte> bytes, const std::string& nam
     MetadataText text;
     try {
         MemoryInput memory(bytes, name);
-        constexpr bool reconstruct_offsets = false;  // of files that were never finished
+        constexpr bool reconstruct_offsets = false;  // for incomplete files
         Imf::MultiPartInputFile file(memory, no_threads, reconstruct_offsets);
         result.image = read_image(file);
         text = string_attributes(file.header(0));

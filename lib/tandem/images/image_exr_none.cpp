@@ -1,4 +1,4 @@
-/// Stands in for image_exr.cpp in a build without OpenEXR.
+/// Replaces image_exr.cpp in a build without OpenEXR.
 #include "tandem/base/error.h"
 #include "tandem/images/image_codecs.h"
 
@@ -6,7 +6,8 @@ namespace tandem {
 
 void check_exr_support() {
     throw EnvironmentError(
-        "this build has no EXR images; install OpenEXR (on Debian and Ubuntu: libopenexr-dev) and build again, or use "
+        "this build does not support EXR images; install OpenEXR (on Debian and Ubuntu: libopenexr-dev) and build "
+        "again, or use "
         ".pfm, which holds the same floats");
 }
 

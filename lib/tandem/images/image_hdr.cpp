@@ -23,7 +23,7 @@ using Rgbe = std::array<std::uint8_t, 4>;
 struct HdrHeader {
     std::uint32_t width = 0, height = 0;
     bool from_bottom = false, from_right = false;
-    double exposure = 1;  ///< what the radiance was multiplied by
+    double exposure = 1;  ///< the factor of the radiance
 };
 
 class HdrReader {
@@ -33,10 +33,10 @@ class HdrReader {
 
     HdrHeader header() {
         HdrHeader header;
-        if (!line().starts_with("#?")) fail("it does not begin with #?");
+        if (!line().starts_with("#?")) fail("it does not start with #?");
         for (std::string_view variable = line(); !variable.empty(); variable = line()) {
             if (variable.starts_with("FORMAT=") && variable != "FORMAT=32-bit_rle_rgbe") {
-                fail(fmt::format("its pixels are '{}'; only 32-bit_rle_rgbe is read", shown(variable.substr(7))));
+                fail(fmt::format("its format is '{}'; only 32-bit_rle_rgbe is supported", shown(variable.substr(7))));
             }
             if (variable.starts_with("EXPOSURE=")) header.exposure *= number<double>(variable.substr(9), "exposure");
         }
@@ -48,7 +48,7 @@ class HdrReader {
         return header;
     }
 
-    /// The next row of pixels.
+    /// Reads the next row of pixels.
     void row(std::vector<Rgbe>& pixels) {
         const std::size_t width = pixels.size();
         Rgbe start;
@@ -59,12 +59,12 @@ class HdrReader {
                 for (std::uint8_t& value : pixels[x]) value = byte();
             }
             if (std::any_of(pixels.begin(), pixels.end(), is_old_run)) {
-                fail("it has the run-length encoding of before 1991; write it again with a newer program");
+                fail("it has the run-length encoding from before 1991; convert it with a newer program");
             }
             return;
         }
         if (std::size_t{start[2]} << 8 != (width & ~std::size_t{255}) || start[3] != (width & 255)) {
-            fail(fmt::format("a row says that it has {} pixels, and the header {}", start[2] << 8 | start[3], width));
+            fail(fmt::format("a row claims {} pixels, but the header {}", start[2] << 8 | start[3], width));
         }
         for (std::size_t channel = 0; channel < 4; ++channel) {
             for (std::size_t x = 0; x < width;) {
@@ -88,7 +88,7 @@ class HdrReader {
     static bool can_be_packed(std::size_t width) { return width >= 8 && width < 32768; }
     static bool is_old_run(const Rgbe& a) { return a[0] == 1 && a[1] == 1 && a[2] == 1; }
     static std::size_t flat_bytes(std::size_t width) { return 4 * width; }
-    /// Of a row whose runs are as long as they can be.
+    /// The size of a row whose runs have the maximum length.
     static std::size_t fewest_bytes(std::size_t width) {
         return can_be_packed(width) ? 4 + 4 * 2 * ((width + 126) / 127) : flat_bytes(width);
     }
@@ -115,21 +115,20 @@ class HdrReader {
         Number value{};
         const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc() || stop != text.data() + text.size()) {
-            fail(fmt::format("its {} is '{}', not a number that can be", what, shown(text)));
+            fail(fmt::format("its {} is '{}', which is not a valid number", what, shown(text)));
         }
         return value;
     }
 
-    /// "-Y height +X width": which way the rows and the pixels in them go.
+    /// "-Y height +X width": the order of the rows and of the pixels in them.
     void read_resolution(std::string_view text, HdrHeader& header) const {
         const std::size_t second = text.find_first_of("+-", 1);
         const std::size_t axis = second == std::string_view::npos ? text.size() : second;
         const std::string_view rows = text.substr(0, std::min<std::size_t>(2, text.size())),
                                columns = text.substr(axis);
         if ((rows != "-Y" && rows != "+Y") || !(columns.starts_with("+X") || columns.starts_with("-X"))) {
-            fail(
-                fmt::format("its size is '{}'; only pictures that are stored row by row are read, as in -Y 512 +X 1024",
-                            shown(text)));
+            fail(fmt::format("its size is '{}'; only images stored row by row are supported, as in -Y 512 +X 1024",
+                             shown(text)));
         }
         header.from_bottom = rows == "+Y";
         header.from_right = columns[0] == '-';

@@ -33,7 +33,7 @@ std::string sidecar_text(std::span<const std::byte> bytes, const ImageMetadata& 
     return text;
 }
 
-/// Nothing if there is no sidecar, or if it belongs to other bytes.
+/// Empty if there is no sidecar, or if it belongs to other bytes.
 std::optional<ImageMetadata> read_sidecar(const std::string& path, std::span<const std::byte> bytes) {
     const std::string sidecar = sidecar_path(path);
     std::error_code ignored;
@@ -72,7 +72,7 @@ EncodedImage encode_levels(const ToneMapped& mapped, ImageFormat format, const I
     return {encode(mapped.image, complete), mapped.nan_values};
 }
 
-/// Both kinds of picture are encoded and written alike; a film is handed on whole, and let go of early.
+/// Encodes and writes images and films alike; a film is passed on so that its memory can be released early.
 template <class Picture>
 void write_picture(const std::string& path, Picture&& picture, int width, int height, const ImageMetadata& metadata,
                    const WriteOptions& options) {
@@ -111,14 +111,13 @@ ImageFormat format_of(const std::string& path, const WriteOptions& options) {
         check_exr_support();
         return ImageFormat::exr;
     }
-    throw InputError(
-        fmt::format("cannot tell the image format of '{}': the name must end in .ppm, .pfm, .png or .exr", path));
+    throw InputError(fmt::format("unknown image format of '{}': the name must end in .ppm, .pfm, .png or .exr", path));
 }
 
 void check_holds(ImageFormat format, PlaneMask planes) {
     if (planes.empty() || holds_floats(format)) return;
     throw InputError(
-        fmt::format("PNG and PPM files hold the colour alone, not the planes {}; write a .exr, with all of them in one "
+        fmt::format("PNG and PPM files hold only the colour, not the planes {}; write a .exr, with all of them in one "
                     "file, or a .pfm, with one file for each",
                     to_string(planes)));
 }

@@ -19,7 +19,7 @@ void add(MetadataText& text, std::string_view name, const std::string& value) {
     if (value.empty()) return;
     const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
     if (!std::all_of(value.begin(), value.end(), printable)) {
-        throw InputError(fmt::format("the image metadata '{}' holds characters that are not printable ASCII", name));
+        throw InputError(fmt::format("the image metadata '{}' contains characters that are not printable ASCII", name));
     }
     text.emplace_back(fmt::format("{}{}", prefix, name), value);
 }

@@ -1,4 +1,4 @@
-/// What an image file says about itself: which film it shows and how that came about.
+/// The metadata of an image file: which film it shows and how it was rendered.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,25 @@ struct ImageMetadata {
     bool operator==(const ImageMetadata&) const = default;
 };
 
-/// With `transfer` and `exposure_stops` of a display.
+/// Sets `transfer` and `exposure_stops` from a display.
 [[nodiscard]] ImageMetadata with_display(ImageMetadata metadata, const Display& display);
 
-/// What the values of a file with these metadata went through. A file that says nothing is linear: older versions of
-/// Tandem wrote it. Throws InputError for what no display has.
+/// The display of a file with these metadata. A file without a transfer function is linear: older versions of Tandem
+/// wrote such files. Throws InputError for invalid values.
 [[nodiscard]] Display display_of(const ImageMetadata& metadata);
 
-/// A key as it stands in files ("tandem:seed") and its value.
+/// A key as written to files ("tandem:seed"), and its value.
 using MetadataText = std::vector<std::pair<std::string, std::string>>;
 
-/// All fields, in order; text fields that are empty are left out. Throws InputError for a value that does not fit into
-/// every format: printable ASCII does.
+/// All fields, in order; empty text fields are left out. Throws InputError for values that are not printable ASCII,
+/// which every format can store.
 [[nodiscard]] MetadataText to_text(const ImageMetadata& metadata);
 
-/// From the keys and values of a file, in any order; keys of others are passed over, and fields that are not there keep
-/// their defaults. Nothing if there is no key of ours. Throws InputError for a value that is not of the field's type.
+/// Parses the keys and values of a file, in any order; foreign keys are ignored, and missing fields keep their
+/// defaults. Empty if there is no key of Tandem's. Throws InputError for a value that is not of the field's type.
 [[nodiscard]] std::optional<ImageMetadata> metadata_from_text(const MetadataText& text);
 
-/// "key: value", as in the comments of PPM files. Nothing if the line is not of that form.
+/// Parses "key: value", as in the comments of PPM files. Empty if the line does not have that form.
 [[nodiscard]] std::optional<std::pair<std::string, std::string>> parse_metadata_line(std::string_view line);
 
 }  // namespace tandem

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "PFM files are written
 
 namespace {
 
-/// `pixels`: of `channels` floats each, row by row from the top left.
+/// `pixels`: `channels` floats each, row by row from the top left.
 Bytes encode_rows(const void* pixels, std::size_t channels, int width, int height) {
     const std::string head = fmt::format("{}\n{} {}\n-1.0\n", channels == 3 ? "PF" : "Pf", width, height);
     const std::size_t row_bytes = static_cast<std::size_t>(width) * channels * sizeof(float);
@@ -44,7 +44,7 @@ Bytes encode_pfm(const PlaneImage& plane, int width, int height) {
 DecodedImage decode_pfm(std::span<const std::byte> bytes, const std::string& name) {
     PortableMapHeader header(bytes, name, "PFM");
     const std::string_view magic = header.word();
-    if (magic != "PF" && magic != "Pf") fail_decoding(name, "PFM", "it does not begin with PF or Pf");
+    if (magic != "PF" && magic != "Pf") fail_decoding(name, "PFM", "it does not start with PF or Pf");
     const auto width = header.number<std::uint32_t>("width");
     const auto height = header.number<std::uint32_t>("height");
     const auto scale = header.number<double>("scale");

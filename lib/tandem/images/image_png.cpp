@@ -17,8 +17,8 @@ namespace tandem {
 
 namespace {
 
-/// libpng leaves through longjmp, which runs no destructors. So every function that holds a setjmp() is small, has only
-/// plain values of its own, and keeps what has a destructor in a PngFile.
+/// libpng reports errors by longjmp, which skips destructors. So every function that calls setjmp() is small, has only
+/// plain local variables, and keeps objects with destructors in a PngFile.
 struct PngFile {
     png_structp png = nullptr;
     png_infop info = nullptr;
@@ -100,7 +100,7 @@ struct PngReader : PngFile {
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    /// Up to the pixels, which come as RGB of 8 or 16 bits.
+    /// Reads up to the pixels, which are then RGB of 8 or 16 bits.
     bool read_header() {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_read_info(png, info);
@@ -109,8 +109,8 @@ struct PngReader : PngFile {
         png_set_strip_alpha(png);
         return finish_header();
     }
-    /// The same for pixels of red, green, blue and alpha, 8 bits each. Texts and profiles, which may unpack to far more
-    /// than the picture, are passed over.
+    /// The same for RGBA pixels of 8 bits. Texts and profiles, which may unpack to far more than the image, are
+    /// skipped.
     bool read_texel_header() {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
@@ -118,7 +118,7 @@ struct PngReader : PngFile {
         unpacked_bytes = png_get_rowbytes(png, info) * height();
         return true;
     }
-    /// `shrinks`: rows of an interlaced picture come as they are in the file.
+    /// `shrinks`: rows of an interlaced image come as they are in the file.
     bool start_texels(bool shrinks) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_expand(png);
@@ -138,12 +138,12 @@ struct PngReader : PngFile {
         png_read_end(png, info);
         return true;
     }
-    /// Of an interlaced picture: every 2^shift-th pixel of every 2^shift-th row.
+    /// Every 2^shift-th pixel of every 2^shift-th row of an interlaced image.
     bool read_pixels_apart(Texels& texels, png_bytep row, unsigned shift) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         const auto columns_of = static_cast<png_uint_32>(width()), rows_of = static_cast<png_uint_32>(height());
         const png_uint_32 mask = (1U << shift) - 1;
-        const int last_pass = shift >= 3 ? 0 : shift == 2 ? 2 : 4;  // those behind it have other pixels
+        const int last_pass = shift >= 3 ? 0 : shift == 2 ? 2 : 4;  // later passes have other pixels
         for (int pass = 0; pass <= last_pass; ++pass) {
             const png_uint_32 columns = PNG_PASS_COLS(columns_of, pass);
             const png_uint_32 rows = columns == 0 ? 0 : PNG_PASS_ROWS(rows_of, pass);
@@ -196,13 +196,13 @@ struct PngReader : PngFile {
     }
 };
 
-/// libpng allocates a chunk by the length that it claims, so all of them are checked against the bytes that are there.
+/// libpng allocates memory by the length that a chunk claims, so all lengths are compared with the available bytes.
 void check_chunk_lengths(std::span<const std::byte> bytes, const std::string& name) {
     constexpr std::size_t signature = 8, around_data = 12;  // length, type and checksum
     for (std::size_t at = signature; at < bytes.size();) {
-        if (bytes.size() - at < around_data) return;  // libpng says what is wrong, if it gets there
+        if (bytes.size() - at < around_data) return;  // libpng reports the error if it gets here
         const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(&bytes[at]));
-        if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return;  // what follows is not part of the picture
+        if (std::memcmp(&bytes[at + 4], "IEND", 4) == 0) return;  // what follows is not part of the image
         if (length > bytes.size() - at - around_data) {
             fail_decoding(name, "PNG", "the file is cut off, or the length of a chunk is wrong");
         }
@@ -302,7 +302,7 @@ Texels decode_png_texels(std::span<const std::byte> bytes, const std::string& na
     if (!reader.start_texels(shrinks)) fail_decoding(name, "PNG", reader.error.data());
     const std::size_t row_bytes = reader.row_bytes();
     if (row_bytes != TexelRows::channels * std::size_t{width}) {
-        fail_decoding(name, "PNG", "its pixels are of a kind that libpng cannot expand");
+        fail_decoding(name, "PNG", "libpng cannot convert its pixel format");
     }
     bool good = false;
     Texels result;

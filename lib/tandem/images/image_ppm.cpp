@@ -13,7 +13,7 @@ namespace tandem {
 
 namespace {
 
-/// "0 " to "255 ", padded to four characters so that one store writes them.
+/// "0 " to "255 ", padded to four characters, so that a single store writes them.
 struct DecimalTable {
     std::array<std::array<char, 4>, 256> text{};
     std::array<std::uint8_t, 256> length{};
@@ -38,7 +38,7 @@ std::string header(const char* magic, const ByteImage& image, const ImageMetadat
     return text + fmt::format("{} {}\n255\n", image.width, image.height);
 }
 
-/// Decimal numbers between white space, one after the other.
+/// Reads decimal numbers separated by white space.
 class DecimalReader {
   public:
     explicit DecimalReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
@@ -60,7 +60,7 @@ class DecimalReader {
     const char* end_;
 };
 
-/// Calls `next(value)` for every value of the image, which is false if there is none.
+/// Calls `next(value)` for every value of the image; it returns false at the end.
 template <class Next>
 void fill(DecodedImage& decoded, std::uint32_t most, const std::string& name, Next next) {
     const std::vector<float> values = values_of_levels(most, decoded.display);
@@ -81,7 +81,7 @@ void fill(DecodedImage& decoded, std::uint32_t most, const std::string& name, Ne
 Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata) {
     const std::string head = header("P3", image, metadata);
     constexpr std::size_t longest_pixel = 12;
-    // the table writes four characters each time
+    // every entry of the table writes four characters
     Bytes bytes(head.size() + longest_pixel * pixel_count(image) + 4);
     char* const start = reinterpret_cast<char*>(bytes.data());
     char* at = std::copy(head.begin(), head.end(), start);
@@ -108,7 +108,7 @@ Bytes encode_ppm(const ByteImage& image, const ImageMetadata& metadata) {
 DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& name) {
     PortableMapHeader header(bytes, name, "PPM");
     const std::string_view magic = header.word();
-    if (magic != "P3" && magic != "P6") fail_decoding(name, "PPM", "it does not begin with P3 or P6");
+    if (magic != "P3" && magic != "P6") fail_decoding(name, "PPM", "it does not start with P3 or P6");
     const auto width = header.number<std::uint32_t>("width");
     const auto height = header.number<std::uint32_t>("height");
     const auto most = header.number<std::uint32_t>("largest value");
@@ -126,7 +126,7 @@ DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& nam
     const std::size_t count = pixel_count(result.image);
     if (magic == "P3") {
         result.format = ImageFormat::ppm_text;
-        check_data(name, "PPM", pixels.size(), 6 * count - 1);  // a digit and a blank for each value
+        check_data(name, "PPM", pixels.size(), 6 * count - 1);  // at least a digit and a blank for each value
         result.image.pixels.resize(count);
         DecimalReader decimal(pixels);
         fill(result, most, name, [&](std::uint32_t& value) { return decimal.next(most, value); });

@@ -1,4 +1,4 @@
-/// What the levels of 8-bit texels stand for.
+/// The linear values of the levels of 8-bit texels.
 #pragma once
 
 #include <vector>

@@ -37,7 +37,7 @@ std::string_view PortableMapHeader::pixels() {
 
 void PortableMapHeader::fail_number(const char* what, std::string_view token) const {
     const std::string_view shown = token.substr(0, 32);
-    fail_decoding(name_, format_, fmt::format("its {} is '{}', not a number that can be", what, shown));
+    fail_decoding(name_, format_, fmt::format("its {} is '{}', which is not a valid number", what, shown));
 }
 
 }  // namespace tandem

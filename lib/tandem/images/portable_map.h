@@ -1,5 +1,5 @@
-/// What PPM and PFM files share, not part of the interface: a text header of words between white space, with comments,
-/// and one character of white space before the pixels.
+/// The common part of PPM and PFM files; internal: a text header of words separated by white space, with comments, and
+/// one character of white space before the pixels.
 #pragma once
 
 #include <charconv>
@@ -17,7 +17,7 @@ class PortableMapHeader {
     PortableMapHeader(std::span<const std::byte> bytes, const std::string& name, const char* format)
         : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(name), format_(format) {}
 
-    /// The next word; comments before it are kept for metadata().
+    /// The next word; comments before it are collected for metadata().
     std::string_view word();
     /// The next word as a number.
     template <class Number>

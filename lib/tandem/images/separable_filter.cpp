@@ -7,7 +7,7 @@ namespace tandem {
 
 namespace {
 
-/// Along one axis: `count` values that lie `stride` apart, from `first` on.
+/// Filters `count` values along one axis, `stride` apart, from `first` on.
 void filter_line(const double* first, double* result, int count, std::ptrdiff_t stride, const AxisWeights& weights) {
     const int radius = static_cast<int>(weights.size() / 2);
     for (int i = 0; i < count; ++i) {

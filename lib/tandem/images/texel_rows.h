@@ -12,9 +12,9 @@
 
 namespace tandem {
 
-/// Takes the rows of a picture from the top, and makes a texel out of every square of 2^shift x 2^shift pixels: their
-/// mean, of each channel and in the levels of the file, rounded to the nearest. Squares at the right and the lower edge
-/// may be cut off. So a large picture never has to be in memory as a whole.
+/// Takes the rows of an image from the top, and turns every square of 2^shift x 2^shift pixels into a texel: the mean
+/// of each channel, in the levels of the file, rounded to the nearest. Squares at the right and the lower edge may be
+/// incomplete. So a large image never has to be in memory as a whole.
 class TexelRows {
   public:
     static constexpr std::uint32_t channels = 4;
@@ -27,7 +27,7 @@ class TexelRows {
         if (shift > 0) sums_.resize(std::size_t{result_.width} * channels);
     }
 
-    /// Red, green, blue and alpha of one pixel after the other. Throws nothing.
+    /// Adds a row of RGBA pixels. Throws nothing.
     void add(const std::uint8_t* row) {
         if (shift_ == 0) {
             std::memcpy(&result_.texels[std::size_t{row_} * width_], row, std::size_t{width_} * channels);
@@ -42,7 +42,7 @@ class TexelRows {
         if (row_ == height_ || row_ % (1U << shift_) == 0) finish_squares();
     }
 
-    /// After the last row.
+    /// Returns the texels, after the last row.
     Texels take() { return std::move(result_); }
 
   private:
@@ -64,8 +64,8 @@ class TexelRows {
 
     std::uint32_t width_, height_;
     unsigned shift_;
-    std::uint32_t row_ = 0;            ///< how many there were
-    std::vector<std::uint32_t> sums_;  ///< of the squares under way; 2^24 pixels of 255 fit
+    std::uint32_t row_ = 0;            ///< number of rows so far
+    std::vector<std::uint32_t> sums_;  ///< of the current squares; 2^24 pixels of 255 fit
     Texels result_;
 };
 

@@ -11,14 +11,14 @@ namespace tandem {
 
 namespace {
 
-/// What `of_png` or `of_jpeg` makes of the bytes, whichever they are.
+/// Calls `of_png` or `of_jpeg`, depending on the bytes.
 template <class OfPng, class OfJpeg>
 auto by_format(std::span<const std::byte> bytes, const std::string& name, OfPng of_png, OfJpeg of_jpeg) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\x89PNG\r\n")) return of_png();
     if (text.starts_with("\xFF\xD8\xFF")) return of_jpeg();
     if (is_lfs_pointer(bytes)) throw InputError(fmt::format("'{}' {}", name, lfs_advice));
-    throw InputError(fmt::format("'{}' is not a picture that Tandem reads as a texture: PNG or JPEG", name));
+    throw InputError(fmt::format("'{}' is not a PNG or JPEG image, the formats of textures", name));
 }
 
 }  // namespace

@@ -22,13 +22,13 @@ namespace tandem {
 
 namespace {
 
-/// Bytes of those of a picture in several passes, which are in memory as a whole; and for each byte of its file.
+/// Limits of the coefficients of a multi-pass image, which are all in memory: bytes in total, and per byte of its file.
 constexpr std::size_t most_coefficients = std::size_t{1} << 28, coefficients_per_byte = 64;
-/// That a pass goes over in the time of a pixel.
+/// Bytes of coefficients that a pass processes in the time of one pixel.
 constexpr std::size_t coefficients_per_pixel = 32;
 
-/// How many passes over the picture there are: markers of their start (SOS), counted without decoding. A forged file
-/// can ask for a pass in a few bytes, again and again.
+/// The number of passes over the image: start-of-scan markers (SOS), counted without decoding. A forged file can start
+/// very many passes, with a few bytes each.
 std::size_t count_passes(std::span<const std::byte> bytes) {
     const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(bytes[i]); };
     std::size_t passes = 0;
@@ -47,8 +47,8 @@ std::size_t count_passes(std::span<const std::byte> bytes) {
     return passes;
 }
 
-/// libjpeg leaves through error_exit(), from which we jump; see PngFile. The functions that hold a setjmp() have only
-/// plain values of their own.
+/// libjpeg reports errors through error_exit(), from which we longjmp; see PngFile. Functions that call setjmp() have
+/// only plain local variables.
 struct JpegReader {
     jpeg_decompress_struct info{};
     jpeg_error_mgr errors{};
@@ -70,7 +70,7 @@ struct JpegReader {
         info->err->format_message(info, reader->message.data());
         std::longjmp(reader->jump, 1);
     }
-    /// Warnings, of level -1, are about broken data; bytes between the parts of a file are harmless.
+    /// Warnings, of level -1, mean broken data, except that bytes between the parts of a file are harmless.
     static void on_message(j_common_ptr info, int level) {
         if (level == -1 && info->err->msg_code != JWRN_EXTRANEOUS_DATA) on_error(info);
     }
@@ -83,11 +83,11 @@ struct JpegReader {
         return true;
     }
 
-    /// The picture at a size divided by 2^`halvings`, up to 3.
+    /// Sets the size, divided by 2^`halvings`, up to 3.
     bool start(unsigned halvings) {
         if (setjmp(jump) != 0) return false;
         info.out_color_space = JCS_RGB;
-        info.dct_method = JDCT_ISLOW;  // whose result is the same on every processor
+        info.dct_method = JDCT_ISLOW;  // gives the same result on every processor
         info.scale_num = 1;
         info.scale_denom = 1U << halvings;
         jpeg_start_decompress(&info);
@@ -109,7 +109,7 @@ struct JpegReader {
         return true;
     }
 
-    /// Bytes of memory of all coefficients.
+    /// The memory of all coefficients, in bytes.
     [[nodiscard]] std::size_t coefficient_bytes() const {
         std::size_t blocks = 0;
         for (int i = 0; i < info.num_components; ++i) {
@@ -126,7 +126,7 @@ TexelSize open_texels(JpegReader& reader, std::span<const std::byte> bytes, cons
     check_texture_size(name, "JPEG", width, height);
     if (reader.info.jpeg_color_space != JCS_GRAYSCALE && reader.info.jpeg_color_space != JCS_YCbCr &&
         reader.info.jpeg_color_space != JCS_RGB) {
-        fail_decoding(name, "JPEG", "its colours are not grey or YCbCr");
+        fail_decoding(name, "JPEG", "its colours are neither grey nor YCbCr");
     }
     if (reader.info.arith_code != 0) fail_decoding(name, "JPEG", "it is not Huffman-coded");
     // a Huffman code takes at least a bit for every block of 8 x 8 pixels
@@ -135,7 +135,9 @@ TexelSize open_texels(JpegReader& reader, std::span<const std::byte> bytes, cons
     if (jpeg_has_multiple_scans(&reader.info) != 0) {
         const std::size_t coefficients = reader.coefficient_bytes();
         if (coefficients > std::max(most_coefficients, coefficients_per_byte * bytes.size())) {
-            fail_decoding(name, "JPEG", fmt::format("it is progressive, and takes {} bytes to decode", coefficients));
+            fail_decoding(name, "JPEG",
+                          fmt::format("it is progressive and needs {} bytes of memory, too many for a file of its size",
+                                      coefficients));
         }
         size.work += count_passes(bytes) * (coefficients / coefficients_per_pixel);
     }
@@ -151,7 +153,7 @@ TexelSize jpeg_texel_size(std::span<const std::byte> bytes, const std::string& n
 }
 
 Texels decode_jpeg_texels(std::span<const std::byte> bytes, const std::string& name, unsigned shift) {
-    constexpr unsigned most_halvings = 3;  // that libjpeg has
+    constexpr unsigned most_halvings = 3;  // the maximum of libjpeg
     JpegReader reader;
     (void)open_texels(reader, bytes, name);
     const unsigned halvings = std::min(shift, most_halvings);

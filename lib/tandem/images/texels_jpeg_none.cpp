@@ -1,4 +1,4 @@
-// JPEG in a build without libjpeg.
+// For a build without libjpeg.
 #include <fmt/format.h>
 
 #include "tandem/base/error.h"

@@ -20,9 +20,9 @@ inline std::uint8_t linear_level(float linear) {
     return static_cast<std::uint8_t>(static_cast<int>(with_half));
 }
 
-/// The levels of sRGB, by a table over the upper half of a float's bits. Between two entries there is one border
-/// between levels at most, and the entry has it: the least float that belongs to the upper level. So a level is exact
-/// if the borders are, which a test holds against many digits.
+/// The levels of sRGB, from a table indexed by the upper half of a float's bits. Each entry covers at most one border
+/// between levels and stores it: the least float of the upper level. So a level is exact if the borders are, which a
+/// test checks with many digits.
 class SrgbLevels {
   public:
     SrgbLevels() {
@@ -75,7 +75,7 @@ ToneMapped tone_map(int width, int height, double factor, const Pixel& pixel, co
     const std::size_t pixels = pixel_count(result.image);
     result.image.values.resize(3 * pixels);
     std::uint8_t* levels = result.image.values.data();
-    // in blocks of plain floats, which compilers turn into vector instructions
+    // in blocks of plain floats, which compilers vectorise
     constexpr std::size_t block_pixels = 256;
     float values[3 * block_pixels];
     for (std::size_t first = 0; first < pixels; first += block_pixels) {

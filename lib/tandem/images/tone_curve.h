@@ -1,4 +1,4 @@
-/// From linear radiance to 8 bits, and back.
+/// Converts linear radiance to 8 bits, and back.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,29 @@
 
 namespace tandem {
 
-/// [0, 1], by clamping; a NaN gives 0.
+/// Clamps to [0, 1]; a NaN gives 0.
 [[nodiscard]] inline float clamp_to_unit(float linear) { return linear > 0 ? (linear < 1 ? linear : 1.0F) : 0.0F; }
 
 /// The level, from 0 to 255, that is nearest to 255 times the transfer function of the clamped value: correctly rounded
-/// for every float. The borders between levels of sRGB are irrational or no floats; among those of `linear` one float
-/// is a tie, 0.5 (127.5), and it goes up to 128. Infinities clamp; a NaN gives 0.
+/// for every float. No border between levels of sRGB is a float; for `linear` one float is a tie, 0.5 (127.5), and it
+/// is rounded up to 128. Infinities are clamped; a NaN gives 0.
 [[nodiscard]] std::uint8_t to_level(float linear, TransferFunction transfer);
 
 struct ToneMapped {
     ByteImage image;
-    std::size_t nan_values = 0;  ///< how many of the 3 * width * height values were NaN, and are 0 now
+    std::size_t nan_values = 0;  ///< how many of the 3 * width * height values were NaN and became 0
 };
 
-/// The levels of value times exposure_factor(), which is rounded once to float.
+/// The levels of each value times exposure_factor(), with the product rounded once to float.
 [[nodiscard]] ToneMapped tone_map(const FloatImage& image, const Display& display = {});
-/// Of the means, as film_to_image() has them, without an image of floats in between.
+/// The same for the means of a film, as from film_to_image(), but without an intermediate float image.
 [[nodiscard]] ToneMapped tone_map(const Film& film, const Display& display = {});
 
-/// What the levels from 0 to `most` stand for, each rounded once to float before the exposure is taken out; `most` is
-/// from 1 to 65535.
+/// The linear values of the levels from 0 to `most`, each rounded once to float before the exposure is inverted; `most`
+/// is from 1 to 65535.
 [[nodiscard]] std::vector<float> values_of_levels(std::uint32_t most, const Display& display);
 
-/// The linear values that 8 bits stand for. tone_map() with the same display gives the same levels back.
+/// The linear values of an 8-bit image. tone_map() with the same display returns the same levels.
 [[nodiscard]] FloatImage to_float(const ByteImage& image, const Display& display);
 
 }  // namespace tandem

@@ -21,7 +21,7 @@ TANDEM_HD bool is_empty(const Aabb& a) {
     return a.lower.x > a.upper.x || a.lower.y > a.upper.y || a.lower.z > a.upper.z;
 }
 
-/// Half of the surface area, the measure of the surface area heuristic.
+/// Half of the surface area, for the surface area heuristic.
 TANDEM_HD float half_area(const Aabb& a) {
     const Vec3f extent = a.upper - a.lower;
     return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
@@ -35,17 +35,17 @@ TANDEM_HD float reach(const Aabb& a) {
     return greater(greater(larger(a.lower.x, a.upper.x), larger(a.lower.y, a.upper.y)), larger(a.lower.z, a.upper.z));
 }
 
-/// Largest float that is not above a + b, exactly.
+/// The largest float not above the exact a + b.
 TANDEM_HD float round_sum_down(double a, double b) {
     const Pair<double> sum = two_sum(a, b);
     if (!(sum.low < 0.0)) return round_down(sum.high);
-    // the double below, so that a float at the rounded sum is not taken
+    // the next double below, so that a float equal to the rounded sum is not returned
     const std::uint64_t bits = bits_of(sum.high);
     return round_down(double_of(sum.high > 0.0 ? bits - 1 : bits + 1));
 }
 TANDEM_HD float round_sum_up(double a, double b) { return -round_sum_down(-a, -b); }
 
-/// The smallest float box around middle +- half_extent, which are double.
+/// The smallest float box around middle +- half_extent, given in double.
 TANDEM_HD Aabb enclose(const Vec3d& middle, const Vec3d& half_extent) {
     return {{round_sum_down(middle.x, -half_extent.x), round_sum_down(middle.y, -half_extent.y),
              round_sum_down(middle.z, -half_extent.z)},

@@ -15,7 +15,7 @@ using DoublePair = Pair<double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Below this sin, tan and atan are their argument: the next term of their series is less than 2^-54 of it.
+/// Below this, sin, tan and atan equal their argument: the next term of their series is less than 2^-54 of it.
 constexpr double tiny = 0x1p-27;
 
 DoublePair exactly(double x) { return {x, 0}; }
@@ -27,7 +27,7 @@ DoublePair ratio(const DoublePair& a, const DoublePair& b) {
     return fast_two_sum(first, rest.high / b.high);
 }
 
-/// The root of a > 0 to 2^-100.
+/// The square root of a > 0 to 2^-100.
 DoublePair root(const DoublePair& a) {
     const double first = std::sqrt(a.high);
     const DoublePair rest = a - two_product(first, first);
@@ -40,8 +40,8 @@ struct Reduced {
     int quadrant;  ///< 0 to 3
 };
 
-/// After W. Cody and W. Waite, with pi/2 in four doubles, to 2^-217: no double in the range is nearer than 2^-80 to a
-/// multiple of pi/2 but 0.
+/// After W. Cody and W. Waite, with pi/2 in four doubles, to 2^-217: except for 0, no double in the range is nearer
+/// than 2^-80 to a multiple of pi/2.
 Reduced reduce(double x) {
     constexpr double half_pi[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110,
                                   0x1.4cf98e804177dp-164};
@@ -114,12 +114,12 @@ double accurate_tan(double x) {
     return ratio(at.sine, at.cosine).high;
 }
 
-// One step of Newton's method from a value y that is right to 2^-49: atan(x) - y is the arctangent of
-// (x cos y - sin y) / (cos y + x sin y), which differs from it in the third power.
+// One step of Newton's method from a value y that is correct to 2^-49: atan(x) - y is the arctangent of
+// (x cos y - sin y) / (cos y + x sin y), and the two differ only in the third power.
 double accurate_atan(double x) {
     const DefaultFpEnvironment guard;
     if (std::abs(x) < tiny || x != x) return x;
-    const double largest = std::fmax(std::fmin(x, 0x1p200), -0x1p200);  // the same value from there on
+    const double largest = std::fmax(std::fmin(x, 0x1p200), -0x1p200);  // constant beyond
     const double y = atan2_turns<double>(largest, 1) * (2 * pi);
     const auto [sine, cosine] = sine_and_cosine(y);
     const DoublePair rest = exactly(largest) * cosine - sine;
@@ -144,14 +144,14 @@ double accurate_cbrt(double x) {
     const DefaultFpEnvironment guard;
     if (!(std::abs(x) < infinity) || x == 0) return x;
     if (x < 0) return -accurate_cbrt(-x);
-    if (x < 0x1p-600) return accurate_cbrt(x * 0x1p+600) * 0x1p-200;  // so that no part of a pair is subnormal
+    if (x < 0x1p-600) return accurate_cbrt(x * 0x1p+600) * 0x1p-200;  // keeps both parts of a pair normal
     const double y = exp_wide<double>(log_wide<double>(x) / 3);
     const DoublePair square = two_product(y, y);
     const DoublePair rest = exactly(x) - exactly(y) * square;
     return two_sum(y, rest.high / (3 * square.high)).high;
 }
 
-// The logarithm of the nearest float m of the fraction, and that of fraction / m.
+// log(m) of the nearest float m of the fraction, plus log(fraction / m).
 double accurate_log(double x) {
     const DefaultFpEnvironment guard;
     if (!(x > 0)) return x == 0 ? -infinity : not_a_number;

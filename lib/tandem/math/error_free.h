@@ -36,7 +36,7 @@ TANDEM_HD Pair<D> two_product(const D& a, const D& b) {
     return {product, multiply_add(a, b, -product)};
 }
 
-/// a b - c d within 1.5 units of the last place.
+/// a b - c d within 1.5 ulp.
 /// Source: W. Kahan; error bound by C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm
 /// for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013.
 template <class D>
@@ -46,7 +46,7 @@ TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& 
     return multiply_add(a, b, -cd) - error;
 }
 
-// Relative error of these below 2^-103, also of a sum that cancels.
+// The relative error of these is below 2^-103, even if a sum cancels.
 // Source: M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building blocks of
 // double-word arithmetic", ACM TOMS 44(2), 2017: AccurateDWPlusDW, DWTimesDW2.
 
@@ -78,8 +78,7 @@ TANDEM_HD Pair<D> divide(const Pair<D>& a, double n) {
     return fast_two_sum(high, (multiply_add(-high, D(n), a.high) + a.low) / D(n));
 }
 
-/// a / b, rounded to the nearest double but for quotients within 2^-48 of its last place of the middle between two; b
-/// is not 0.
+/// a / b for b != 0, rounded to the nearest double unless the quotient is within 2^-48 ulp of the midpoint between two.
 template <class D>
 TANDEM_HD D quotient(const Pair<D>& a, const Pair<D>& b) {
     const D inverse = D(1.0) / b.high;
@@ -91,11 +90,10 @@ TANDEM_HD D quotient(const Pair<D>& a, const Pair<D>& b) {
 /// The float nearest to high + low, |high| >= |low| or high = 0, low of any size below that; the sum need not be a
 /// pair in the strict sense.
 ///
-/// Rounding the sum to double first would round twice: the double may fall on the midpoint of two floats that the
-/// sum only comes near. So it is rounded to odd: where the sum is not a double, to the neighbour with an odd last bit,
-/// which is never such a midpoint.
-/// Source: S. Boldo, G. Melquiond, "Emulation of FMA and correctly rounded sums: proved algorithms using rounding to
-/// odd", IEEE Trans. Comput. 57(4), 2008.
+/// Rounding the sum to double first would round twice: the double may be the midpoint of two floats that the sum is
+/// only near to. So it is rounded to odd: if the sum is not a double, to the neighbour with an odd last bit, which is
+/// never such a midpoint. Source: S. Boldo, G. Melquiond, "Emulation of FMA and correctly rounded sums: proved
+/// algorithms using rounding to odd", IEEE Trans. Comput. 57(4), 2008.
 template <class Real>
 TANDEM_HD Float<Real> round_once(const Double<Real>& high, const Double<Real>& low) {
     using D = Double<Real>;
@@ -103,7 +101,7 @@ TANDEM_HD Float<Real> round_once(const Double<Real>& high, const Double<Real>& l
     const Pair<D> sum = fast_two_sum(high, low);
     const I bits = bits_of(sum.high);
     const I if_even = (bits & I(1)) - I(1);
-    // the double farther from zero has the higher bits: +1 where the signs of the parts agree, else -1
+    // the double farther from zero has the larger bit pattern: +1 if the signs of the parts agree, else -1
     const I step = I(1) - (((bits ^ bits_of(sum.low)) >> 63) << 1);
     return narrow(double_of(bits + select(sum.low == D(0.0), I(0), step & if_even)));
 }

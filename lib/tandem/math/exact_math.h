@@ -23,7 +23,7 @@ inline constexpr double half_pi_low = 0x1.1a62633145c07p-54;
 inline constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 inline constexpr double infinity = __builtin_huge_val();
 
-/// Adding this to a double of magnitude below 2^51 rounds it to an integer, which then stands in the low bits.
+/// Adding this to a double of magnitude below 2^51 rounds it to an integer, which is then in the low bits.
 inline constexpr double to_low_bits = 0x1.8p52;
 
 /// c[0] + c[1] x + c[2] x^2 + ...
@@ -127,7 +127,7 @@ TANDEM_HD void reduce_trig(const Double<Real>& x, UInt64<Real>& quadrant, Double
     quadrant = select(large, bits_of(far), quadrant);
 }
 
-/// sin(r + r_low).
+/// sin(r + r_low), for |r| <= pi/4.
 template <class D>
 TANDEM_HD Pair<D> sine(const D& r, const D& r_low) {
     const D z = r * r;
@@ -136,7 +136,7 @@ TANDEM_HD Pair<D> sine(const D& r, const D& r_low) {
     return {r, multiply_add(r * z, tail, multiply_add(D(-0.5) * z, r_low, r_low))};
 }
 
-/// cos(r + r_low).
+/// cos(r + r_low), for |r| <= pi/4.
 template <class D>
 TANDEM_HD Pair<D> cosine(const D& r, const D& r_low) {
     const Pair<D> square = two_product(r, r);
@@ -225,12 +225,12 @@ TANDEM_HD Double<Real> exp_wide(const Double<Real>& x) {
     return (D(1.0) + multiply_add(z, higher, r)) * scale;
 }
 
-/// e^x in the type of decisions, x clamped as in exp_wide().
+/// e^x in the Real's type of decisions, x clamped as in exp_wide().
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD Double<Real> exponential(const Double<Real>& x) { return exp_wide<Real>(x); }
 
-/// x^y for x in [0, inf), normal or zero, and y >= 0. Relative error below 2^-52 (1 + |y log x|): the error of the
-/// logarithm counts y times. 0^0 = 1.
+/// x^y for x in [0, inf), normal or zero, and y >= 0. Relative error below 2^-52 (1 + |y log x|): y multiplies the
+/// error of the logarithm. 0^0 = 1.
 template <class Real>
 requires(!is_fast<Real>) TANDEM_HD Double<Real> power(const Double<Real>& x, const Double<Real>& y) {
     using D = Double<Real>;
@@ -291,10 +291,10 @@ TANDEM_HD Real exact_cos(const Real& x) {
 /// x^y for all pairs of floats, with the special values of IEEE 754's pow: 1 for y = 0 and for x = 1, even with NaN;
 /// for x < 0 NaN unless y is an integer, whose parity gives the sign, also of zeros and infinities.
 ///
-/// A value that power() cannot round with certainty, about one in 2^17, is formed again to about 2^-95. Results that
-/// are floats or midpoints of floats are recognised: what lies within 2^-93 of one is taken for it. No pair that is
-/// not exactly such a result is known to come so near; among the 2^62 pairs with a finite result one would be expected
-/// with a chance of a few per cent, and it would round the wrong way with a chance of one half.
+/// A value that power() cannot round with certainty, about one in 2^17, is computed again to about 2^-95. Results that
+/// are floats or midpoints of floats are recognised: a value within 2^-93 of one is assumed to be it. No other pair is
+/// known whose result comes so near; among the 2^62 pairs with a finite result one would be expected with a probability
+/// of a few per cent, and it would be rounded wrongly with a probability of one half.
 template <class Real>
 TANDEM_HD Real exact_pow(const Real& x, const Real& y) {
     using D = Double<Real>;

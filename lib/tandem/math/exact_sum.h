@@ -1,9 +1,9 @@
-/// A sum of products of three floats, or of three doubles, without any rounding.
+/// A sum of products of three floats, or of three doubles, without rounding.
 ///
 /// The sum is an integer, in units of the cube of the smallest positive number, and long enough for all products of
-/// numbers within coordinate_limit: subnormals and cancellation cost nothing. Some hundred instructions a product, for
-/// the few decisions that double cannot make.
-/// Source: U. Kulisch, "Very fast and exact accumulation of products", Computing 91, 2011.
+/// numbers within coordinate_limit: subnormals and cancellation lose nothing. A product takes some hundred
+/// instructions, so this is for the few decisions that double cannot make. Source: U. Kulisch, "Very fast and exact
+/// accumulation of products", Computing 91, 2011.
 #pragma once
 
 #include <initializer_list>
@@ -21,7 +21,7 @@ struct ScaledPair {
 
 namespace exact_sum_detail {
 
-/// `words`: two's complement, least first.
+/// `words`: two's complement, least significant first.
 template <int word_count>
 TANDEM_HD bool is_negative(const std::uint32_t (&words)[word_count]) {
     return (words[word_count - 1] >> 31) != 0;
@@ -32,7 +32,7 @@ template <int word_count>
 TANDEM_HD_CALL ScaledPair leading(const std::uint32_t (&words)[word_count], int least) {
     constexpr int taken = 5;  // words, for a hundred bits at least
     const bool negative = is_negative(words);
-    const std::uint32_t flip = negative ? 0xFFFFFFFFU : 0U;  // of -x, but for the carry: one unit of the last place
+    const std::uint32_t flip = negative ? 0xFFFFFFFFU : 0U;  // of -x, without the carry: an error of one ulp
     int top = word_count - 1;
     TANDEM_KEEP_LOOP
     while (top > 0 && (words[top] ^ flip) == 0) --top;
@@ -63,7 +63,7 @@ TANDEM_HD_CALL ScaledPair leading(const std::uint32_t (&words)[word_count], int 
 template <class T>
 class ExactSum {
   public:
-    /// Adds a * b * c, or takes it away.
+    /// Adds or subtracts a * b * c.
     TANDEM_HD void add(const T& a, const T& b, const T& c, bool take_away = false) {
         const Decoded factors[3] = {decode(a), decode(b), decode(c)};
         std::uint32_t product[3 * limbs] = {1};
@@ -143,17 +143,17 @@ class ExactSum {
             carry += std::uint64_t{words_[at]} + (negative ? ~piece : piece);
             words_[at] = static_cast<std::uint32_t>(carry);
             carry >>= 32;
-            // nothing left to add: ~0 + 1 carries on as it came
+            // nothing left to add: ~0 + 1 passes the carry on
             if (i > used && carry == (negative ? 1U : 0U)) return;
         }
     }
 
     [[nodiscard]] TANDEM_HD bool is_negative() const { return exact_sum_detail::is_negative(words_); }
 
-    std::uint32_t words_[word_count] = {};  ///< two's complement, least first
+    std::uint32_t words_[word_count] = {};  ///< two's complement, least significant first
 };
 
-/// Adds det(a, b, c) = a . (b x c), or takes it away.
+/// Adds or subtracts det(a, b, c) = a . (b x c).
 template <class T>
 TANDEM_HD_CALL void add_determinant(ExactSum<T>& sum, Vec3<T> a, Vec3<T> b, Vec3<T> c, bool take_away = false) {
     const T p[3] = {a.x, a.y, a.z};

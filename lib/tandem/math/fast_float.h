@@ -1,7 +1,7 @@
 /// A float of the tier fast, for one ray (math/real.h). Files that use it are compiled so that the compiler may
-/// contract a * b + c and take the processor's approximate division, square root, exponential and logarithm
-/// (docs/tiers.md). It is a type of its own, so that none of this code is mistaken for that of the tier strict,
-/// which works in float too.
+/// contract a * b + c and use the processor's approximate division, square root, exponential and logarithm
+/// (docs/tiers.md). It is a separate type because the tier strict works in float too, and its code must not be mixed
+/// with this.
 #pragma once
 
 #include "tandem/math/real.h"

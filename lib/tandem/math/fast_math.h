@@ -1,5 +1,5 @@
-/// What the exact tiers do in double, for the tier fast in float: reciprocal square root, power, polynomials of angles.
-/// No bits are promised, only the errors given.
+/// Functions of the tier fast in float, which the exact tiers compute in double: reciprocal square root, power,
+/// polynomials of angles. Only the stated errors are guaranteed, not the bits.
 #pragma once
 
 #include "tandem/math/exact_math.h"
@@ -18,7 +18,7 @@ requires(is_fast<D>) TANDEM_HD D inverse_square_root(const D& x) {
 #endif
 }
 
-/// a b - c d as it comes; the exact tiers' is in error_free.h.
+/// a b - c d without error compensation; the exact tiers' version is in error_free.h.
 template <class D>
 requires(is_fast<D>) TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& d) {
     return a * b - c * d;
@@ -50,8 +50,8 @@ TANDEM_HD D arctangent(const D& t) {
     return t + t * z * tail;
 }
 
-/// log2(x) of a positive normal x within 2^-22 of its magnitude or of 2^-22, by the series of 2 atanh(s), s = f / (2 +
-/// f).
+/// log2(x) of a positive normal x, by the series of 2 atanh(s), s = f / (2 + f). Relative error 2^-22, or absolute
+/// error 2^-44.
 template <class Real>
 TANDEM_HD Real log2(const Real& x) {
     using Word = UInt<Real>;

@@ -1,4 +1,4 @@
-/// Floating-point control of a thread: round to nearest, subnormals kept. Host only.
+/// The floating-point environment of a thread: round to nearest, keep subnormals. Host only.
 #pragma once
 
 #include <immintrin.h>
@@ -7,13 +7,14 @@
 
 namespace tandem {
 
-/// Sets the default floating-point state of the thread, and restores the previous state at the end of its lifetime.
-/// Every public function that computes has one, since the caller may have set another rounding or flush-to-zero. Every
-/// task has one too, because Embree's commit can leave flush-to-zero on in TBB's worker threads (docs/numerics.md).
+/// Sets the default floating-point environment of the thread, and restores the previous one at the end of its lifetime.
+/// Every public function that computes has one, since the caller may have set another rounding mode or flush-to-zero.
+/// Every task has one too, because Embree's commit can leave flush-to-zero on in TBB's worker threads
+/// (docs/numerics.md).
 class DefaultFpEnvironment {
   public:
     DefaultFpEnvironment() : mxcsr_(_mm_getcsr()) {
-        std::fegetenv(&environment_);  // for long double, which the oracle computes with
+        std::fegetenv(&environment_);  // for long double, which the oracle uses
         std::fesetenv(FE_DFL_ENV);
         _mm_setcsr(default_mxcsr);
     }

@@ -13,10 +13,9 @@ struct Frame {
     Vec3<D> normal;
 };
 
-/// A frame for any unit normal, continuous but for the plane z = 0; the vectors deviate from unit length and right
-/// angles by no more than the normal's own error and 4 units of the last place. Source: T. Duff et al., "Building an
-/// Orthonormal Basis, Revisited", JCGT 6(1), 2017: without the singularity at -z of the form that it revisits. Tested
-/// by tests/math/frame_test.cpp.
+/// A frame for any unit normal, continuous except at the plane z = 0. The vectors deviate from unit length and right
+/// angles by no more than the normal's own error and 4 ulp. Source: T. Duff et al., "Building an Orthonormal Basis,
+/// Revisited", JCGT 6(1), 2017, whose form has no singularity at -z. Tested by tests/math/frame_test.cpp.
 template <class D>
 TANDEM_HD Frame<D> frame_around(const Vec3<D>& normal) {
     const D one(1.0);

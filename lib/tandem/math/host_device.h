@@ -1,4 +1,4 @@
-/// How one source serves g++, clang and nvcc. Every function of the kernel side is marked TANDEM_HD.
+/// Macros that let g++, clang and nvcc compile one source. Every kernel function is marked TANDEM_HD.
 ///
 /// TANDEM_COMPILING_CUDA   1 when nvcc compiles this file, else 0; always defined, to be tested with #if
 /// TANDEM_ON_DEVICE        1 inside nvcc's pass for the GPU, else 0
@@ -6,19 +6,19 @@
 ///                         compiles kernels once per instruction set: an out-of-line copy built with AVX-512 could
 ///                         be the one that the linker keeps for a machine without it. Not forced in a build for one
 ///                         instruction set (TANDEM_ONE_INSTRUCTION_SET).
-/// TANDEM_HD_COLD          host and device, never inline: for what one ray in many needs, so that it takes no registers
-///                         from the common way. Pass arguments by value.
-/// TANDEM_HD_CALL          host and device, never inline: for what is long. On the host each file that includes it has
-///                         a copy of its own, for the reason above. Pass arguments by value.
-/// TANDEM_HD_SHARED        on the device one copy, a call, for what is asked for from many places: where the code is
-///                         larger than the caches for it, warps wait (docs/performance.md). Inline on the host, and
-///                         in kernels that fit there (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
-/// TANDEM_HD_STAGE          a step of the path loop: a call on the host, as TANDEM_HD_CALL, so that the compiler's time
-///                         grows with the code and no faster; inline on the device, where a call costs a stack.
-/// TANDEM_KEEP_LOOP        before a loop that few threads ever come to: on the device it stays a loop, to be short
-/// TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason given with TANDEM_HD
-/// TANDEM_KEEP_ROUNDING(x) the compiler must take x as it is. GCC 12 drops both conversions of a vector of doubles, to
-///                         float and back, also where it made the vector itself out of scalars, and the rounding.
+/// TANDEM_HD_COLD          host and device, never inline: for code that few rays need, so that it takes no registers
+///                         from the common path. Pass arguments by value.
+/// TANDEM_HD_CALL          host and device, never inline: for long functions. On the host each file has its own copy,
+///                         for the reason above. Pass arguments by value.
+/// TANDEM_HD_SHARED        on the device a single copy, called from many places: warps wait if the code is larger than
+///                         the instruction caches (docs/performance.md). Inline on the host, and in kernels that fit
+///                         into the caches (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
+/// TANDEM_HD_STAGE         a step of the path loop. On the host a call, as TANDEM_HD_CALL, so that compile time grows
+///                         linearly with the code; inline on the device, where a call needs a stack.
+/// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
+/// short TANDEM_INLINE_LAMBDA    after a lambda's parameters: inline on the host, for the reason given with TANDEM_HD
+/// TANDEM_KEEP_ROUNDING(x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions of a
+///                         vector of doubles, to float and back, and with them the rounding.
 #pragma once
 
 #if defined(__CUDACC__)

@@ -5,11 +5,11 @@
 
 namespace tandem {
 
-/// 1 / sqrt(x) for positive normal x, within 2 units of the last place; 0 gives a large finite number, so that a zero
-/// vector normalises to zero. Half the instructions of a correctly rounded square root and division on a GPU, and
-/// the same bits everywhere.
-/// Method: a first guess from the exponent (error 3.5 %), then Newton's step y + y (1/2 - (x/2 y) y), which squares the
-/// relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Tested by tests/math/inverse_square_root_test.cpp.
+/// 1 / sqrt(x) for positive normal x, within 2 ulp; 0 gives a large finite number, so that a zero vector normalises to
+/// zero. On a GPU this takes half the instructions of a correctly rounded square root and division. The bits are the
+/// same everywhere. Method: a first guess from the exponent (error 3.5 %), then Newton's step y + y (1/2 - (x/2 y) y),
+/// which squares the relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Tested by
+/// tests/math/inverse_square_root_test.cpp.
 template <class D>
 TANDEM_HD D inverse_square_root(const D& x) {
     using I = UInt64<D>;

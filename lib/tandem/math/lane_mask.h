@@ -1,9 +1,9 @@
-/// One truth value per lane of a packet (lanes.h).
+/// Masks: one truth value per lane of a packet (lanes.h).
 #pragma once
 
 #include "tandem/math/lane_registers.h"
 
-/// Are packets of AVX-512 to be had?
+/// Whether packets of AVX-512 are available.
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define TANDEM_MASK_REGISTERS 1
 #else
@@ -37,13 +37,13 @@ struct LaneMask {
 #endif
         }
     }
-    /// As Embree has its masks: -1 or 0 per lane.
+    /// In the form of Embree's masks: -1 or 0 per lane.
     [[nodiscard]] TANDEM_HD Vector vector() const { return v; }
     TANDEM_HD bool operator[](int lane) const { return v[lane] != 0; }
 };
 
 #if TANDEM_MASK_REGISTERS
-/// AVX-512 compares into mask registers: a bit per lane. To keep lanes of all ones would take a conversion for each
+/// AVX-512 compares into mask registers with one bit per lane. Masks of all ones would need a conversion for each
 /// comparison and each selection, and two of each for doubles.
 template <class Isa>
 requires(Isa::bytes == 64) struct LaneMask<Isa> {
@@ -81,8 +81,7 @@ TANDEM_HD LaneMask<I> select(const LaneMask<I>& mask, const LaneMask<I>& a, cons
     return (mask && a) || (!mask && b);
 }
 
-/// Lane i is lane[i] of the mask that lies packet[i] bytes behind `base`. Reads four bytes there, also of a mask of
-/// two.
+/// Lane i is lane[i] of the mask packet[i] bytes after `base`. Reads four bytes there, even if the mask has two.
 template <class I, class Words>
 TANDEM_HD LaneMask<I> gather_mask(const LaneMask<I>* base, const Words& packet, const Words& lane) {
 #if TANDEM_MASK_REGISTERS

@@ -1,5 +1,5 @@
-/// The registers of x86-64 processors, and the few operations on them that have no operator in the compilers' vector
-/// extension. For lanes.h.
+/// The vector registers of x86-64 processors, and the few operations that the compilers' vector extension lacks. For
+/// lanes.h.
 #pragma once
 
 #include <immintrin.h>
@@ -68,7 +68,7 @@ TANDEM_HD auto join(H a, H b) {
     }
 }
 
-/// The even 32-bit elements of a, then those of b: narrows a pair of 64-bit masks to one 32-bit mask.
+/// The even 32-bit elements of a, then those of b: narrows two 64-bit masks to one 32-bit mask.
 template <class V>
 TANDEM_HD V even_elements(V a, V b) {
     constexpr int n = sizeof(V) / 4;
@@ -81,7 +81,7 @@ TANDEM_HD V even_elements(V a, V b) {
     }
 }
 
-// The few operations that have no operator in the compilers' vector extension, per register width.
+// The operations that the compilers' vector extension lacks, per register width.
 template <class V, class Scalar>
 TANDEM_HD V per_element(V a, Scalar scalar) {
     for (unsigned i = 0; i < sizeof(V) / sizeof(a[0]); ++i) a[i] = scalar(a[i]);
@@ -117,7 +117,7 @@ TANDEM_HD D16 round_to_int(D16 a) {
     return per_element(a, [](double x) { return ::rint(x); });
 #endif
 }
-/// a < b ? a : b and a > b ? a : b, to the bit; the instructions mean just that, also for NaN and zeros.
+/// Exactly a < b ? a : b and a > b ? a : b: the instructions are defined so, for NaN and zeros too.
 TANDEM_HD F16 minimum(F16 a, F16 b) {
     return reinterpret_cast<F16>(_mm_min_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
 }
@@ -190,7 +190,7 @@ TANDEM_HD U32 multiply_even(U32 a, U32 b) {
 #endif
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-// The maskz forms: in the plain ones GCC 12 sees the use of an uninitialised variable.
+// The maskz forms, because GCC 12 warns of uninitialised variables in the plain ones.
 using F64 = Native<float, 64>::type;
 using D64 = Native<double, 64>::type;
 using U64 = Native<std::uint32_t, 64>::type;
@@ -230,7 +230,7 @@ TANDEM_HD U64 multiply_even(U64 a, U64 b) {
 }
 #endif
 
-/// A vector of the elements that lie so many bytes behind `base`. V has elements of 32 or of 64 bits.
+/// Gathers the elements at the given byte offsets from `base`. V has elements of 32 or 64 bits.
 template <class V, class Offsets>
 TANDEM_HD V gather(const void* base, Offsets offsets) {
     constexpr bool words = sizeof(V) == sizeof(Offsets);

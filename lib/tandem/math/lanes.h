@@ -1,10 +1,10 @@
-/// A packet of rays as a Real (math/real.h): Lanes<T, Isa> holds one T per ray and behaves like a T, so that a
-/// formula written once for one ray runs for 4, 8 or 16. Each operation is the IEEE operation of its lane, hence
-/// the bits are those of the scalar formula.
+/// A packet of rays as a Real (math/real.h): Lanes<T, Isa> holds one T per ray and behaves like a T, so that a formula
+/// written for one ray also runs for 4, 8 or 16. Each operation is the IEEE operation in every lane, so the bits are
+/// those of the scalar formula.
 ///
-/// The instruction set is a type parameter, not only a compiler flag: code for different sets then has different
-/// names, and the linker cannot replace one by another. A float vector fills one register of the set; a double
-/// vector takes two. Host only. The set must be enabled for the file that instantiates it (cpu/CMakeLists.txt).
+/// The instruction set is a type parameter, not only a compiler flag: so code for different sets has different names,
+/// and the linker cannot replace one by another. A float vector fills one register of the set; a double vector takes
+/// two. Host only. The set must be enabled for the file that instantiates it (cpu/CMakeLists.txt).
 #pragma once
 
 #include "tandem/math/lane_mask.h"
@@ -21,7 +21,7 @@ struct Lanes {
     Vector part[parts];
 
     Lanes() = default;
-    TANDEM_HD Lanes(T value) {  // a scalar means the same value in every lane
+    TANDEM_HD Lanes(T value) {  // the same value in every lane
         for (int k = 0; k < parts; ++k) part[k] = Vector{} + value;
     }
     /// Lane i holds make(i).
@@ -32,7 +32,7 @@ struct Lanes {
         return result;
     }
 
-    /// Lane i holds the T that lies offsets[i] bytes behind `base`.
+    /// Lane i holds the T at offsets[i] bytes from `base`.
     TANDEM_HD static Lanes gather(const void* base, const Lanes<std::uint32_t, I>& offsets) {
         Lanes result;
         if constexpr (parts == 1) {
@@ -158,7 +158,7 @@ TANDEM_HD Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, cons
     return result;
 }
 
-// As the formulas in real.h, in one instruction.
+// The formulas of real.h, in one instruction.
 template <class T, class I>
 requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> lesser(const Lanes<T, I>& a, const Lanes<T, I>& b) {
     return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::minimum(x, y); });

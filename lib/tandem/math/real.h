@@ -1,5 +1,5 @@
-/// The scalar vocabulary of the kernel side. A formula is written once as a template over its `Real`, and uses only the
-/// operators and the functions named here. Real says for how many rays at once and how accurately:
+/// The arithmetic of kernels. A formula is written once, as a template over its `Real`, and uses only the operators and
+/// the functions of this header. Real determines for how many rays at once and how accurately:
 ///
 ///   tier      one ray                        a packet (math/lanes.h)       decisions (Double<Real>)
 ///   strict    float                          Lanes<float, Isa>             in double
@@ -7,7 +7,7 @@
 ///   fast      FastFloat (math/fast_float.h)  Lanes<float, Fast<Isa>>       in float
 ///
 /// In strict and precise all operations are correctly rounded or exact, so that a formula gives the same bits on every
-/// processor. There is no min/max of the library: fminf and fmaxf differ between CPU and GPU for NaN and signed zeros.
+/// processor. The library's fminf and fmaxf are not used: they differ between CPU and GPU for NaN and signed zeros.
 #pragma once
 
 #include <cmath>
@@ -19,8 +19,8 @@
 
 namespace tandem {
 
-/// What belongs to a Real: the type of its comparisons, the type that decisions are made in (Double), the type of
-/// bounds and filters (Float), the type of long sums (Wide), its integers; `Scalar` is the number in one lane.
+/// The types that belong to a Real: of comparisons, of decisions (Double), of bounds and filters (Float), of long sums
+/// (Wide), and of integers; `Scalar` is the number in one lane.
 template <class Real>
 struct RealTraits;
 
@@ -57,7 +57,7 @@ using UInt = typename RealTraits<Real>::UInt;
 template <class Real>
 using UInt64 = typename RealTraits<Real>::UInt64;
 
-/// Is Real of the fast tier, whose operations may be approximate and may be contracted?
+/// Whether Real is of the tier fast, whose operations may be approximate and may be contracted.
 template <class Real>
 inline constexpr bool is_fast = RealTraits<Real>::fast;
 
@@ -91,11 +91,11 @@ TANDEM_HD float narrow(double a) {
 TANDEM_HD float narrow(float a) { return a; }
 TANDEM_HD double to_wide(float a) { return static_cast<double>(a); }
 TANDEM_HD double to_wide(double a) { return a; }
-/// The number of a single ray as callers see it.
+/// The number of a single ray, as callers see it.
 TANDEM_HD float to_plain(float a) { return a; }
 TANDEM_HD float to_plain(double a) { return narrow(a); }
 
-/// From the type of decisions to Real: one rounding in strict, none in precise and fast.
+/// Converts from the type of decisions to Real: one rounding in strict, none in precise and fast.
 template <class Real>
 TANDEM_HD Real to_real(const Double<Real>& a) {
     if constexpr (std::is_same_v<Real, Double<Real>>) {
@@ -119,9 +119,9 @@ TANDEM_HD double round_to_int(double a) { return ::rint(a); }
 TANDEM_HD float absolute(float a) { return fabsf(a); }
 TANDEM_HD double absolute(double a) { return ::fabs(a); }
 
-/// A product and a sum for decisions that need not be equal everywhere, because only speed depends on them (reject
-/// filters, boxes of a hierarchy): one rounding where the processor fuses them, else two. With TANDEM_NO_LOOSE_FMA
-/// always two: tests/lint compiles so, to see that the compiler fuses nothing by itself.
+/// a * b + c for decisions that only affect speed and need not be equal everywhere (reject filters, boxes of a BVH):
+/// one rounding if the processor fuses them, else two. With TANDEM_NO_LOOSE_FMA always two: tests/lint uses it to check
+/// that the compiler fuses nothing by itself.
 TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 #if (TANDEM_ON_DEVICE || defined(__FMA__)) && !defined(TANDEM_NO_LOOSE_FMA)
     return fmaf(a, b, c);
@@ -130,10 +130,10 @@ TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 #endif
 }
 
-/// Exact for values below 2^31.
+/// Converts an integer to Real; exact below 2^31.
 TANDEM_HD float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
 
-/// The same as a Real of any kind.
+/// The same for any Real.
 template <class Real>
 TANDEM_HD Real from_uint(const UInt<Real>& a) {
     if constexpr (RealTraits<Real>::lanes == 1) {
@@ -145,7 +145,7 @@ TANDEM_HD Real from_uint(const UInt<Real>& a) {
     }
 }
 
-/// The same bits under another type.
+/// The same bits as another type.
 template <class To, class From>
 TANDEM_HD To bit_cast(const From& from) {
     static_assert(sizeof(To) == sizeof(From));
@@ -159,14 +159,14 @@ TANDEM_HD double double_of(std::uint64_t a) { return bit_cast<double>(a); }
 TANDEM_HD std::uint32_t bits_of(float a) { return bit_cast<std::uint32_t>(a); }
 TANDEM_HD float float_of(std::uint32_t a) { return bit_cast<float>(a); }
 
-/// High and low word of a 32 x 32 bit product.
+/// The high and the low word of a 32 x 32 bit product.
 TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
     const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
     high = static_cast<std::uint32_t>(product >> 32);
     low = static_cast<std::uint32_t>(product);
 }
 
-/// The value of one lane, and another in its place. A number that is no packet has one lane.
+/// Reads or replaces the value of one lane. A scalar has one lane.
 template <class T>
 TANDEM_HD T lane(const T& value, int) {
     return value;
@@ -182,7 +182,7 @@ TANDEM_HD void for_each_unique_lane(std::uint32_t value, bool active, F f) {
     if (active) f(value, true);
 }
 
-/// Place of the lowest bit that is set; `bits` is not 0.
+/// The position of the lowest set bit; `bits` is not 0.
 TANDEM_HD int lowest_bit(std::uint32_t bits) {
 #if TANDEM_ON_DEVICE
     return __ffs(static_cast<int>(bits)) - 1;
@@ -194,7 +194,7 @@ TANDEM_HD int lowest_bit(std::uint32_t bits) {
 /// Unit roundoff of float, 2^-24: one correctly rounded operation errs by at most this, relative.
 inline constexpr float float_roundoff = 0x1p-24F;
 
-/// Largest float that is not above a finite `a`, and smallest that is not below it.
+/// The largest float not above a finite `a`, and the smallest not below it.
 TANDEM_HD float round_down(double a) {
     const float nearest = static_cast<float>(a);
     if (static_cast<double>(nearest) <= a) return nearest;

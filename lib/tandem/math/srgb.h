@@ -6,18 +6,18 @@
 
 namespace tandem {
 
-/// The light from 0 to 1 that a value from 0 to 1 stands for. Within a few units of the last place of double; the same
-/// bits on every machine.
+/// The linear value, from 0 to 1, of an sRGB value from 0 to 1. Within a few ulp of double; the same bits on every
+/// machine.
 [[nodiscard]] inline double linear_of_srgb(double value) {
     return value <= 0.04045 ? value / 12.92 : power<float>((value + 0.055) / 1.055, 2.4);
 }
 
-// XYZ of linear RGB: the primaries and the white (D65) of ITU-R BT.709, rounded far below what float shows.
+// XYZ of linear RGB: the primaries and the white point (D65) of ITU-R BT.709, with more digits than a float has.
 inline const Vec3d x_of_rgb{0.4123907992659593, 0.3575843393838780, 0.1804807884018343};
 inline const Vec3d y_of_rgb{0.2126390058715103, 0.7151686787677559, 0.0721923153607337};
 inline const Vec3d z_of_rgb{0.0193308187155918, 0.1191947797946259, 0.9505321522496605};
 
-/// Of linear RGB; 1 for white.
+/// The luminance of linear RGB; 1 for white.
 [[nodiscard]] inline double luminance(const Vec3d& rgb) { return dot(y_of_rgb, rgb); }
 
 }  // namespace tandem

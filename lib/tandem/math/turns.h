@@ -1,5 +1,5 @@
-/// Angles in turns: sine and cosine of a fraction of a full turn, and the angle of a point. Samples of directions are
-/// made of these. No argument is out of range, and a quarter of a turn is exact.
+/// Angles in turns: sine and cosine of a fraction of a full turn, and the angle of a point. Sampling of directions uses
+/// these: no argument is out of range, and a quarter of a turn is exact.
 #pragma once
 
 #include "tandem/math/exact_math.h"

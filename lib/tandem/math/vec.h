@@ -1,5 +1,5 @@
-/// Vectors of three and of two numbers, or packets of them. The order of operations of what rounds more than once (dot,
-/// cross, length) is part of the result.
+/// Vectors of three and of two numbers, or packets of them. Where an operation rounds more than once (dot, cross,
+/// length), the order of operations is part of the result.
 #pragma once
 
 #include "tandem/math/error_free.h"
@@ -15,7 +15,7 @@ struct Vec3 {
     Vec3() = default;
     TANDEM_HD constexpr Vec3(const T& of_x, const T& of_y, const T& of_z) : x(of_x), y(of_y), z(of_z) {}
     TANDEM_HD constexpr explicit Vec3(const T& all) : x(all), y(all), z(all) {}
-    /// Each component converted: to a narrower type it is rounded.
+    /// Each component converted, with rounding if the type is narrower.
     template <class Other>
     TANDEM_HD constexpr explicit Vec3(const Vec3<Other>& a)
         : x(static_cast<T>(a.x)), y(static_cast<T>(a.y)), z(static_cast<T>(a.z)) {}
@@ -68,7 +68,7 @@ struct Vec2 {
 };
 using Vec2f = Vec2<float>;
 static_assert(sizeof(Vec3f) == 12 && sizeof(Vec3d) == 24 && sizeof(Vec2f) == 8,
-              "vectors are packed; device buffers rely on it");
+              "vectors have no padding; device buffers rely on it");
 
 /// Sum in the order ((x + y) + z).
 template <class Real>
@@ -81,7 +81,7 @@ TANDEM_HD Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// cross(a, b) with each component within 1.5 units of its last place, however much its products cancel.
+/// cross(a, b) with each component within 1.5 ulp, however much its products cancel.
 template <class D>
 TANDEM_HD Vec3<D> accurate_cross(const Vec3<D>& a, const Vec3<D>& b) {
     return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
@@ -94,8 +94,8 @@ TANDEM_HD Real norm1(const Vec3<Real>& a) {
     return (absolute(a.x) + absolute(a.y)) + absolute(a.z);
 }
 
-/// Unit vector, in double, within 4 units of its last place, of every vector whose squares are normal numbers: of all
-/// float vectors. The zero vector stays zero.
+/// The unit vector in double, within 4 ulp, for every vector whose squares are normal numbers, which all float vectors
+/// satisfy. The zero vector stays zero.
 template <class D>
 TANDEM_HD Vec3<D> normalize(const Vec3<D>& a) {
     const D scale = inverse_square_root(dot(a, a));
@@ -133,7 +133,7 @@ TANDEM_HD Vec3f to_plain(const Vec3<Real>& a) {
     return {to_plain(a.x), to_plain(a.y), to_plain(a.z)};
 }
 
-/// By lane; one ray needs no more than the select() of real.h.
+/// Selects by lane; for one ray, the select() of real.h is enough.
 template <class Mask, class Real>
 requires(RealTraits<Real>::lanes > 1) TANDEM_HD Vec3<Real> select(const Mask& mask, const Vec3<Real>& a,
                                                                   const Vec3<Real>& b) {

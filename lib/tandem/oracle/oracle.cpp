@@ -33,7 +33,7 @@ Line line_of(const Ray<T>& ray) {
     return {oracle::to_vector(ray.origin), oracle::to_vector(ray.direction)};
 }
 
-/// Is there a finite float for it?
+/// Whether it has a finite float.
 bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
 
 class OracleScene final : public ResidentScene {
@@ -42,7 +42,7 @@ class OracleScene final : public ResidentScene {
         : ResidentScene(tier), prepared(without_copies(scene)), copies(scene.copies) {}
     [[nodiscard]] PhaseTimes load_times() const override { return {}; }
     PreparedScene prepared;
-    std::vector<PrimitiveCopy> copies;  ///< that it is without
+    std::vector<PrimitiveCopy> copies;  ///< removed from the scene
 };
 
 class OracleBackend final : public Backend {
@@ -127,7 +127,7 @@ class OracleBackend final : public Backend {
         return watch.seconds();
     }
 
-    /// `T`: what the tier's camera rays are given in.
+    /// `T`: the type of the tier's camera rays.
     template <class T>
     static void render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel, Film& film,
                        std::atomic<std::uint64_t>& invalid) {
@@ -161,7 +161,7 @@ class OracleBackend final : public Backend {
         return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
     }
 
-    /// Calls f(i) for every i below count, in blocks shared among the threads.
+    /// Calls f(i) for every i below count, in blocks distributed to the threads.
     template <class F>
     void for_each_block(std::size_t count, std::size_t block, F f) const {
         std::atomic<std::size_t> next = 0;

@@ -1,6 +1,6 @@
-/// The slow right answer: brute force over all primitives in extended precision, no structure, no Embree, none of the
-/// formulas of lib/tandem/kernel/shapes and lib/tandem/kernel/bsdf. What it shares with the backends is the camera ray
-/// and the random numbers, so that it renders the same samples.
+/// The reference renderer: brute force over all primitives in extended precision, without an acceleration structure,
+/// Embree, or the formulas of lib/tandem/kernel/shapes and lib/tandem/kernel/bsdf. It shares only the camera rays and
+/// the random numbers with the backends, so that it renders the same samples.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ struct OracleHit {
     std::uint32_t primitive = no_primitive;
 };
 
-/// Nearest hit in front of the origin of a ray that comes from `source`; ties go to the lower id. Not traceable rays
-/// miss.
+/// The nearest hit in front of the origin of a ray from `source`; at equal t the lower id wins. Rays that are not
+/// traceable miss.
 [[nodiscard]] OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source = {});
 
 [[nodiscard]] std::unique_ptr<Backend> make_oracle_backend(const BackendOptions& options);

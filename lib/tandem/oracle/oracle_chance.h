@@ -12,7 +12,7 @@ namespace tandem::oracle {
 
 inline constexpr Real pi = std::numbers::pi_v<Real>;
 
-/// Numbers of its own in [0, 1), for what it estimates otherwise than the backends.
+/// Separate random numbers in [0, 1), for what the oracle estimates in another way than the backends.
 class Chance {
   public:
     Chance(const SampleId<float>& sample, std::uint32_t vertex) : sample_(sample), vertex_(vertex) {}

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Real pi = std::numbers::pi_v<Real>;
 
-/// Linear in the azimuth between the centres of columns, and in the height between those of rows.
+/// Interpolated linearly in azimuth between the centres of columns, and in height between those of rows.
 Vector picture_towards(const SceneView& scene, const Vector& d) {
     const EnvironmentPicture& picture = scene.environment_picture;
     const auto width = static_cast<long>(picture.width), height = static_cast<long>(picture.height);
@@ -18,7 +18,7 @@ Vector picture_towards(const SceneView& scene, const Vector& d) {
     const Real u = (azimuth - std::floor(azimuth) + Real(0.5)) * static_cast<Real>(width) - Real(0.5);
     const Real from_pole = std::atan2(std::hypot(d.x, d.z), d.y) / pi * static_cast<Real>(height) - Real(0.5);
     const auto column = static_cast<long>(std::floor(u)), row = static_cast<long>(std::floor(from_pole));
-    // 1 - cos, without its cancellation
+    // 1 - cos without cancellation
     const auto depth = [&](long i) {
         const Real sine = std::sin((static_cast<Real>(i) + Real(0.5)) * pi / static_cast<Real>(2 * height));
         return 2 * sine * sine;

@@ -5,10 +5,10 @@
 
 namespace tandem::oracle {
 
-/// Is it a picture?
+/// Whether the background is a picture.
 [[nodiscard]] bool has_picture(const SceneView& scene);
 
-/// What is seen along a direction of any length: the gradient, or the picture in its place.
+/// The radiance of the gradient or the picture along a direction of any length.
 [[nodiscard]] Vector background_towards(const SceneView& scene, const Vector& direction);
 
 }  // namespace tandem::oracle

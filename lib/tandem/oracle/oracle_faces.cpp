@@ -1,4 +1,4 @@
-// Triangles for the oracle. What x87 precision cannot decide is decided in the compiler's numbers of 113 bits.
+// Triangles for the oracle. What x87 precision cannot decide is decided with the compiler's 113-bit floats.
 #include <cmath>
 
 #include "tandem/oracle/oracle_geometry.h"
@@ -28,13 +28,13 @@ Number size(const Vector3<Number>& a) {
     return magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
 }
 
-/// Volumes between a line and the edges of a triangle, opposite to its corners: the line crosses the triangle if they
-/// have one sign.
+/// The volumes between a line and the edges of a triangle, opposite to its corners: the line crosses the triangle if
+/// they have equal signs.
 template <class Number>
 struct Crossing {
     Number volume[3];
     Number height;     ///< volume between the origin and the triangle
-    Number magnitude;  ///< of what volumes are sums of
+    Number magnitude;  ///< of the terms of the volumes
 
     Crossing(const Vector (&corner)[3], const Line& line) {
         const Vector3<Number> d = difference<Number>(line.direction, {0, 0, 0});
@@ -47,7 +47,7 @@ struct Crossing {
         magnitude = size(d) * farthest * farthest;
     }
 
-    /// Is a volume above `least`, and another below -`least`?
+    /// Whether a volume is above `least` and another one below -`least`.
     [[nodiscard]] bool passes_by(Number least) const {
         bool above = false, below = false;
         for (const Number v : volume) {

@@ -8,7 +8,7 @@ namespace tandem::oracle {
 
 namespace {
 
-/// t of the far side for a ray that is inside by its own account: in front, whatever rounding did to the origin.
+/// t of the far side for a ray whose source says that it is inside: positive, whatever rounding did to the origin.
 Real ahead(Real t) { return std::max<Real>(t, 0x1p-1022L); }
 
 std::optional<SurfaceHit> hit_shape(const SceneView&, const Sphere& sphere, const Line& line, Start start) {
@@ -44,7 +44,7 @@ Vector unit(const Vector& a) { return a * (1 / std::sqrt(inner(a, a))); }
 
 std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line, Start start) {
     if (start == Start::leaving_outward) return std::nullopt;
-    // go to the foot of the perpendicular from the centre, then half a chord back or forth
+    // to the foot of the perpendicular from the centre, then half a chord back or forth
     const Real speed = std::sqrt(inner(line.direction, line.direction));
     const Vector along = line.direction * (1 / speed);
     const Vector from_centre = line.origin - centre;
@@ -53,10 +53,10 @@ std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Li
     const Real height2 = radius * radius - inner(foot, foot);
     if (!(height2 >= 0)) {
         if (start != Start::leaving_inward) return std::nullopt;
-        return SurfaceHit{ahead(to_foot / speed), unit(foot)};  // it goes by, a rounding error outside
+        return SurfaceHit{ahead(to_foot / speed), unit(foot)};  // misses by a rounding error
     }
     const Real half_chord = std::sqrt(height2);
-    // the root that does not cancel, and the other by the power of the point
+    // the root without cancellation; the other one from the product of the roots
     const Real far_root = to_foot >= 0 ? to_foot + half_chord : to_foot - half_chord;
     const Real distance = std::sqrt(inner(from_centre, from_centre));
     const Real power = (distance - radius) * (distance + radius);

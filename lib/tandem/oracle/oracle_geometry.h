@@ -1,4 +1,4 @@
-/// The oracle's own intersections and normals, in x87 extended precision (64-bit significand).
+/// Intersections and normals of the oracle, in x87 extended precision (64-bit significand).
 #pragma once
 
 #include <optional>
@@ -27,40 +27,40 @@ struct Line {
     Vector origin, direction;
 };
 
-/// What lies at a crossing.
+/// The surface at a crossing.
 struct SurfaceHit {
     Real t;
-    Vector normal;          ///< unit, outward; of a face the one for shading
-    Vector facet{0, 0, 0};  ///< of a face its own, unit; of other shapes hit_primitive() puts `normal` there
-    // of a face: the triangle's corners by their number in it, and what each of them weighs
+    Vector normal;          ///< unit, outward; for a face the shading normal
+    Vector facet{0, 0, 0};  ///< for a face its geometric normal, unit; for other shapes hit_primitive() copies `normal`
+    // for a face: the numbers of the triangle's corners in it, and their barycentric weights
     std::uint32_t corner[3] = {0, 0, 0};
     Vector weight{0, 0, 0};
     FaceSides sides = FaceSides::single_sided;
 };
 
-/// Where a ray starts: anywhere, or on the surface of the body itself, on its way out or in; or anywhere, but its
-/// second crossing is asked for.
+/// The start of a ray: anywhere, or on the surface of the solid, on its way out or in; or anywhere, to find the second
+/// crossing.
 enum class Start { anywhere, leaving_outward, leaving_inward, before_first };
 
-/// The nearest crossing in front of the origin. One that leaves the body outward has none; one that leaves it inward
-/// has its far side, at the smallest t there is if rounding has put the origin behind that.
+/// The nearest crossing in front of the origin. A ray that leaves the solid outward has none; one that leaves its
+/// surface inward crosses the far side, at the smallest t there is if rounding has moved the origin beyond it.
 [[nodiscard]] std::optional<SurfaceHit> hit_sphere(const Vector& centre, Real radius, const Line& line, Start start);
 [[nodiscard]] std::optional<SurfaceHit> hit_box(const Vector& lower, const Vector& upper, const Line& line,
                                                 Start start);
 /// `is_box`: the cube [-1, 1]^3 under the placement, else the unit sphere.
 [[nodiscard]] std::optional<SurfaceHit> hit_placed(const Placement& placement, bool is_box, const Line& line,
                                                    Start start);
-/// A triangle of a face: three of its corners, and their numbers in it.
+/// A triangle of a face: three of its corners, and their numbers.
 struct FaceCorners {
     Vec3f position[3];
     std::uint32_t number[3];
 };
 
-/// A line in the plane of the triangle misses. Signs are exact, and t is the long double nearest to the exact one, if
-/// the coordinates do not differ by more than 2^30 or so. `normals`: of the scene.
+/// A line in the plane of the triangle misses. Signs are exact, and t is the long double nearest to the exact one,
+/// unless the coordinates differ by more than a factor of about 2^30. `normals`: those of the scene.
 [[nodiscard]] std::optional<SurfaceHit> hit_face(const FaceCorners& corners, const FaceAttributes& attributes,
                                                  const Vec3f* normals, const Line& line);
-/// Any primitive of a scene, with its normal for shading. A flat one that the line leaves is not met again.
+/// Any primitive of a scene, with its shading normal. A flat primitive is not hit by a line that leaves it.
 [[nodiscard]] std::optional<SurfaceHit> hit_primitive(const SceneView& scene, std::uint32_t id, const Line& line,
                                                       Start start);
 

@@ -12,11 +12,11 @@ namespace {
 bool is_shadowed(const SceneView& scene, const PunctualLight& light, const Vertex& vertex) {
     const bool directional = light.kind == PunctualKind::directional;
     const Vector to_light = directional ? to_vector(light.direction) * -1 : to_vector(light.position) - vertex.point;
-    if (!is_in_front(vertex, to_light)) return true;  // behind the surface itself, or at the very point
+    if (!is_in_front(vertex, to_light)) return true;  // below the surface itself, or exactly at the point
     return is_blocked(scene, vertex, to_light, directional ? HUGE_VALL : 1 - rounding);
 }
 
-/// What a light brings to a point, without regard to shadows, and the unit direction to it.
+/// The light that arrives at a point, ignoring shadows, and the unit direction to its source.
 Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_light) {
     Vector intensity = to_vector(light.intensity);
     if (light.kind == PunctualKind::directional) {
@@ -29,7 +29,8 @@ Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_ligh
     to_light = unit(offset);
     if (light.kind == PunctualKind::spot) {
         const Vector axis = to_vector(light.direction);
-        const Vector chord = to_light + axis;  // from the axis to the light's way to the point; 2 - 2 cos is its square
+        const Vector chord =
+            to_light + axis;  // from the axis to the direction towards the point; its square is 2 - 2 cos
         const Real share = (Real{light.cone_height} - inner(chord, chord) / 2) * Real{light.cone_scale};
         intensity = intensity * std::pow(std::clamp<Real>(share, 0, 1), 2);
     }
@@ -40,8 +41,8 @@ Vector light_at(const PunctualLight& light, const Vector& point, Vector& to_ligh
 /// A point of an emissive surface.
 struct LightPoint {
     Vector point;
-    SurfaceHit hit;  ///< normal, corners and weights there
-    Real area = 0;   ///< of the surface
+    SurfaceHit hit;  ///< its normal, corners and weights
+    Real area = 0;   ///< of the whole surface
 };
 
 /// Uniform in the area.
@@ -77,7 +78,7 @@ LightPoint point_of_light(const SceneView& scene, std::uint32_t id, Chance& chan
     return light;
 }
 
-/// What leaves a light at a point of it.
+/// The radiance that a light emits at a point of it.
 Vector emission_at(const SceneView& scene, std::uint32_t id, const LightPoint& light) {
     const std::uint32_t material = scene.material_of[id];
     const Vector emission = to_vector(scene.optics[material].emission);
@@ -95,7 +96,7 @@ bool is_double_sided(const SceneView& scene, std::uint32_t id) {
     return result;
 }
 
-/// Does the other half of a quad stand before the point that was drawn on one, or lie upon it with the lower number?
+/// Whether the other half of a quad hides a sampled point, or coincides with it and has the lower number.
 bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex& vertex, const Vector& way,
                           const LightPoint& light) {
     bool behind = false;
@@ -114,8 +115,9 @@ bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex
     return behind;
 }
 
-/// From all emissive surfaces: a point of each, by area. `facets`: also to microfacets.
-Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& vertex, bool facets, Chance& chance) {
+/// The light of all emissive surfaces: one point of each, sampled by area. `facets`: microfacets receive it too.
+Vector area_light(const SceneView& scene, const Reflectances& material, const Vertex& vertex, bool facets,
+                  Chance& chance) {
     Vector sum{0, 0, 0};
     for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
         const std::uint32_t id = scene.area_lights[i].primitive;
@@ -138,7 +140,8 @@ Vector glow(const SceneView& scene, const Reflectances& material, const Vertex& 
     return sum;
 }
 
-/// From the background, in one direction of the hemisphere. Facets that no path follows show a picture as well.
+/// The light of the background from one direction of the hemisphere. Microfacets whose reflection no path follows
+/// receive that of a picture too.
 Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
@@ -166,7 +169,7 @@ Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& en
         if (light.casts_shadows != 0 && largest(brought) > 0 && is_shadowed(scene, light, vertex)) continue;
         sum = sum + times(brought, intensity);
     }
-    sum = sum + glow(scene, material, vertex, ends.facets || draws_lights(material), chance);
+    sum = sum + area_light(scene, material, vertex, ends.facets || samples_lights(material), chance);
     const bool picture = has_picture(scene);
     const EndingLobes of_sky = {scene.indirect_light == 0 || (picture && ends.diffuse), picture && ends.facets};
     if (scene.environment.illuminates != 0 && (of_sky.diffuse || of_sky.facets)) {

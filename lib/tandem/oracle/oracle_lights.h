@@ -1,16 +1,16 @@
-/// What lights bring to a vertex.
+/// The light that arrives at a vertex.
 #pragma once
 
 #include "tandem/oracle/oracle_reflection.h"
 
 namespace tandem::oracle {
 
-/// Which lobes of a vertex reflect what no path will find.
+/// The lobes of a vertex that reflect light which no path will find.
 struct EndingLobes {
     bool diffuse, facets;
 };
 
-/// All that a surface reflects of what gives light.
+/// All light from light sources that a surface reflects.
 [[nodiscard]] Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance);
 
 }  // namespace tandem::oracle

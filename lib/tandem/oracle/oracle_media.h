@@ -1,4 +1,4 @@
-/// The media that a path of the oracle is in, and their interfaces.
+/// The media around a path of the oracle, and their interfaces.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace tandem::oracle {
 
-/// The media that a path is in, by material, in the order of entering.
+/// The media that a path is inside of, by material, in the order of entering.
 class Media {
   public:
     explicit Media(const SceneView& scene) : optics_(scene.optics) {
@@ -37,10 +37,10 @@ class Media {
     std::vector<std::uint32_t> inside_;
 };
 
-/// Of refraction; 1 outside of all media.
+/// The index of refraction; 1 outside of all media.
 [[nodiscard]] Real index_of(const SceneView& scene, std::uint32_t medium);
 
-/// Snell and Fresnel, by angles. Returns the reflectance; 1 for total reflection.
+/// Snell's law and Fresnel's equations, by angles. Returns the reflectance; 1 for total internal reflection.
 [[nodiscard]] Real refract(const Vector& d, const Vector& n, Real from, Real to, Vector& onward);
 
 }  // namespace tandem::oracle

@@ -11,7 +11,7 @@ namespace tandem::oracle {
 
 namespace {
 
-/// How far a point is before the plane through the camera that it looks away from.
+/// The distance of a point from the camera along the view axis.
 float depth_of(const CameraView& camera, const Vector& point) {
     const Vector right = to_vector(camera.orthographic ? camera.origin_dx : camera.direction_dx);
     const Vector down = to_vector(camera.orthographic ? camera.origin_dy : camera.direction_dy);
@@ -33,7 +33,7 @@ void add_first_hit(const SceneView& scene, const CameraView& camera, const Line&
         nearest = nearest_surface(scene, camera_ray, {}, no_primitive, &passed);
         if (nearest.primitive != no_primitive) vertex = vertex_at(scene, camera_ray, nearest);
         passed = {nearest.surface.t, nearest.primitive};
-    } while (nearest.primitive != no_primitive && vertex.is_hole);
+    } while (nearest.primitive != no_primitive && vertex.is_masked_out);
     const bool hits = nearest.primitive != no_primitive;
     if (is_first && planes.depth != nullptr) planes.depth[pixel] = hits ? depth_of(camera, vertex.point) : HUGE_VALF;
     if (is_first && planes.primitive != nullptr) planes.primitive[pixel] = nearest.primitive;
@@ -55,9 +55,10 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
     Vector radiance{0, 0, 0}, throughput{1, 1, 1};
     Media media(scene);
     std::uint32_t reflections = 0, refractions = 0, scatterings = 0;
-    bool was_scattered = false;  // by a diffuse surface, at the vertex before
-    bool was_drawn = false;      // then, or by microfacets, what lights with an area bring
+    bool was_scattered = false;        // by a diffuse lobe, at the previous vertex
+    bool lights_were_sampled = false;  // area lights were sampled at the previous vertex
     for (std::uint32_t vertex_number = 0;; ++vertex_number) {
+        // Find the nearest surface, or end in the background
         const NearestSurface nearest = nearest_surface(scene, ray, source, no_primitive, &passed);
         if (nearest.primitive == no_primitive) {
             const bool shows = !was_scattered || scene.environment.illuminates != 0;
@@ -68,6 +69,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const Optics& optics = scene.optics[vertex.material];
         const bool is_glass = optics.transmission > 0;
 
+        // Absorb light along the segment
         const std::uint32_t own = is_glass && vertex.from_inside ? vertex.material : no_medium;
         const std::uint32_t medium = scene.media_overlap != 0 ? media.current() : own;
         if (medium != no_medium) {
@@ -76,38 +78,44 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
             throughput =
                 times(throughput, {std::exp(-a.x * distance), std::exp(-a.y * distance), std::exp(-a.z * distance)});
         }
-        if (vertex.is_hole) {
+        // Pass masked-out points
+        if (vertex.is_masked_out) {
             passed = {nearest.surface.t, nearest.primitive};
             continue;
         }
-        // what is drawn from lights at one vertex is not found again at the next
-        const bool is_drawn =
-            was_drawn && std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
-                                     [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
-        const bool is_dark = is_drawn || (optics.unlit != 0 && was_scattered);  // what is unlit lights nothing
+        // Add emission, unless the previous vertex sampled this light
+        const bool was_sampled =
+            lights_were_sampled &&
+            std::any_of(scene.area_lights, scene.area_lights + scene.area_light_count,
+                        [&](const AreaLight& light) { return light.primitive == vertex.primitive; });
+        const bool is_dark =
+            was_sampled || (optics.unlit != 0 && was_scattered);  // unlit surfaces are not light sources
         if (vertex.shines && !is_dark) radiance = radiance + times(throughput, vertex.emission);
+        // Add the reflected light of lights
         Chance chance(sample, vertex_number);
         const bool is_front = !(inner(vertex.direction, vertex.normal) > 0);
         const EndingLobes ends = {!is_front || scatterings >= limits.diffuse, reflections >= limits.reflection};
         radiance = radiance + times(throughput, shade(scene, vertex, ends, chance));
 
+        // Choose a lobe
         const Reflectances material = reflectances(scene, vertex);
         const Vector diffuse = material.diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;
-        const Real matt = scene.indirect_light != 0 && is_front ? largest(diffuse) : 0;
+        const Real lambert = scene.indirect_light != 0 && is_front ? largest(diffuse) : 0;
         const Real glossy = material.has_facets ? std::max<Real>(largest(material.f0), Real(0.1)) : 0;
-        if (!(mirror > 0) && !is_glass && !(matt > 0) && !(glossy > 0)) return radiance;
+        if (!(mirror > 0) && !is_glass && !(lambert > 0) && !(glossy > 0)) return radiance;
         const auto random = sample.block(Dimension::scatter, vertex_number);
-        const Real total = mirror + glass + matt + glossy;
+        const Real total = mirror + glass + lambert + glossy;
         const Real place = Real{to_unit_interval<float>(random.word[0])} * total;
-        const bool takes_mirror = mirror > 0 && (place < mirror || (!is_glass && !(matt > 0)));
-        const bool takes_glass = !takes_mirror && is_glass && (place < mirror + glass || !(matt > 0));
-        const bool takes_glossy = glossy > 0 && (place < glossy || !(matt > 0));
+        const bool takes_mirror = mirror > 0 && (place < mirror || (!is_glass && !(lambert > 0)));
+        const bool takes_glass = !takes_mirror && is_glass && (place < mirror + glass || !(lambert > 0));
+        const bool takes_glossy = glossy > 0 && (place < glossy || !(lambert > 0));
         const Vector facing = vertex.facet * (vertex.from_inside ? -1 : 1);
         const Vector normal = vertex.normal * (is_front ? 1 : -1);
+        // Sample a direction and update the throughput
         bool through = false;
         was_scattered = !takes_mirror && !takes_glass && !takes_glossy;
-        was_drawn = was_scattered || (takes_glossy && draws_lights(material));
+        lights_were_sampled = was_scattered || (takes_glossy && samples_lights(material));
         Vector onward{};
         if (takes_glass) {
             Media behind = media;
@@ -130,13 +138,14 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         } else {
             onward = on_hemisphere(normal, chance);
             if (!(inner(onward, facing) > 0)) return radiance;
-            throughput =
-                times(throughput, diffuse * (2 * inner(onward, normal) * uncovered(material, onward) * total / matt));
+            throughput = times(throughput,
+                               diffuse * (2 * inner(onward, normal) * uncovered(material, onward) * total / lambert));
         }
         if (!through && !was_scattered && !takes_glossy) {
             onward = mirrored(vertex.direction, normal);
             if (!(inner(onward, facing) > 0)) onward = mirrored(vertex.direction, facing);
         }
+        // Continue the path, or end it at its limits
         (was_scattered ? scatterings : through ? refractions : reflections) += 1;
         if (reflections > limits.reflection || refractions > limits.refraction || scatterings > limits.diffuse) {
             return radiance;

@@ -1,5 +1,5 @@
-/// The oracle's own paths, in extended precision. What it shares with lib/tandem/kernel is the random numbers, and
-/// so the choices that depend on them.
+/// The paths of the oracle, in extended precision. It shares only the random numbers with lib/tandem/kernel, and so the
+/// choices that depend on them.
 #pragma once
 
 #include "tandem/film/film_planes.h"
@@ -10,11 +10,11 @@
 
 namespace tandem::oracle {
 
-/// Radiance along a camera ray.
+/// The radiance along a camera ray.
 [[nodiscard]] Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,
                                 const Line& camera_ray);
 
-/// Adds to the planes that tell of first hits what a sample of a pixel hits first, behind holes (docs/planes.md).
+/// Adds the first hit of a sample, beyond masked-out surfaces, to the planes of first hits (docs/planes.md).
 /// `is_first`: it is the first sample.
 void add_first_hit(const SceneView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
                    std::size_t pixel, const FilmPlanes& planes);

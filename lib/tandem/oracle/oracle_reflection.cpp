@@ -12,7 +12,7 @@ bool is_of_facets(const SceneView& scene, const Vertex& vertex) {
 
 Vector colour_of(const Vertex& vertex) { return {vertex.picture.r, vertex.picture.g, vertex.picture.b}; }
 
-/// Of microfacets, whichever side is seen.
+/// The reflectances of microfacets, on either side of the surface.
 Reflectances facets_at(const SceneView& scene, const Vertex& vertex) {
     const PhongMaterial& material = scene.materials[vertex.material];
     const Vector base = times(to_vector(material.diffuse), colour_of(vertex));
@@ -26,12 +26,12 @@ Reflectances facets_at(const SceneView& scene, const Vertex& vertex) {
     return facets;
 }
 
-/// Schlick's way from the reflectance head-on to 1, for the microfacets that mirror l to the viewer.
+/// Schlick's factor between the reflectance at normal incidence and 1, for the microfacets that mirror l to the viewer.
 Real grazing(const Reflectances& material, const Vector& l) {
     return std::pow(std::max<Real>(0, 1 - inner(unit(l + material.to_viewer), l)), 5);
 }
 
-/// Smith's Lambda of GGX: facets that are hidden for each that is seen, from a direction with this cosine.
+/// Smith's Lambda of GGX: the ratio of masked to visible facets for a direction with this cosine.
 Real hidden(Real alpha, Real cosine) {
     const Real tangent = std::sqrt(std::max<Real>(0, (1 - cosine) * (1 + cosine))) / cosine;
     return (std::hypot(Real(1), alpha * tangent) - 1) / 2;

@@ -1,4 +1,4 @@
-/// What surfaces reflect, after the papers' formulas: Phong, and GGX by angles.
+/// Reflection by the formulas of the papers: Phong, and GGX by angles.
 #pragma once
 
 #include <algorithm>
@@ -10,37 +10,37 @@ namespace tandem::oracle {
 
 inline Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
 
-/// Phong's reflectances where a path has met a surface; or those of microfacets, without a specular one.
+/// Phong's reflectances at a vertex; or those of microfacets, which have no specular one.
 struct Reflectances {
     Vector ambient, diffuse, specular;
     Real shininess;
     bool has_facets = false;
-    Vector f0{0, 0, 0};  ///< of microfacets: reflectance head-on
-    Real border = 0;     ///< the same of what covers the diffuse base
+    Vector f0{0, 0, 0};  ///< of microfacets: reflectance at normal incidence
+    Real border = 0;     ///< the same for the interface above the diffuse base
     Real alpha = 0;      ///< of GGX
-    Vector to_viewer{};  ///< on the side of the normal for shading
+    Vector to_viewer{};  ///< on the side of the shading normal
 };
 
-/// At a vertex, on the side that is seen.
+/// The reflectances at a vertex, on the visible side.
 [[nodiscard]] Reflectances reflectances(const SceneView& scene, const Vertex& vertex);
 
 /// GGX by angles, as Walter and others write it; times pi and the cosine of the light.
 [[nodiscard]] Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& l);
 
-/// The share of light from l that comes to the diffuse base and back to the viewer.
+/// The share of light from l that passes the interface to the diffuse base and back to the viewer.
 [[nodiscard]] Real uncovered(const Reflectances& material, const Vector& l);
 
-/// Do lights with an area bring light to microfacets by points that are drawn on them? Else paths find them.
-inline bool draws_lights(const Reflectances& material) { return material.alpha > Real(0.3); }
+/// Whether microfacets receive area lights by sampling points on them. Otherwise paths find the lights.
+inline bool samples_lights(const Reflectances& material) { return material.alpha > Real(0.3); }
 
-/// Light of unit intensity from the direction l: after the paper's formula, or from microfacets if these are `seen`.
+/// The reflection of light of unit intensity from the direction l: by the paper's formula, or by microfacets if `seen`.
 [[nodiscard]] Vector reflected(const Reflectances& material, const Vertex& vertex, const Vector& l, bool seen = true);
 
-/// Mirrors the path at a normal of GGX, drawn with the density D cos; returns what it carries on, none if it ends.
+/// Mirrors the path at a GGX normal that is sampled with the density D cos; returns the weight, empty if the path ends.
 [[nodiscard]] Vector reflect_at_facet(const Reflectances& material, const Vertex& vertex, Vector& onward,
                                       Chance& chance);
 
-/// All that a surface reflects and transmits.
+/// The albedo: everything that a surface reflects and transmits.
 [[nodiscard]] Vector albedo_of(const SceneView& scene, const Vertex& vertex);
 
 }  // namespace tandem::oracle

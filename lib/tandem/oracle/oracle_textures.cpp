@@ -14,7 +14,7 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// `p`: from the centre of a globe.
+/// `p`: relative to the centre of the sphere.
 TexturePoint on_globe(const Vector& p) {
     const Real around = std::hypot(p.x, p.z);
     const Real longitude = around > 0 ? std::atan2(p.x, p.z) : 0;
@@ -28,7 +28,7 @@ TexturePoint on_globe(const Vector& p) {
     return at;
 }
 
-/// `p`: in the cube [-1, 1]^3; `face`: the outward normal of the face that it lies on.
+/// `p`: in the cube [-1, 1]^3; `face`: the outward normal of its face.
 TexturePoint on_cube(const Vector& p, const Vector& face) {
     const auto share = [](Real x) { return std::clamp<Real>((x + 1) / 2, 0, 1); };
     TexturePoint at{};
@@ -52,7 +52,8 @@ Vector in_object(const Placement& body, const Vector& v) {
     return {inner(to_vector(m.row[0]), v), inner(to_vector(m.row[1]), v), inner(to_vector(m.row[2]), v)};
 }
 
-/// Directions of the object's space in the world: the inverse of the matrix, by its cofactors, but for its determinant.
+/// The inverse of the matrix, by cofactors, without the division by the determinant: maps object-space directions to
+/// world space.
 void to_world(const Placement& body, TexturePoint& at) {
     const Vector r0 = to_vector(body.object_from_world.row[0]), r1 = to_vector(body.object_from_world.row[1]),
                  r2 = to_vector(body.object_from_world.row[2]);
@@ -63,7 +64,7 @@ void to_world(const Placement& body, TexturePoint& at) {
     at.along_v = turn(at.along_v);
 }
 
-/// Of a face: its corners' coordinates, or those of the whole square.
+/// The coordinates of a face's corners, or those of the unit square.
 TexturePoint on_face(const SceneView& scene, const FaceAttributes& attributes, const Vec3f* position, bool is_quad,
                      const SurfaceHit& hit, std::uint32_t slot) {
     static constexpr Vec2f square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};

@@ -1,17 +1,17 @@
-/// The oracle's own textures, in extended precision.
+/// The textures of the oracle, in extended precision.
 #pragma once
 
 #include "tandem/oracle/oracle_geometry.h"
 
 namespace tandem::oracle {
 
-/// Where a line has met a textured surface.
+/// A hit point on a textured surface.
 struct TexturePoint {
     Real u, v;
-    Vector along_u, along_v;  ///< in which they grow, of any length
+    Vector along_u, along_v;  ///< directions in which u and v grow, of any length
 };
 
-/// `slot`: of a face's values. `exits`: the line comes from within the body.
+/// `slot`: of a face's values. `exits`: the line comes from inside the solid.
 [[nodiscard]] TexturePoint texture_point(const SceneView& scene, std::uint32_t id, const Vector& point,
                                          const SurfaceHit& hit, std::uint32_t slot);
 
@@ -21,7 +21,7 @@ struct Texel {
 };
 [[nodiscard]] Texel sample_texture(const SceneView& scene, const TextureUse& use, const TexturePoint& at);
 
-/// As floats: alphas are compared with one.
+/// Rounded to float, since alphas are compared as floats.
 [[nodiscard]] Real product_of_alphas(Real a, Real b);
 
 /// The base colour of the material of primitive `id`: its texture times the colours of a face's corners.

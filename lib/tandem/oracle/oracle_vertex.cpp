@@ -16,10 +16,10 @@ NearestSurface nearest_surface(const SceneView& scene, const Line& line, const R
                             : source.inside        ? Start::leaving_inward
                                                    : Start::leaving_outward;
         auto hit = hit_primitive(scene, id, line, start);
-        // what it has met before it may cross once more: a body, or a folded quad
+        // a primitive that the path has already hit, a solid or a folded quad, may be hit a second time
         if (hit && !counts(*hit) && start == Start::anywhere) hit = hit_primitive(scene, id, line, Start::before_first);
         if (hit && !counts(*hit)) continue;
-        // ids ascend, so a tie keeps the lower one
+        // ids ascend, so at equal t the lower one stays
         if (hit && (nearest.primitive == no_primitive || hit->t < nearest.surface.t)) nearest = {*hit, id};
     }
     return nearest;
@@ -48,13 +48,13 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
         return texture_point(scene, nearest.primitive, vertex.point, nearest.surface, slot);
     };
     vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
-    vertex.is_hole = product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
+    vertex.is_masked_out = product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
     const Texel facets = sample_texture(scene, textures.metallic_roughness, at(textures.metallic_roughness.slot));
     vertex.roughness *= facets.g;
     vertex.metal *= facets.b;
-    const Texel glow =
+    const Texel emission =
         optics.unlit != 0 ? vertex.picture : sample_texture(scene, textures.emission, at(textures.emission.slot));
-    vertex.emission = times(vertex.emission, {glow.r, glow.g, glow.b});
+    vertex.emission = times(vertex.emission, {emission.r, emission.g, emission.b});
     if (textures.normal.texture != no_texture) {
         const TexturePoint point = at(textures.normal.slot);
         const Texel texel = sample_texture(scene, textures.normal, point);
@@ -78,7 +78,7 @@ bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way,
     while (true) {
         const NearestSurface between = nearest_surface(scene, ray, source, except, &passed);
         if (between.primitive == no_primitive || between.surface.t >= to) return false;
-        if (!vertex_at(scene, ray, between).is_hole) return true;
+        if (!vertex_at(scene, ray, between).is_masked_out) return true;
         passed = {between.surface.t, between.primitive};
     }
 }

@@ -1,4 +1,4 @@
-/// What a ray of the oracle meets.
+/// The path vertices of the oracle.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
@@ -12,44 +12,44 @@ struct NearestSurface {
     std::uint32_t primitive = no_primitive;
 };
 
-/// Up to where a path has passed all hits, in their order: by t, then by id.
+/// The last hit that a path has passed, in the order of t, then id.
 struct Passed {
     Real t = 0;
     std::uint32_t primitive = no_primitive;
 };
 
-/// In front of a line that comes from `source`; ties go to the lower id. Hits on `except` do not count. For the ray of
-/// a path, with `passed`, hits count beyond that, and culled faces are not hit from behind.
+/// The nearest hit in front of a line from `source`; at equal t the lower id wins. Hits on `except` do not count. For
+/// the ray of a path, with `passed`, only later hits count, and culled faces are not hit from behind.
 [[nodiscard]] NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
                                              std::uint32_t except = no_primitive, const Passed* passed = nullptr);
 
-/// A point of a surface that a path has reached.
+/// A vertex of a path.
 struct Vertex {
     Vector point;
     Vector direction;  ///< of the path, unit
-    Vector facet;      ///< the surface's own normal, outward
-    Vector normal;     ///< for shading, as the scene says it
+    Vector facet;      ///< the geometric normal, outward
+    Vector normal;     ///< the shading normal, as given by the scene
     Texel picture{1, 1, 1, 1};
     std::uint32_t primitive = no_primitive;
     std::uint32_t material = 0;
     bool from_inside = false;
-    bool shines = false;  ///< this side emits, if the surface is emissive
-    bool is_hole = false;
+    bool shines = false;  ///< this side emits light if the surface is emissive
+    bool is_masked_out = false;
     Vector emission{0, 0, 0};
     Real roughness = 0, metal = 0;  ///< of microfacets
 };
 
-/// At what the line has met.
+/// The vertex at a hit of the line.
 [[nodiscard]] Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& nearest);
 
-/// What lies within this of the end of a way, relative to its length, lies at the end.
+/// Hits within this distance of the end of a segment, relative to its length, are at the end.
 inline constexpr Real rounding = 0x1p-45L;
 
-/// Does anything but holes and `except` stand on the way from `vertex`, up to `to` times `way`?
+/// Whether anything except masked-out surfaces and `except` blocks the segment from `vertex`, up to `to` times `way`.
 [[nodiscard]] bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
                               std::uint32_t except = no_primitive);
 
-/// Is a light in the direction l on the side of the surface that is looked at, and before the normal for shading?
+/// Whether a light in the direction l is on the visible side of the surface, and above the plane of the shading normal.
 [[nodiscard]] bool is_in_front(const Vertex& vertex, const Vector& l);
 
 }  // namespace tandem::oracle

@@ -1,4 +1,4 @@
-/// The interface that every renderer has: CPU, CUDA, oracle. Five verbs.
+/// The interface of all renderers: CPU, CUDA, oracle.
 #pragma once
 
 #include <memory>
@@ -17,19 +17,19 @@
 namespace tandem {
 
 struct Capabilities {
-    std::string device;       ///< the processor, in words
-    std::string description;  ///< versions of what it stands on, for reports
-    bool exact = true;        ///< promises the bits of the strict tier
+    std::string device;       ///< the name of the processor
+    std::string description;  ///< versions of libraries and drivers, for reports
+    bool exact = true;        ///< guarantees the bits of the tier strict
 };
 
-/// A scene in the memory of a backend, made ready for a tier. Belongs to the backend that loaded it and must not
+/// A scene in the memory of a backend, loaded for one tier. It belongs to the backend that loaded it and must not
 /// outlive it.
 class ResidentScene {
   public:
     explicit ResidentScene(Tier tier) : tier_(tier) {}
     virtual ~ResidentScene() = default;
     [[nodiscard]] Tier tier() const { return tier_; }
-    /// What load() cost.
+    /// The time that load() took.
     [[nodiscard]] virtual PhaseTimes load_times() const = 0;
 
   private:
@@ -45,7 +45,7 @@ struct RenderResult {
 class PendingFrame {
   public:
     virtual ~PendingFrame() = default;
-    /// Waits. Call once.
+    /// Waits for the film. Call once.
     [[nodiscard]] virtual RenderResult get() = 0;
 };
 
@@ -56,19 +56,18 @@ class Backend {
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual Capabilities capabilities() const = 0;
 
-    /// Takes the scene into the backend's memory. Buffers of scenes that were let go are used again.
+    /// Loads the scene into the backend's memory. Buffers of released scenes are reused.
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
-    /// Nearest hits of rays in front of their origins (t > 0), or whether shadow rays are stopped (trace_job.h). Rays
-    /// are in render space: a point of the world is there at render_from_world() (compile/prepared_scene.h). Rays that
-    /// are not traceable (math/ray.h) miss and are counted. Returns the seconds that the tracing itself took, without
-    /// copies.
+    /// Finds the nearest hits of rays in front of their origins (t > 0), or whether shadow rays are blocked
+    /// (trace_job.h). Rays are in render space; render_from_world() (compile/prepared_scene.h) converts points. Rays
+    /// that are not traceable (math/ray.h) miss and are counted. Returns the seconds that tracing took, without copies.
     virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;
     double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) {
         return trace(scene, TraceJob{.rays = rays, .hits = hits});
     }
 
-    /// Starts a frame. A backend may run several at a time; get() returns them in any order.
+    /// Starts a frame. A backend may render several at a time; call get() of each in any order.
     [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                                const RenderJob& job) = 0;
 

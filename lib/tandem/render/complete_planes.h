@@ -1,4 +1,4 @@
-/// What all backends do alike for the planes of a film, when their kernels are done.
+/// Completes the planes of a film after the kernels of any backend.
 #pragma once
 
 #include <span>
@@ -8,7 +8,8 @@
 
 namespace tandem {
 
-/// The numbers of samples, and of primitives as the caller knows them: the backend traced the scene without `copies`.
+/// Fills the sample counts, and maps primitive ids to those of the caller: the backend traced the scene without
+/// `copies`.
 void complete_planes(Film& film, std::span<const PrimitiveCopy> copies);
 
 }  // namespace tandem

@@ -8,7 +8,7 @@ namespace tandem {
 
 namespace {
 
-/// The colours from `low` to `high`.
+/// A range of colours.
 struct ColourRange {
     Vec3f low, high;
 
@@ -16,7 +16,7 @@ struct ColourRange {
         low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
         high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
     }
-    /// A hundredth beyond the range is within.
+    /// Whether a colour is in the range, with a tolerance of a hundredth.
     [[nodiscard]] bool has(const Vec3f& c) const {
         const auto within = [](float value, float from, float to) {
             return value >= 0.99F * from && value <= 1.01F * to;

@@ -1,4 +1,4 @@
-/// Which pixels of a film show something, and which the background.
+/// Tells the foreground of a film from the background.
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
@@ -8,15 +8,15 @@
 
 namespace tandem {
 
-/// What a camera sees where the scene has nothing. Small, and independent of the scene that it is made from.
+/// The background that a camera sees. Small, and independent of the scene that it is made from.
 class Backdrop {
   public:
     /// For films of width x height pixels.
     Backdrop(const PreparedScene& scene, int width, int height);
 
-    /// The means of a film of that size, and black where they are those of the background: in every channel between
-    /// what it has at the corners of the pixel, but for a hundredth, which is for lenses. A picture of the environment
-    /// is part of what is shown.
+    /// The means of a film of that size, with background pixels black: those whose channels are all between the values
+    /// of the background at the corners of the pixel, with a tolerance of a hundredth for lenses. An environment
+    /// picture counts as foreground.
     [[nodiscard]] FloatImage foreground(const Film& film) const;
 
   private:

@@ -26,7 +26,7 @@ void add(PhaseTimes& total, const PhaseTimes& part) {
     total.download += part.download;
 }
 
-/// Appends what is not there yet.
+/// Appends the text unless it is there already.
 void add_once(std::string& list, const std::string& text) {
     if (text.empty() || list.find(text) != std::string::npos) return;
     list += (list.empty() ? "" : "; ") + text;
@@ -34,7 +34,7 @@ void add_once(std::string& list, const std::string& text) {
 
 void add(RenderStats& total, const RenderStats& part) {
     add(total.seconds, part.seconds);
-    // facts of the scene, not something that happened to a sample
+    // these are facts about the scene, so they are not added up over the instants
     const std::uint64_t primitives = std::max(total.counters.dropped_primitives, part.counters.dropped_primitives);
     const std::uint64_t lights = std::max(total.counters.dropped_lights, part.counters.dropped_lights);
     total.counters += part.counters;
@@ -50,12 +50,12 @@ void add(RenderStats& total, const RenderStats& part) {
     total.carried |= part.carried;
 }
 
-/// The instants of one frame on their way through a backend.
+/// The instants of one frame in a backend.
 class Exposure {
   public:
     Exposure(Backend& backend, const FramePlan& plan) : backend_(backend), plan_(plan) {}
     ~Exposure() {
-        // only after an exception: a backend is not left with frames that nobody waits for
+        // Only after an exception: waits for the frames that the backend still renders.
         for (const auto& frame : flying_) {
             try {
                 (void)frame->get();

@@ -1,7 +1,7 @@
-/// Motion blur: a frame is the mean of what the camera sees at several instants of its shutter's interval. Each instant
-/// is a scene of its own, prepared, loaded and rendered, and the films are added. So whatever moves is blurred, the
-/// camera too, by every backend and tier to the bit alike, and kernels know nothing of it.
-/// P. Haeberli, K. Akeley, "The Accumulation Buffer: Hardware Support for High-Quality Rendering", SIGGRAPH 1990.
+/// Motion blur: a frame is the mean over several instants of the shutter interval. Each instant is prepared, loaded and
+/// rendered as a scene of its own, and the films are added. So everything that moves is blurred, the camera too, with
+/// the same bits from every exact backend, and kernels need no support for it. Source: P. Haeberli, K. Akeley, "The
+/// Accumulation Buffer: Hardware Support for High-Quality Rendering", SIGGRAPH 1990.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace tandem {
 
-/// What is rendered of a frame at one moment.
+/// One instant of a frame.
 struct FrameInstant {
     PrepareOptions prepare;
     RenderJob job;  ///< the instant's samples, by their numbers in the frame
@@ -21,30 +21,29 @@ struct FrameInstant {
 
 struct FramePlan {
     std::vector<FrameInstant> instants;  ///< in the order of time and of samples
-    EffectMask effects;                  ///< host_effects that are simulated, or were forced on
+    EffectMask effects;                  ///< host_effects that are simulated, or forced on
 };
 
-/// Does the frame have motion blur? Then its instants have times of their own, one at least.
+/// Whether the frame has motion blur. Then each of its instants has a time of its own.
 [[nodiscard]] inline bool is_blurred(const FramePlan& plan) { return plan.instants.front().prepare.time.has_value(); }
 
-/// The frame `options.frame`. Where nothing moves while the shutter is open, where it does not open, and with
-/// motion_blur forced off, that is one instant, at the time of the frame: `options` and `job` as they are.
+/// Plans the frame `options.frame`. If nothing moves while the shutter is open, if the shutter does not open, or if
+/// motion_blur is forced off, the frame is one instant, at its own time, with `options` and `job` as they are.
 ///
-/// Else there are as many instants as the shutter says, but no more than samples. They share the samples, as equally as
-/// these can be divided: the first ones go to the first instant. Each sample stands for an equal part of the interval,
-/// and an instant is in the middle of the parts of its samples; where they are shared equally, in the middle of an
-/// equal part. A time that is set in `options` is such an instant already. Throws InputError for a scene, camera or job
-/// that cannot be.
+/// Otherwise it has as many instants as the shutter specifies, but no more than samples. The samples are distributed as
+/// evenly as possible, the first ones to the first instant. Each sample stands for an equal part of the interval, and
+/// an instant is in the middle of the parts of its samples. A time that is set in `options` is already such an instant.
+/// Throws InputError for an invalid scene, camera or job.
 [[nodiscard]] FramePlan plan_frame(const Scene& scene, const PrepareOptions& options, const RenderJob& job);
 
-/// SHA-256, in hexadecimal, over what makes the picture: scene_hash() for a frame without blur, else over those of all
-/// its instants and how many samples each has.
+/// SHA-256, in hexadecimal, of what determines the image: scene_hash() for a frame without blur, else the hash of those
+/// of all its instants and their numbers of samples.
 class FrameHash {
   public:
     explicit FrameHash(const FramePlan& plan) : plan_(plan) {}
-    /// In the order of the instants.
+    /// Adds an instant; call it in the order of the instants.
     void add(const PreparedScene& instant) { hashes_.push_back(scene_hash(instant)); }
-    /// After all instants have been added.
+    /// The hash, after all instants have been added.
     [[nodiscard]] std::string get() const;
 
   private:
@@ -56,19 +55,19 @@ class FrameHash {
 [[nodiscard]] std::string frame_hash(const Scene& scene, const FramePlan& plan);
 
 struct RenderedFrame {
-    /// Times, rays and most counters are sums over the instants; effects are those of any, and the plan's; the variants
-    /// are named once each.
+    /// Times, rays and most counters are sums over the instants; effects are those of any instant and of the plan; each
+    /// variant is named once.
     RenderResult result;
-    PhaseTimes load;     ///< what the loads cost together
-    double prepare = 0;  ///< seconds of all preparations, and their hashes; they may overlap with rendering
+    PhaseTimes load;     ///< sums over all loads
+    double prepare = 0;  ///< seconds of all preparations and hashes; they may overlap with rendering
 };
 
-/// Renders a frame. Two instants are with the backend at a time; their films are added in double, in the order of time.
-/// A frame without blur has the bits that Backend::render() gives it. `hash`: if there is one, the instants are added.
+/// Renders a frame. The backend renders two instants at a time; their films are added in double, in the order of time.
+/// A frame without blur has the bits of Backend::render(). The instants are added to `hash` unless it is null.
 [[nodiscard]] RenderedFrame render_frame(Backend& backend, const Scene& scene, const FramePlan& plan,
                                          FrameHash* hash = nullptr);
 
-/// The same for what plan_frame() makes of the options.
+/// Plans and renders a frame.
 [[nodiscard]] RenderedFrame render_frame(Backend& backend, const Scene& scene, const PrepareOptions& options,
                                          const RenderJob& job);
 

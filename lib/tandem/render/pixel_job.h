@@ -1,4 +1,4 @@
-/// From a RenderJob to what kernels read.
+/// Converts a RenderJob to what kernels read.
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
@@ -17,7 +17,7 @@ namespace tandem {
             .limits = job.limits};
 }
 
-/// For the planes of first hits: the first sample alone where no plane is a mean.
+/// The job for the planes of first hits: only the first sample if no plane is a mean.
 [[nodiscard]] inline PixelJob first_hit_job(PixelJob job, PlaneMask planes) {
     if (!planes.has_any(planes_by(PlaneRule::mean))) job.samples = 1;
     return job;

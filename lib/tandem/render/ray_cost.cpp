@@ -35,7 +35,7 @@ double bounds_per_ray(const PreparedScene& scene, int width, int height) {
     const auto rays = rays_over(camera_view(scene.camera, width, height), width, height);
     std::uint64_t crossings = 0;
     for (std::uint64_t i = 0; i < looked_at; ++i) {
-        // one of each stretch of ids, not always the first: ids may follow a pattern
+        // one of each range of ids, but not always the first: ids may follow a pattern
         const std::uint64_t first = i * count / looked_at;
         const std::uint64_t length = (i + 1) * count / looked_at - first;
         const Aabb box = primitive_bounds(scene_view, static_cast<std::uint32_t>(first + i * 40503 % length));

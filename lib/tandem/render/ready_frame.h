@@ -1,4 +1,4 @@
-/// A frame of a backend that renders at once.
+/// A pending frame that is already rendered, for backends that render synchronously.
 #pragma once
 
 #include <utility>

@@ -21,8 +21,8 @@ PathLimits parse_limits(const std::string& text) {
         const bool is_last = limit == &limits.diffuse;
         if (error != std::errc() || (is_last ? stop != end : stop == end || *stop != ',')) {
             throw InputError(
-                fmt::format("the limits of a path are three whole numbers, as in 8,16,4: how many "
-                            "reflections, refractions and scatterings; '{}' is not",
+                fmt::format("the limits of a path are three whole numbers, as in 8,16,4: the "
+                            "reflections, refractions and diffuse bounces; '{}' is something else",
                             text));
         }
         at = stop + 1;
@@ -40,8 +40,9 @@ void check(const RenderJob& job) {
     in_range("height", job.height, 65536);
     in_range("samples per pixel", job.samples, 1 << 24);
     if (job.first_sample < 0 || job.first_sample > (1 << 24) - job.samples) {
-        throw InputError(fmt::format("the first sample is {}, but must be from 0 to {}, 2^24 less the samples",
-                                     job.first_sample, (1 << 24) - job.samples));
+        throw InputError(
+            fmt::format("the first sample is {}, but must be from 0 to {}, which is 2^24 minus the samples",
+                        job.first_sample, (1 << 24) - job.samples));
     }
     for (const auto& [kind, limit] :
          {std::pair{"reflections", job.limits.reflection}, std::pair{"refractions", job.limits.refraction},
@@ -51,7 +52,7 @@ void check(const RenderJob& job) {
     const auto pixels = static_cast<std::uint64_t>(job.width) * static_cast<std::uint64_t>(job.height);
     if (pixels > std::uint64_t{1} << 30) {
         throw InputError(
-            fmt::format("a film of {} x {} has over 2^30 pixels; render it in parts", job.width, job.height));
+            fmt::format("a film of {} x {} has more than 2^30 pixels; render it in parts", job.width, job.height));
     }
 }
 

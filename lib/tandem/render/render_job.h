@@ -1,4 +1,4 @@
-/// What to render.
+/// A request to render a frame.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,22 @@ struct RenderJob {
     int samples = 100;  ///< per pixel, 1 to 2^24
     std::uint64_t seed = 0;
     std::uint32_t frame = 0;   ///< random numbers differ from frame to frame
-    Tier tier = Tier::strict;  ///< the one that the scene was loaded for
+    Tier tier = Tier::strict;  ///< must be the tier that the scene was loaded for
     PathLimits limits{};
-    int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples but for rounding
-    PlaneMask planes{};    ///< that the film is to have beside the colour
+    int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples, except for rounding
+    PlaneMask planes{};    ///< the planes of the film beside the colour
 };
 
-/// "8,16,4": reflections, refractions, diffuse bounces.
+/// Formats limits as "8,16,4": reflections, refractions, diffuse bounces.
 [[nodiscard]] std::string to_string(const PathLimits& limits);
 
-/// The inverse. Throws InputError.
+/// Parses the same. Throws InputError.
 [[nodiscard]] PathLimits parse_limits(const std::string& text);
 
-/// Throws InputError that names the field.
+/// Throws InputError that names an invalid field.
 void check(const RenderJob& job);
 
-/// Also that the job asks for the tier that its scene was loaded for.
+/// The same, and checks that the scene was loaded for the job's tier.
 void check(const RenderJob& job, Tier loaded_for);
 
 }  // namespace tandem

@@ -9,7 +9,7 @@ namespace tandem {
 Specialise parse_specialise(const std::string& text) {
     if (text == "never") return Specialise::never;
     if (text == "always") return Specialise::always;
-    throw InputError(fmt::format("kernels are specialised never or always, not '{}'", text));
+    throw InputError(fmt::format("kernels are specialised 'never' or 'always', not '{}'", text));
 }
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// Where the time of a render went.
+/// Statistics of a render.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@ namespace tandem {
 /// Seconds per phase. A phase that a backend does not have is zero; phases may overlap in time.
 struct PhaseTimes {
     double build = 0;     ///< acceleration structure
-    double compile = 0;   ///< the kernel for the scene; 0 if it was there
+    double compile = 0;   ///< linking the kernel for the scene; 0 if it was loaded already
     double upload = 0;    ///< host to device
     double render = 0;    ///< kernel, or the parallel loop over tiles
     double download = 0;  ///< device to host
 };
 
-/// Things that must not happen but are survived: counted, never hidden. By the same names in every report
+/// Counts of events that should not happen, but do not stop a render. They have the same names in every report
 /// (render/counters.def).
 struct RenderCounters {
 #define TANDEM_COUNTER(name, words) std::uint64_t name = 0;
@@ -35,21 +35,21 @@ struct RenderCounters {
     friend bool operator==(const RenderCounters&, const RenderCounters&) = default;
 };
 
-/// What was counted, in words: one clause per counter that is not zero; empty if all are.
+/// The counters in words: one clause for each that is not zero.
 [[nodiscard]] std::vector<std::string> in_words(const RenderCounters& counters);
 
 struct RenderStats {
     PhaseTimes seconds;
     RenderCounters counters;
-    /// That were traced: of cameras, of paths that go on, and shadow rays; by the oracle, of cameras.
+    /// All rays that were traced: camera rays, path continuations and shadow rays; of the oracle, camera rays only.
     std::uint64_t rays = 0;
     std::size_t device_bytes = 0;
     int registers = 0;     ///< of the kernel, per thread; 0 on the CPU
     double occupancy = 0;  ///< resident warps over the most there can be; 0 on the CPU
     std::string variant;   ///< which compiled code ran, e.g. "x86-64-v3, loop, plain" or "sm_90, bvh, full"
-    EffectMask effects;    ///< that were simulated: what the scene calls for, and what was forced on
-    EffectMask carried;    ///< that the code can simulate beyond those, unused
-    std::string warning;   ///< what did not go as it should, though the film is right; empty if all did
+    EffectMask effects;    ///< simulated: those that the scene needs, and those forced on
+    EffectMask carried;    ///< beyond those, the effects that the code contains but does not use
+    std::string warning;   ///< a problem that did not affect the film; empty if there was none
 };
 
 }  // namespace tandem

@@ -22,7 +22,7 @@ Tier parse_tier(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(#tier);
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
-    throw InputError("no accuracy tier '" + std::string(name) + "'; this build has: " + known);
+    throw InputError("there is no accuracy tier '" + std::string(name) + "'; the tiers are " + known);
 }
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// The accuracy tiers: what arithmetic a render runs in and what it promises (docs/numerics.md).
+/// The accuracy tiers: the arithmetic of a render and its guarantees (docs/tiers.md).
 #pragma once
 
 #include <string>

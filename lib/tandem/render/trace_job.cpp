@@ -16,7 +16,7 @@ void check(const TraceJob& job) {
     };
     fits(job.sources.size(), "sources");
     fits(job.ends.size(), "ends");
-    fits(job.wide_t.size(), "places for t in double");
+    fits(job.wide_t.size(), "elements of wide_t");
 }
 
 }  // namespace tandem

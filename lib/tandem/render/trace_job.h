@@ -1,4 +1,4 @@
-/// Which rays to trace, and where the answers go.
+/// A request to trace rays.
 #pragma once
 
 #include <span>
@@ -9,22 +9,22 @@
 
 namespace tandem {
 
-/// Where a shadow ray ends: only hits at t < `t` count, compared in double, and none on `light`, the primitive that the
-/// ray runs to.
+/// The end of a shadow ray: only hits at t < `t` count, compared in double, and none on `light`, the primitive at the
+/// end of the ray.
 struct RayEnd {
     double t = 0;
     std::uint32_t light = no_primitive;
     std::uint32_t unused = 0;
 };
 
-/// All spans but rays and hits are empty or as long as those.
+/// All spans except rays and hits may be empty; the others have as many elements.
 struct TraceJob {
     std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)
     std::span<Hit> hits;
-    std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (kernel/spawn_ray.h makes both)
+    std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (kernel/spawn_ray.h)
     std::span<const RayEnd> ends{};        ///< not empty: shadow rays. A hit is {0, some_primitive}
     std::span<double> wide_t{};            ///< t before its rounding to float; 0 for a miss and for shadow rays
-    RenderCounters* counters = nullptr;    ///< added to, if there is one: rejected rays, stack overflows
+    RenderCounters* counters = nullptr;    ///< rejected rays and stack overflows are added here unless it is null
 };
 
 /// The rays [first, first + count) of a job, without its counters: parts may run at the same time.
@@ -37,7 +37,7 @@ struct TraceJob {
             .wide_t = cut(job.wide_t)};
 }
 
-/// Throws InputError if sizes differ.
+/// Throws InputError if the sizes differ.
 void check(const TraceJob& job);
 
 }  // namespace tandem

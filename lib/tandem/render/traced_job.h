@@ -1,4 +1,4 @@
-/// Tracing of rays by a backend that has left out a scene's copies (compile/copies.h), so that its ids differ from the
+/// Traces rays with a backend that leaves out a scene's copies (compile/copies.h), so that its ids differ from the
 /// caller's.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace tandem {
 
-/// Calls trace() with the job in the backend's ids, and changes its hits to the caller's. `copies`: of the scene as it
-/// was prepared. Returns what trace() returns.
+/// Calls trace() with the job in the backend's ids, and changes the hits to the caller's. `copies`: those of the
+/// prepared scene. Returns what trace() returns.
 double trace_without_copies(std::span<const PrimitiveCopy> copies, const TraceJob& job,
                             const std::function<double(const TraceJob&)>& trace);
 

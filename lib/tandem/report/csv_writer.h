@@ -1,4 +1,4 @@
-/// The rows of a report as a spreadsheet reads them.
+/// The rows of a report as CSV.
 #pragma once
 
 #include <span>

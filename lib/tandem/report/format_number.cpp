@@ -14,7 +14,7 @@ struct Unit {
     const char* name;
 };
 
-/// In the largest unit that leaves at least 1 before it; the last one takes what is smaller.
+/// Uses the largest unit that gives at least 1; smaller values get the last unit.
 template <std::size_t count>
 std::string in_units(double value, const std::array<Unit, count>& largest_first) {
     const Unit* fitting = &largest_first.back();

@@ -59,10 +59,10 @@ std::string fill_template(std::string_view page, const std::map<std::string, std
         text += page.substr(0, open);
         if (open == std::string_view::npos) return text;
         const std::size_t close = page.find("}}", open);
-        if (close == std::string_view::npos) throw std::logic_error("a template has {{ without }}");
+        if (close == std::string_view::npos) throw std::logic_error("the template has {{ without }}");
         const std::string_view name = page.substr(open + 2, close - open - 2);
         const auto value = values.find(name);
-        if (value == values.end()) throw std::logic_error("a template wants " + std::string(name));
+        if (value == values.end()) throw std::logic_error("the template needs a value for " + std::string(name));
         text += value->second;
         page.remove_prefix(close + 2);
     }

@@ -1,4 +1,4 @@
-/// A report as one page.
+/// A report as one HTML page.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-/// A page that needs nothing but itself: plots are SVG, pictures are data: URIs, styles stand in it, there is no
-/// script. Light or dark as the reader's system is. All text is escaped. At the end stand the machine and all rows.
+/// A self-contained page: plots are SVG, images are data: URIs, styles are inline, and there is no script. It is light
+/// or dark like the reader's system. All text is escaped. The machine and all rows are at the end.
 [[nodiscard]] std::string to_html(const Report& report);
 
 }  // namespace tandem

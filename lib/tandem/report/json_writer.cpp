@@ -142,7 +142,7 @@ const char* kind_name(Callout::Kind kind) {
     return "note";
 }
 
-/// Sorts blocks into the lists of the document; prose stays on the page.
+/// Sorts blocks into the lists of the document; prose is only on the page.
 struct BlockCollector {
     Json& document;
 
@@ -169,7 +169,7 @@ std::string to_json(const Report& report) {
     for (const BenchmarkRow& row : report.rows) document["rows"].push_back(json_of(row));
     for (const Block& block : report.blocks) std::visit(BlockCollector{document}, block);
     for (const Callout& callout : counter_callouts(report)) BlockCollector{document}(callout);
-    // Text from outside (device names) may not be UTF-8; a report must not fail on it.
+    // Device names may not be UTF-8; that must not make a report fail.
     return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,4 +1,4 @@
-/// Plots as data; svg_plot.h draws them.
+/// Plots as data; svg_plot.h renders them.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// A logarithmic axis shows what is not positive at its lower end, marked 0.
+/// A logarithmic axis shows values that are not positive at its lower end, labelled 0.
 struct Axis {
     std::string label;  ///< with the unit
     bool logarithmic = false;

@@ -46,7 +46,7 @@ AxisScale::AxisScale(std::span<const double> values, bool logarithmic, double pi
         least = std::min(least, value);
         most = std::max(most, value);
     }
-    if (least > most) least = most = logarithmic ? 1 : 0;  // nothing to show
+    if (least > most) least = most = logarithmic ? 1 : 0;  // no finite values
     if (logarithmic) {
         cover_logarithmic(least, most, has_zero);
     } else {

@@ -1,4 +1,4 @@
-/// The arithmetic of a plot's axis: range, ticks, and where a value stands.
+/// The range, ticks and positions of a plot's axis.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ struct Tick {
 
 class AxisScale {
   public:
-    /// Covers all finite `values` and ends on ticks. A linear axis of values that are not negative begins at 0; a
-    /// logarithmic one covers whole decades (or 1-2-5 steps below two decades), and one more at the low end if there
-    /// are values that are not positive. `pixels` is the axis' length, low to high.
+    /// Covers all finite `values` and ends on ticks. A linear axis of values that are not negative begins at 0. A
+    /// logarithmic one covers whole decades (or 1-2-5 steps below two decades), and one more at the low end if some
+    /// values are not positive. `pixels` is the length of the axis.
     AxisScale(std::span<const double> values, bool logarithmic, double pixels);
 
     /// Distance from the low end, in pixels, within [0, pixels].

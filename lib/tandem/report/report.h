@@ -20,12 +20,12 @@ struct Paragraph {
     std::string text;
 };
 
-/// A command line, kept as it was typed.
+/// A command line, as typed.
 struct Command {
     std::string text;
 };
 
-/// A sentence that must not be overlooked.
+/// A highlighted sentence.
 struct Callout {
     enum class Kind { good, bad, note };
     Kind kind = Kind::note;
@@ -56,18 +56,19 @@ using Block = std::variant<Heading, Paragraph, Command, Callout, Table, LinePlot
 
 struct Report {
     std::string title;
-    std::string summary;  ///< what the page shows, in a sentence or two
+    std::string summary;  ///< what the page shows, in one or two sentences
     std::string command;  ///< the command line that made it
     Machine machine;
     std::vector<Block> blocks;
-    std::vector<BenchmarkRow> rows;  ///< every measurement, for machines and for who wants to check
-    RenderCounters counters;         ///< of what was rendered and traced beside the rows
-    /// Figures that are not times: hashes, verdicts, thread counts. Name and value, for the JSON file.
+    std::vector<BenchmarkRow> rows;  ///< every measurement, for machines and for checking
+    RenderCounters counters;         ///< of everything rendered and traced outside the rows
+    /// Values that are not times: hashes, verdicts, thread counts. Name and value, for the JSON file.
     std::vector<std::pair<std::string, std::string>> properties;
 };
 
-/// What was counted that must not happen (render/counters.def): a sentence for every row with anything and for what was
-/// beside the rows, or one that nothing was. None for a report without measurements. Every writer shows them.
+/// The counters of events that should not happen (render/counters.def): a sentence for every row that counted any, and
+/// for the work outside the rows, or one sentence that there were none. Empty for a report without measurements. Every
+/// writer shows them.
 [[nodiscard]] std::vector<Callout> counter_callouts(const Report& report);
 
 }  // namespace tandem

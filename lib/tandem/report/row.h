@@ -1,4 +1,4 @@
-/// One row of a benchmark: one thing, measured several times, with everything that is needed to read the number.
+/// One row of a benchmark: one thing, measured several times, with everything needed to interpret the number.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ErrorFigure {
 /// How many times faster than another row of the same report.
 struct Factor {
     std::string over;  ///< label of the other row
-    Ratio ratio;       ///< its time over ours, above 1 when we are faster
+    Ratio ratio;       ///< its time over that of this row; above 1 if this row is faster
 };
 
 struct BenchmarkRow {
@@ -37,33 +37,33 @@ struct BenchmarkRow {
     std::string scene;
     std::string backend;
     std::string variant;  ///< which compiled code ran
-    std::string tier;     ///< empty for what is not Tandem
+    std::string tier;     ///< empty for other programs
     int threads = 0;      ///< 0 where it does not apply
-    EffectMask effects;   ///< that were simulated
-    EffectMask carried;   ///< that the code can simulate beyond those, unused
+    EffectMask effects;   ///< simulated
+    EffectMask carried;   ///< beyond those, contained in the code but unused
 
-    std::vector<double> seconds;       ///< the time that the row is about, one value per measurement
+    std::vector<double> seconds;       ///< the time of the row, one value per measurement
     std::vector<std::int32_t> rounds;  ///< the round (frame) of each measurement
-    std::vector<PhaseTimings> phases;  ///< what it is made of, and what was kept out of it (build, upload)
+    std::vector<PhaseTimings> phases;  ///< its parts, and what is not included (build, upload)
     double samples = 0;                ///< pixel samples per measurement; 0 where it does not apply
     double rays = 0;                   ///< rays per measurement; 0 if not known
     std::optional<Factor> factor;
     std::vector<ErrorFigure> errors;
-    std::vector<std::pair<std::string, double>> figures;  ///< what else was found, by name: "mean FLIP"
+    std::vector<std::pair<std::string, double>> figures;  ///< other results, by name: "mean FLIP"
     RenderCounters counters;                              ///< summed over the measurements
     int registers = 0;                                    ///< of the kernel; 0 if not known
     double occupancy = 0;                                 ///< 0 if not known
     std::string note;
 };
 
-/// By the median time; 0 if the row has no samples or was not measured.
+/// From the median time; 0 if the row has no samples or was not measured.
 [[nodiscard]] double samples_per_second(const BenchmarkRow& row);
 [[nodiscard]] double rays_per_second(const BenchmarkRow& row);
 
-/// The factor of `row` over `baseline`, from the rounds that both were measured in; none if there are none.
+/// The factor of `row` over `baseline`, from the rounds in which both were measured; empty if there are none.
 [[nodiscard]] std::optional<Factor> factor_over(const BenchmarkRow& baseline, const BenchmarkRow& row);
 
-/// The timings of the phase, made if the row does not have it.
+/// The timings of the phase; adds the phase if the row does not have it.
 [[nodiscard]] PhaseTimings& phase(BenchmarkRow& row, const std::string& name);
 
 }  // namespace tandem

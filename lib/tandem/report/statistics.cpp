@@ -26,7 +26,7 @@ std::size_t drawn_index(std::uint32_t seed, std::uint32_t resample, std::uint32_
     return static_cast<std::size_t>((std::uint64_t{block.word[0]} * count) >> 32);
 }
 
-/// Value at `share` of the way through `sorted`, between neighbours in proportion.
+/// The quantile `share` of `sorted`, interpolated linearly.
 double quantile(const std::vector<double>& sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(place);

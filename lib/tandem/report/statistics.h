@@ -1,4 +1,4 @@
-/// Statistics of repeated timings: robust centre and spread, and how sure a ratio of two of them is.
+/// Statistics of repeated timings: robust centre and spread, and confidence intervals of ratios.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace tandem {
 
-/// Middle value; mean of the two middle ones for an even count. Needs at least one value.
+/// The middle value; for an even count the mean of the two middle ones. Needs at least one value.
 [[nodiscard]] double median(std::span<const double> values);
 
-/// Median of the distances to the median, not scaled: half of the values lie within it.
+/// The median of the distances to the median, not scaled: half of the values lie within it.
 [[nodiscard]] double median_absolute_deviation(std::span<const double> values);
 
-/// What a table says about repeated measurements of one thing. All zero if there are none.
+/// A summary of repeated measurements of one thing. All zero if there are none.
 struct Summary {
     std::size_t count = 0;
     double median = 0;
@@ -34,7 +34,7 @@ struct Interval {
 /// A ratio of two medians.
 struct Ratio {
     double value = 0;
-    std::optional<Interval> interval;  ///< none with fewer than three pairs: they cannot carry one
+    std::optional<Interval> interval;  ///< empty for fewer than three pairs, which are too few
     std::size_t pairs = 0;
 };
 
@@ -44,15 +44,15 @@ struct BootstrapOptions {
     std::uint32_t seed = 1;  ///< the same seed gives the same interval, on every machine
 };
 
-/// median(numerator) / median(denominator). Value i of both was measured in the same round, so whole rounds are drawn
-/// again: what slows both (clocks, other load) does not widen the interval. Percentile bootstrap; with fewer than
-/// about ten rounds it covers somewhat less than it says. Sizes must be equal and not zero, values positive.
+/// median(numerator) / median(denominator), with a percentile bootstrap interval. Value i of both was measured in the
+/// same round, so whole rounds are resampled: disturbances of both (clocks, other load) do not widen the interval. With
+/// fewer than about ten rounds it covers somewhat less than nominal. Sizes must be equal and not zero, values positive.
 /// Source: B. Efron, R. Tibshirani, "An Introduction to the Bootstrap", 1993, ch. 13.
 [[nodiscard]] Ratio ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
                                      const BootstrapOptions& options = {});
 
-/// In which order a round measures `variants` things: first to last, in the next round last to first (A B, B A), so
-/// that a drift of the machine falls on all alike.
+/// The order in which a round measures `variants` things: first to last, in the next round last to first (A B, B A), so
+/// that a drift of the machine affects all equally.
 [[nodiscard]] std::vector<std::size_t> interleaved_order(std::size_t variants, std::size_t round);
 
 }  // namespace tandem

@@ -17,7 +17,7 @@ namespace {
 constexpr double width = 860;
 constexpr int colours = 6;                ///< classes c0 to c5 of the page
 constexpr std::size_t most_marked = 200;  ///< longer lines get no dots with tooltips
-constexpr double letter = 7;              ///< about the width of a letter, pixels
+constexpr double letter = 7;              ///< approximate width of a letter, pixels
 constexpr double line_plot_height = 260;  ///< of the area inside the axes
 constexpr double line_plot_left = 70;     ///< room for tick labels and the axis' name
 constexpr double legend_line = 20;
@@ -43,7 +43,7 @@ std::string svg_element(double height, const std::string& title, const std::stri
                        width, height, escape_html(title), content);
 }
 
-/// Legend lines from the top; returns the height that they take.
+/// Adds legend lines from the top; returns their height.
 double draw_legend(const LinePlot& plot, std::string& svg) {
     double x = line_plot_left;
     double y = legend_line;

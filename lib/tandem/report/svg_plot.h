@@ -1,4 +1,4 @@
-/// Plots as SVG elements that stand inside a page and take its colours (the classes of html_writer.cpp).
+/// Plots as SVG elements inside a page, whose colours they use (the classes of html_writer.cpp).
 #pragma once
 
 #include <string>

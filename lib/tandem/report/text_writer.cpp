@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t line_width = 118;
 
-/// Characters on a terminal; all of ours are one column wide.
+/// The width on a terminal: all characters that we use are one column wide.
 std::size_t columns_of(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }

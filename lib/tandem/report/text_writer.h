@@ -1,4 +1,4 @@
-/// A report for a terminal.
+/// A report as plain text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tandem {
 
-/// Headings, paragraphs, callouts and tables as plain text; plots and pictures are left to the page.
+/// Headings, paragraphs, callouts and tables as plain text, for a terminal; plots and images are only on the page.
 [[nodiscard]] std::string to_text(const Report& report);
 
 }  // namespace tandem

@@ -12,7 +12,7 @@ namespace {
 
 using Value = std::array<double, 4>;
 
-/// Which keys surround a time, and where between them, in [0, 1].
+/// The keys around a time, and the position between them, in [0, 1].
 struct KeySpan {
     std::size_t first;
     std::size_t second;
@@ -47,7 +47,7 @@ Value slerp(const Value& a, Value b, double fraction) {
     return result;
 }
 
-/// Which of the numbers of a key. Keys of other than cubic channels have values alone.
+/// The groups of numbers of a key. Only keys of cubic channels have tangents.
 enum class KeyPart : std::size_t { in_tangent, value, out_tangent };
 
 Value part_of_key(const AnimationChannel& channel, std::size_t key, KeyPart part) {
@@ -83,15 +83,15 @@ Value sample(const AnimationChannel& channel, double time) {
     return v;
 }
 
-/// Are the values of a key and the one behind it the same? A quaternion and its negative are one rotation.
+/// Whether a key and the next one have the same value. A quaternion and its negative are one rotation.
 bool keep_value(const AnimationChannel& channel, std::size_t key) {
     const Value a = part_of_key(channel, key, KeyPart::value);
     const Value b = part_of_key(channel, key + 1, KeyPart::value);
     return a == b || (channel.path == AnimatedPath::rotation && a == Value{-b[0], -b[1], -b[2], -b[3]});
 }
 
-/// Is the value the same all the way from a key to the one behind it? Between cubic keys it is a constant and three
-/// independent polynomials: the difference of the values and the two tangents weigh them.
+/// Whether the value is constant from a key to the next one. Between cubic keys it is a constant plus three independent
+/// polynomials, weighted by the difference of the values and the two tangents.
 bool stays(const AnimationChannel& channel, std::size_t key) {
     if (!keep_value(channel, key)) return false;
     return channel.interpolation != Interpolation::cubic ||

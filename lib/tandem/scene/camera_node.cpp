@@ -27,7 +27,7 @@ std::string camera_names(const Scene& scene) {
 std::size_t camera_node(const Scene& scene, const std::string& name) {
     if (const auto found = find_camera(scene, name)) return *found;
     if (name.empty()) {
-        throw InputError("the scene has no camera; add a node with one, or take frame_scene() (scene/framing.h)");
+        throw InputError("the scene has no camera; add a node with one, or use frame_scene() (scene/framing.h)");
     }
     throw InputError(fmt::format("the scene has no camera '{}'; it has {}", name, camera_names(scene)));
 }

@@ -1,4 +1,4 @@
-/// Which values the corners of faces carry, by material: no more than its textures and the colours of its meshes need.
+/// The values at the corners of faces, by material: only those that its textures and the colours of its meshes need.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct CornerSlots {
 /// The sets of texture coordinates that a material's textures use, ascending.
 [[nodiscard]] std::vector<std::uint32_t> texcoord_sets(const Material& material);
 
-/// Of all materials.
+/// The slots of all materials.
 [[nodiscard]] std::vector<CornerSlots> corner_slots(const Scene& scene);
 
 }  // namespace tandem

@@ -16,18 +16,18 @@ namespace tandem {
 
 namespace {
 
-/// Mean radiance of the surfaces from which a scene counts as lit by them.
-constexpr double enough_glow = 0.2;
+/// A scene whose surfaces have a higher mean radiance counts as lit by them.
+constexpr double enough_emission = 0.2;
 
 const Environment sky = {{0.11F, 0.115F, 0.13F}, {0.30F, 0.335F, 0.39F}, {1, 1, 1}, 1};
 constexpr float key_intensity = 0.52F;
 constexpr float fill_intensity = 0.1F;
-/// To the key light, along the camera's right, up and backward.
+/// The direction to the key light, along the camera's right, up and backward axes.
 constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
 
 double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
-/// Square metres, in the world. Of an ellipsoid that of the sphere of its volume.
+/// Square metres, in world space. For an ellipsoid, the area of the sphere with its volume.
 double area_of(const Scene& scene, const Shape& shape, const Matrix3& m) {
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
         const double radius = sphere->radius * accurate_cbrt(std::abs(determinant(m)));
@@ -55,7 +55,7 @@ double area_of(const Scene& scene, const Shape& shape, const Matrix3& m) {
     return area;
 }
 
-/// The mean of red, green and blue over a picture, linear.
+/// The mean of red, green and blue over an image, linear.
 double mean_level(const Image& image) {
     const std::vector<float> levels = texture_levels();
     double sum = 0;
@@ -65,7 +65,7 @@ double mean_level(const Image& image) {
     return sum / (3.0 * static_cast<double>(image.texels.size()));
 }
 
-/// The mean radiance of the surface of each material. A picture is looked at once, however many materials show it.
+/// The mean radiance of the surface of each material. Each image is read only once, however many materials use it.
 std::vector<double> radiance_of_materials(const Scene& scene) {
     std::vector<double> level(scene.images.size(), -1);
     std::vector<double> radiance;
@@ -95,7 +95,7 @@ double mean_glow(const Scene& scene) {
     return area > 0 ? total / area : 0;
 }
 
-/// Is there a surface whose picture depends on light?
+/// Whether there is a surface that reflects light.
 bool needs_light(const Scene& scene) {
     return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
         return std::any_of(node.geometry.begin(), node.geometry.end(),
@@ -108,7 +108,7 @@ bool needs_light(const Scene& scene) {
 bool has_light(const Scene& scene) {
     const auto shines = [](const Node& node) { return node.light && is_lit(*node.light); };
     return !needs_light(scene) || std::any_of(scene.nodes.begin(), scene.nodes.end(), shines) ||
-           mean_glow(scene) > enough_glow;
+           mean_glow(scene) > enough_emission;
 }
 
 void add_default_light(Scene& scene, std::size_t camera) {

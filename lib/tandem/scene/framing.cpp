@@ -18,7 +18,7 @@ namespace tandem {
 namespace {
 
 constexpr double vertical_angle = 40 * pi / 180;
-/// Of half the height, or width, of the film: what the scene fills.
+/// The fraction of the film's height, or width, that the scene fills.
 constexpr double fill = 0.9;
 
 /// Degrees. The azimuth turns from the front (+z) to the right (+x).
@@ -42,22 +42,22 @@ const View* find_view(const std::string& name) {
     return found == std::end(views) ? nullptr : found;
 }
 
-/// From 0 below `lower` to 1 above `upper`.
+/// Rises from 0 at `lower` to 1 at `upper`.
 double ramp(double x, double lower, double upper) { return std::clamp((x - lower) / (upper - lower), 0.0, 1.0); }
 
 int rounded(double degrees) { return static_cast<int>(std::lround(degrees)); }
 
-/// The flatter the scene, the higher the camera: in degrees.
+/// The elevation of the camera, higher for flatter scenes: in degrees.
 int elevation_for(const Vec3d& size) {
     const double across = std::sqrt(size.x) * std::sqrt(size.z);
     const double flatness = across > 0 ? size.y / across : 1;
     return rounded(50 - 30 * ramp(flatness, 0.05, 0.4));
 }
 
-/// A deep and narrow scene shows little from the front: in degrees.
+/// The azimuth for a deep and narrow scene, of which the front shows little: in degrees.
 int azimuth_for(const Vec3d& size) { return rounded(40 * ramp(size.z, 2 * size.x, 5 * size.x)); }
 
-/// Axes of a camera in world space, as camera_axes() has them.
+/// The axes of a camera in world space, as from camera_axes().
 Matrix3 axes_at(int azimuth, int elevation) {
     const auto [sin_a, cos_a] = sin_cos_turns<float>(azimuth / 360.0);
     const auto [sin_e, cos_e] = sin_cos_turns<float>(elevation / 360.0);
@@ -79,7 +79,7 @@ class Sight {
     Sight(const SurfaceReach& reach, const Vec3d& middle, const Vec3d& backward)
         : reach_(reach), middle_(middle), backward_(backward) {}
 
-    /// Of what is nearest to the camera, along the backward axis.
+    /// The position of the nearest point to the camera, along the backward axis.
     [[nodiscard]] double front() const { return along({backward_})[0]; }
 
     [[nodiscard]] Fit fit(const Vec3d& across, double slope) const {
@@ -87,8 +87,8 @@ class Sight {
         return {slope, (most[0] - most[1]) / 2, (most[0] + most[1]) / (2 * slope)};
     }
 
-    /// Where the camera is along `across` if it is farther away than it need be for `tight`: what does not fill the
-    /// film stands in its middle. Finds the slope at which it would fill it.
+    /// The camera's position along `across` if it is farther away than `tight` requires: centres an object that does
+    /// not fill the film, by finding the slope at which it would.
     [[nodiscard]] double centre(const Vec3d& across, Fit tight, double distance) const {
         for (int i = 0; i < 8 && tight.distance > 0 && tight.distance < 0.99 * distance; ++i) {
             tight = fit(across, tight.slope * tight.distance / distance);
@@ -107,7 +107,7 @@ class Sight {
     Vec3d middle_, backward_;
 };
 
-/// The scene at the first moment at which it shows something.
+/// The scene at the first time at which it has visible surfaces.
 SurfaceReach reach_of(const Scene& scene) {
     const std::int32_t last = frame_count(scene) - 1;
     for (const std::int32_t frame : {0, last / 2}) {
@@ -127,7 +127,7 @@ Bounds bounds_of(const SurfaceReach& reach) {
     return {-Vec3d{most[3], most[4], most[5]}, {most[0], most[1], most[2]}};
 }
 
-/// Far enough from the limit of coordinates that the camera keeps it too.
+/// Whether the scene is so far within the limit of coordinates that the camera is within it too.
 bool can_be_framed(const Bounds& bounds) {
     constexpr double most = 1e17;
     for (int i = 0; i < 3; ++i) {
@@ -144,14 +144,14 @@ Vec3d place_camera(const SurfaceReach& reach, const Bounds& bounds, const Matrix
     const double slope = fill * accurate_tan(vertical_angle / 2);
     const Fit width = sight.fit(right, slope * aspect);
     const Fit height = sight.fit(up, slope);
-    // a line that is seen end-on fits into every picture, and so does a point: the camera keeps off them
+    // a line seen end-on fits into any film, and so does a point: the camera keeps a distance
     const double gap = norm1(size) > 0 ? 0.05 * norm1(size) : std::max(1.0, 1e-3 * norm1(middle));
     const double distance = std::max({sight.front() + gap, width.distance, height.distance});
     return middle + right * sight.centre(right, width, distance) + up * sight.centre(up, height, distance) +
            backward * distance;
 }
 
-/// Stands in for what cannot be framed.
+/// Used if the scene cannot be framed.
 Scene cube() {
     Scene scene;
     scene.nodes.resize(1);
@@ -172,7 +172,7 @@ bool is_view(const std::string& name) { return find_view(name) != nullptr; }
 Framing frame_scene(const Scene& scene, const std::string& name, double aspect) {
     const DefaultFpEnvironment guard;
     const View* view = find_view(name);
-    if (view == nullptr) throw InputError(fmt::format("there is no view '{}'; take one of {}", name, view_names()));
+    if (view == nullptr) throw InputError(fmt::format("there is no view '{}'; the views are {}", name, view_names()));
     if (!(aspect > 0 && std::isfinite(aspect))) {
         throw InputError(fmt::format("a film whose width is {} times its height cannot be framed", aspect));
     }

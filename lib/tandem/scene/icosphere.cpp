@@ -29,7 +29,7 @@ Mesh icosphere(int level) {
             add({b, 0, a});
         }
     }
-    // the faces of the icosahedron join corners at the distance of neighbours
+    // the faces of the icosahedron join triples of neighbouring corners
     const auto are_neighbours = [&](std::uint32_t i, std::uint32_t k) { return dot(points[i], points[k]) > 0.4; };
     for (std::uint32_t a = 0; a < 12; ++a) {
         for (std::uint32_t b = a + 1; b < 12; ++b) {

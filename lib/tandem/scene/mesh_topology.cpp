@@ -8,7 +8,7 @@ namespace tandem {
 
 namespace {
 
-/// By vertex: the first vertex at the same position.
+/// For each vertex, the first vertex at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Vec3f>& positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> welded(const std::vector<Vec3f>& positions) {
     return first;
 }
 
-/// An edge between two vertices, and whether it is walked from the lower one.
+/// An edge between two vertices, and whether it runs from the lower index to the higher one.
 struct Edge {
     std::uint32_t low, high;
     bool forward;
@@ -50,12 +50,12 @@ class Walker {
             const std::uint32_t from = vertex_[face[i]], to = vertex_[face[(i + 1) % corners]];
             if (from != to) edges_.push_back({std::min(from, to), std::max(from, to), from < to});
         }
-        // signed volumes over any point: the first vertex keeps the numbers small
+        // signed volumes relative to any point; the first vertex keeps the numbers small
         const auto corner = [&](std::size_t i) { return widen(mesh_.positions[face[i]]) - widen(mesh_.positions[0]); };
         for (std::size_t i = 2; i < corners; ++i) volume_ += dot(corner(0), cross(corner(i - 1), corner(i)));
     }
 
-    /// Is every edge walked as often forward as backward?
+    /// Whether every edge occurs as often forward as backward.
     bool is_balanced() {
         std::sort(edges_.begin(), edges_.end(),
                   [](const Edge& a, const Edge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
@@ -73,7 +73,7 @@ class Walker {
     const Mesh& mesh_;
     std::vector<std::uint32_t> vertex_;
     std::vector<Edge> edges_;
-    double volume_ = 0;  ///< six times
+    double volume_ = 0;  ///< six times the volume
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<std::size_t> nodes_in_motion(const Scene& scene, std::size_t camera,
     for (const AnimationChannel& channel : scene.animation) {
         if (changes_between(channel, time + shutter.open, time + shutter.close)) moves[channel.node] = true;
     }
-    bool is_empty = true;  // then lights shine on nothing
+    bool is_empty = true;  // then no light matters
     for (const std::size_t i : parents_first(scene)) {
         const Node& node = scene.nodes[i];
         if (node.parent != Node::no_parent && moves[static_cast<std::size_t>(node.parent)]) moves[i] = true;

@@ -1,4 +1,4 @@
-/// What moves while a camera's shutter is open.
+/// Finds the nodes that move while a camera's shutter is open.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@
 
 namespace tandem {
 
-/// The nodes whose motion within the shutter's interval a frame at `time`, in seconds, shows: the camera's, first, and
-/// those with primitives or with lights that shine on some. A node moves if a channel that drives it, or an ancestor of
-/// it, takes different values between opening and closing: all keys are considered, so no motion is missed, however
-/// short. Motions that cancel each other count as motion. Empty where the shutter is closed. The scene must be valid.
+/// The nodes whose motion within the shutter interval is visible in a frame at `time` seconds: first the camera's, then
+/// those with primitives, and those with lights if there are primitives. A node moves if a channel that drives it, or
+/// an ancestor of it, takes different values between opening and closing: all keys are considered, so no motion is
+/// missed, however short. Motions that cancel each other count as motion. Empty if the shutter is closed. The scene
+/// must be valid.
 [[nodiscard]] std::vector<std::size_t> nodes_in_motion(const Scene& scene, std::size_t camera, double time);
 
 }  // namespace tandem

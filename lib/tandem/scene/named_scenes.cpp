@@ -48,7 +48,7 @@ Material phong(std::string name, const Vec3f& diffuse) {
     return {std::move(name), {diffuse * 0.1F, diffuse, {1, 1, 1}, 32}};
 }
 
-/// One linear key per frame and one more that closes the circle. `position` maps an angle to a place.
+/// One linear key per frame and one more that closes the circle. `position` maps an angle to a position.
 template <class Position>
 AnimationChannel circling(std::uint32_t node, double frames_per_second, Position position) {
     AnimationChannel channel;
@@ -66,7 +66,7 @@ AnimationChannel circling(std::uint32_t node, double frames_per_second, Position
 Scene paper() {
     Scene scene;
     scene.name = "paper";
-    scene.display.transfer = TransferFunction::linear;  // as the paper wrote its pictures
+    scene.display.transfer = TransferFunction::linear;  // as in the paper
     scene.materials = {phong("red", {0.8F, 0.2F, 0.2F}), phong("green", {0.2F, 0.8F, 0.2F}),
                        phong("blue", {0.2F, 0.2F, 0.8F}), phong("yellow", {0.8F, 0.8F, 0.2F})};
     scene.nodes = {camera_node({0, 0, 0}),
@@ -83,7 +83,7 @@ Scene paper() {
     return scene;
 }
 
-/// A ball of the Earth's size, seen from a man's height, with small ones lying on it.
+/// A sphere of the Earth's size, seen from eye level, with small spheres on it.
 Scene planet() {
     constexpr double radius = 6.4e6, eye = 1.75;
     Scene scene;
@@ -100,7 +100,7 @@ Scene planet() {
     return scene;
 }
 
-/// The paper's scene from 100 km away, as large in the picture as from near by.
+/// The paper's scene from 100 km away, as large in the image as from nearby.
 Scene telescope() {
     constexpr double distance = 1e5;
     Scene scene = paper();
@@ -110,7 +110,7 @@ Scene telescope() {
     return scene;
 }
 
-/// Uniform numbers of object `index`; counter-based, so that an object does not depend on the others.
+/// Uniform random numbers of object `index`; counter-based, so that an object does not depend on the others.
 class ObjectNumbers {
   public:
     ObjectNumbers(std::uint32_t seed, std::uint32_t index) : seed_(seed), index_(index) {}
@@ -138,7 +138,8 @@ class ObjectNumbers {
     std::uint32_t draw_ = 0;
 };
 
-/// The frame of spheres/N and its kin: camera, light and eight materials; objects go into one node per material.
+/// The common part of spheres/N and similar scenes: camera, light and eight materials; objects go into one node per
+/// material.
 Scene crowd(std::string name) {
     Scene scene;
     scene.name = std::move(name);
@@ -159,7 +160,7 @@ void add_instances(Scene& scene, std::string name, Shape shape, std::uint32_t ma
     scene.nodes.push_back(std::move(node));
 }
 
-/// Which placements a crowd has.
+/// The kinds of placements in a scene of many objects.
 struct Placements {
     bool spheres, boxes, ellipsoids, parallelepipeds;
 };
@@ -194,7 +195,7 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
-/// `count` faces of random shape, in one mesh per colour; `corners` is 3 or 4. Quads are parallelograms, but for the
+/// `count` faces of random shape, in one mesh per colour; `corners` is 3 or 4. Quads are parallelograms, except for the
 /// rounding of their corners. All are double-sided.
 Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t seed, std::uint32_t corners) {
     Scene scene = crowd(name);
@@ -228,7 +229,7 @@ Scene one_icosphere(const std::string& name, int level) {
     return scene;
 }
 
-/// "123" -> 123, within [least, most]; nothing if it is not a number or out of range.
+/// Parses "123" within [least, most]; empty if it is not a number or out of range.
 std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t most, std::uint32_t least = 1) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -274,8 +275,9 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
         }
     }
-    throw InputError(fmt::format("no scene is named '{}'; there are {} (N from 1 to 100000000, LEVEL from 0 to 10)",
-                                 name, fmt::join(scene_names(), ", ")));
+    throw InputError(
+        fmt::format("there is no scene '{}'; the scenes are {} (N from 1 to 100000000, LEVEL from 0 to 10)", name,
+                    fmt::join(scene_names(), ", ")));
 }
 
 }  // namespace tandem

@@ -13,15 +13,15 @@ namespace tandem {
 ///   paper                    the paper's scene (docs/paper.md)
 ///   spheres/N  spheres/N/S   N spheres, uniform in [-1, 1]^3, radius 0.6 / cbrt(N); seed S (1)
 ///   boxes/N    boxes/N/S     N boxes of random size and orientation
-///   mixed/N mixed/N/S spheres, boxes, ellipsoids and parallelepipeds in turn triangles/N quads/N and
-///   with /S N single faces of random size and orientation, seen from both sides icosphere/LEVEL a
-///   sphere of 20 * 4^LEVEL triangles, LEVEL from 0 to 10, with smooth normals hard/planet a sphere of
-///   6400 km, seen from 1.75 m above it hard/telescope the paper's scene from 100 km away, with as
-///   narrow a view
+///   mixed/N    mixed/N/S     spheres, boxes, ellipsoids and parallelepipeds in turn
+///   triangles/N  quads/N     N single, double-sided faces of random size and orientation; also with /S
+///   icosphere/LEVEL          a sphere of 20 * 4^LEVEL triangles, LEVEL from 0 to 10, with smooth normals
+///   hard/planet              a sphere of 6400 km, seen from 1.75 m above it
+///   hard/telescope           the paper's scene from 100 km away, with a narrow view
 /// Throws InputError with the list of names.
 [[nodiscard]] Scene named_scene(std::string_view name);
 
-/// The patterns that named_scene() knows, for usage texts.
+/// The patterns of scene names, for usage texts.
 [[nodiscard]] std::vector<std::string> scene_names();
 
 }  // namespace tandem

@@ -1,11 +1,11 @@
-/// How transforms turn normals.
+/// The matrix that transforms normals.
 #pragma once
 
 #include "tandem/math/transform.h"
 
 namespace tandem {
 
-/// det(m) * inverse(transpose(m)), up to a positive factor; of any m: it turns normals as m turns points.
+/// det(m) * inverse(transpose(m)), up to a positive factor, for any m: it transforms normals as m transforms points.
 [[nodiscard]] Matrix3 normal_matrix(const Matrix3& m);
 
 }  // namespace tandem

@@ -23,14 +23,14 @@ std::string node_label(const Scene& scene, std::size_t index) {
 bool is_number(double a) { return std::isfinite(a) && std::abs(a) <= coordinate_limit; }
 bool is_number(const Vec3d& a) { return is_number(a.x) && is_number(a.y) && is_number(a.z); }
 bool is_number(const Quaternion& q) { return is_number(q.x) && is_number(q.y) && is_number(q.z) && is_number(q.w); }
-/// Three numbers in [0, 1]?
+/// Whether all three numbers are in [0, 1].
 bool is_share(const Vec3f& a) {
     const auto good = [](float x) { return x >= 0 && x <= 1; };
     return good(a.x) && good(a.y) && good(a.z);
 }
 bool is_zero(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
 
-/// Collects sentences.
+/// Collects the problems, one sentence each.
 class Problems {
   public:
     explicit Problems(const Scene& scene) : scene_(scene) {}
@@ -43,7 +43,8 @@ class Problems {
         require(is_number(trs.translation), where, "has a translation that is not finite or beyond 1e18");
         require(is_number(trs.scale), where, "has a scale that is not finite or beyond 1e18");
         require(is_number(trs.rotation), where, "has a rotation that is not finite");
-        require(!is_zero(trs.rotation), where, "has the rotation (0, 0, 0, 0), which is none; use (0, 0, 0, 1)");
+        require(!is_zero(trs.rotation), where,
+                "has the rotation (0, 0, 0, 0), which is not a rotation; use (0, 0, 0, 1)");
     }
 
     void check_node(std::size_t index) {
@@ -61,8 +62,8 @@ class Problems {
             const Vec3f c = node.light->colour;
             const float i = node.light->intensity;
             require(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0 && c.y >= 0 && c.z >= 0,
-                    where, "has a light whose colour is not three numbers of 0 or more");
-            require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a number of 0 or more");
+                    where, "has a light whose colour is not three finite numbers >= 0");
+            require(std::isfinite(i) && i >= 0, where, "has a light whose intensity is not a finite number >= 0");
             const auto overflows = [i](float colour) { return std::isfinite(colour) && std::isinf(colour * i); };
             require(!std::isfinite(i) || !(overflows(c.x) || overflows(c.y) || overflows(c.z)), where,
                     "has a light whose colour times intensity is beyond 3.4e38");
@@ -70,21 +71,21 @@ class Problems {
                         (node.light->inner_cone >= 0 && node.light->inner_cone < node.light->outer_cone &&
                          node.light->outer_cone <= 1.5707963267948967),
                     where, "has a spot light whose angles are not 0 <= inner < outer <= pi / 2");
-            require(
-                node.light->kind != LightKind::spot ||
-                    std::isfinite(light_cone(node.light->inner_cone, node.light->outer_cone).scale),
-                where,
-                "has a spot light whose cone is narrower than 1e-150, or whose two angles are too near to each other");
+            require(node.light->kind != LightKind::spot ||
+                        std::isfinite(light_cone(node.light->inner_cone, node.light->outer_cone).scale),
+                    where,
+                    "has a spot light whose cone is narrower than 1e-150 rad, or whose two angles are too close to "
+                    "each other");
         }
     }
 
-    /// Linear in the number of nodes, however deep the tree is.
+    /// Finds cycles of parents, in time linear in the number of nodes.
     void check_hierarchy() {
         const std::vector<Node>& nodes = scene_.nodes;
         const auto has_parent = [&](std::size_t i) {
             return nodes[i].parent >= 0 && static_cast<std::size_t>(nodes[i].parent) < nodes.size();
         };
-        // a walk upwards that meets itself is a cycle; where it meets an earlier walk, all is known already
+        // a walk upwards that reaches itself is a cycle; one that reaches an earlier walk can stop
         std::vector<std::size_t> walk_of(nodes.size(), nodes.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             require(nodes[i].parent == Node::no_parent || has_parent(i), node_label(scene_, i),
@@ -114,16 +115,16 @@ class Problems {
         require(optics.ior >= 1e-3F && optics.ior <= 1e3F, where, "has a refractive index outside [0.001, 1000]");
         const auto positive = [](float a) { return a >= 0 && std::isfinite(a); };
         require(positive(optics.absorption.x) && positive(optics.absorption.y) && positive(optics.absorption.z), where,
-                "has an absorption that is not three numbers of 0 or more");
+                "has an absorption that is not three finite numbers >= 0");
         require(positive(optics.emission.x) && positive(optics.emission.y) && positive(optics.emission.z), where,
-                "has an emission that is not three numbers of 0 or more");
+                "has an emission that is not three finite numbers >= 0");
         require(optics.priority <= 127, where, "has a dielectric priority above 127");
         if (!material.microfacets) return;
         const auto is_part = [](float a) { return a >= 0 && a <= 1; };
-        require(is_part(material.microfacets->metallic), where, "has a share of metal outside [0, 1]");
+        require(is_part(material.microfacets->metallic), where, "has a metalness outside [0, 1]");
         require(is_part(material.microfacets->roughness), where, "has a roughness outside [0, 1]");
         require(optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0}, where,
-                "has microfacets, and is glass or a mirror too; take the one or the other");
+                "has microfacets and is also a dielectric or a mirror; use one or the other");
     }
 
     void check_mesh(std::size_t index) {
@@ -136,22 +137,21 @@ class Problems {
         };
         require(all_numbers(mesh.positions), where, "has a position that is not finite or beyond 1e18");
         require(mesh.normals.empty() || mesh.normals.size() == vertices, where,
-                "has a number of normals that is not that of its positions");
+                "does not have one normal per position");
         require(all_numbers(mesh.normals), where, "has a normal that is not finite or beyond 1e18");
         for (const std::vector<Vec2f>& set : mesh.texcoords) {
-            require(set.empty() || set.size() == vertices, where,
-                    "has a number of texture coordinates that is not that of its positions");
+            require(set.empty() || set.size() == vertices, where, "does not have one texture coordinate per position");
             require(std::all_of(set.begin(), set.end(),
                                 [](const Vec2f& v) { return std::isfinite(v.x) && std::isfinite(v.y); }),
                     where, "has a texture coordinate that is not finite");
         }
         require(mesh.colours.empty() || mesh.colours.size() == vertices, where,
-                "has a number of colours that is not that of its positions");
+                "does not have one colour per position");
         require(std::all_of(mesh.colours.begin(), mesh.colours.end(),
                             [](const VertexColour& c) { return is_share(c.rgb) && c.alpha >= 0 && c.alpha <= 1; }),
                 where, "has a vertex colour outside [0, 1]");
-        require(mesh.triangles.size() % 3 == 0, where, "has a number of triangle indices that is not a multiple of 3");
-        require(mesh.quads.size() % 4 == 0, where, "has a number of quad indices that is not a multiple of 4");
+        require(mesh.triangles.size() % 3 == 0, where, "has triangle indices whose number is not a multiple of 3");
+        require(mesh.quads.size() % 4 == 0, where, "has quad indices whose number is not a multiple of 4");
         for (const auto* indices : {&mesh.triangles, &mesh.quads}) {
             const auto bad =
                 std::find_if(indices->begin(), indices->end(), [&](std::uint32_t i) { return i >= vertices; });
@@ -169,18 +169,18 @@ class Problems {
         }
         where += " of " + node_label(scene_, channel.node);
         require(!scene_.nodes[channel.node].matrix, where,
-                "drives a node that is placed by a matrix; give it translation, rotation and scale");
+                "drives a node that has a matrix; give it translation, rotation and scale instead");
         require(!channel.times.empty(), where, "has no keys");
         bool increasing = true;
         for (std::size_t k = 0; k < channel.times.size(); ++k) {
             increasing = increasing && std::isfinite(channel.times[k]) && channel.times[k] >= 0 &&
                          (k == 0 || channel.times[k - 1] < channel.times[k]);
         }
-        require(increasing, where, "has key times that are not finite, not negative and strictly increasing");
+        require(increasing, where, "has key times that are not finite, or negative, or not strictly increasing");
         const std::size_t width = channel.path == AnimatedPath::rotation ? 4 : 3;
         const std::size_t groups = channel.interpolation == Interpolation::cubic ? 3 : 1;
         require(channel.values.size() == width * groups * channel.times.size(), where,
-                "has a number of values that does not fit its keys");
+                "does not have the number of values that its keys need");
         require(std::all_of(channel.values.begin(), channel.values.end(), [](float v) { return is_number(double{v}); }),
                 where, "has values that are not finite");
         if (channel.path == AnimatedPath::rotation) check_rotation_keys(channel, width * groups, where);
@@ -192,7 +192,7 @@ class Problems {
             return value(a.x) && value(a.y) && value(a.z);
         };
         require(good(scene_.environment.bottom) && good(scene_.environment.top) && good(scene_.environment.ambient),
-                "the environment", "has a colour that is not three numbers of 0 or more");
+                "the environment", "has a colour that is not three finite numbers >= 0");
         if (scene_.environment_image) check_image(*scene_.environment_image);
         require(std::isfinite(scene_.frames_per_second) && scene_.frames_per_second > 0, "the scene",
                 "has a frame rate that is not positive");
@@ -212,16 +212,16 @@ class Problems {
         const auto is_light = [](float x) { return x >= 0 && x <= brightest_environment; };
         require(std::all_of(picture.pixels.begin(), picture.pixels.end(),
                             [&](const Vec3f& a) { return is_light(a.x) && is_light(a.y) && is_light(a.z); }),
-                where, "has values that are not from 0 to 1.2e30");
+                where, "has values outside [0, 1.2e30]");
         require(image.intensity >= 0 && image.intensity <= most_environment_intensity, where,
-                fmt::format("has an intensity that is not from 0 to {:g}", most_environment_intensity).c_str());
-        require(std::abs(image.rotation) <= 1e6, where, "has a rotation that is not an angle of up to 1e6");
+                fmt::format("has an intensity outside [0, {:g}]", most_environment_intensity).c_str());
+        require(std::abs(image.rotation) <= 1e6, where, "has a rotation outside [-1e6, 1e6] radians");
     }
 
     std::vector<std::string> take() { return std::move(found_); }
 
   private:
-    /// `stride`: numbers per key. Of the three groups of a cubic key the middle one is the value.
+    /// `stride`: numbers per key. The middle one of the three groups of a cubic key is the value.
     void check_rotation_keys(const AnimationChannel& channel, std::size_t stride, const std::string& where) {
         const std::size_t first = channel.interpolation == Interpolation::cubic ? 4 : 0;
         bool none_vanishes = true;
@@ -229,7 +229,8 @@ class Problems {
             const float* q = &channel.values[at];
             none_vanishes = none_vanishes && (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0);
         }
-        require(none_vanishes, where, "has a key with the rotation (0, 0, 0, 0), which is none");
+        require(none_vanishes, where,
+                "has a key with the rotation (0, 0, 0, 0), which is not a rotation; use (0, 0, 0, 1)");
     }
 
     void check_geometry(const Geometry& geometry, const std::string& where) {
@@ -266,7 +267,7 @@ class Problems {
             require(is_number(lens.focus_distance) && lens.focus_distance > 0, where,
                     "has a lens whose focus distance is not above 0 and up to 1e18");
             require(lens.blades == 0 || (lens.blades >= 3 && lens.blades <= 32), where,
-                    "has a lens whose aperture has neither 0 nor 3 to 32 blades");
+                    "has a lens whose number of blades is neither 0 nor from 3 to 32");
             require(is_number(lens.rotation), where, "has a lens whose rotation is not a number");
         } else {
             const double ymag = std::get<OrthographicCamera>(camera).ymag;
@@ -298,7 +299,7 @@ std::int32_t frame_count(const Scene& scene) {
     for (const AnimationChannel& channel : scene.animation) {
         if (!channel.times.empty()) end = std::max(end, channel.times.back());
     }
-    // a key at the end of time must not overflow the number of a frame
+    // a very late key must not overflow the frame number
     const double frames = std::round(double{end} * scene.frames_per_second);
     return static_cast<std::int32_t>(std::clamp(frames, 1.0, double{std::numeric_limits<std::int32_t>::max()}));
 }
@@ -313,7 +314,7 @@ std::vector<std::string> validate(const Scene& scene) {
     for (std::size_t i = 0; i < scene.animation.size(); ++i) problems.check_channel(i);
     problems.check_environment();
     problems.require(is_exposure(scene.display.exposure_stops), "the display",
-                     "has an exposure that is not from -100 to 100 stops");
+                     "has an exposure outside [-100, 100] stops");
     std::vector<std::string> found = problems.take();
     for (std::string& problem : find_texture_problems(scene)) found.push_back(std::move(problem));
     return found;

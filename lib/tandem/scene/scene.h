@@ -1,5 +1,5 @@
-/// The authored scene: a tree of named nodes with transforms relative to their parents, the things attached to
-/// them, and animation. Metres, seconds, radians; right-handed, y up, cameras look along -z, as in glTF 2.0.
+/// The authored scene: a tree of named nodes with transforms relative to their parents, what is attached to them, and
+/// animation. Metres, seconds, radians; right-handed, y up, cameras look along -z, as in glTF 2.0.
 /// Build one in code (docs/scene-format.md has an example), by name (named_scenes.h) or from a file (gltf/import.h).
 #pragma once
 
@@ -50,19 +50,19 @@ struct VertexColour {
     float alpha = 1;
 };
 
-/// Triangles and quadrilaterals between shared vertices, in the space of a node. Faces run counter-clockwise seen from
-/// their front; a transform that mirrors keeps it so. A quad is two triangles, (v0, v1, v2) and (v0, v2, v3). Faces
-/// without area are dropped, and counted (PreparedScene::dropped_primitives).
+/// Triangles and quadrilaterals between shared vertices, in the space of a node. The corners of a face run
+/// counter-clockwise as seen from its front, also under a mirroring transform. A quad is two triangles, (v0, v1, v2)
+/// and (v0, v2, v3). Degenerate faces are dropped and counted (PreparedScene::dropped_primitives).
 struct Mesh {
     std::string name{};
     std::vector<Vec3f> positions{};
-    std::vector<Vec3f> normals{};  ///< for shading, per vertex, unit; empty: each face has its own
+    std::vector<Vec3f> normals{};  ///< shading normals per vertex, unit; empty: each face uses its own normal
     /// Sets of texture coordinates, each per vertex. A texture needs the set that it names.
     std::vector<std::vector<Vec2f>> texcoords{};
     std::vector<std::uint32_t> triangles{};  ///< three vertices each
     std::vector<std::uint32_t> quads{};      ///< four vertices each
     std::vector<VertexColour> colours{};     ///< per vertex; multiply the base colour; may be empty
-    bool is_closed = false;  ///< its faces enclose a volume, and their fronts look outward (mesh_topology.h)
+    bool is_closed = false;  ///< its faces enclose a volume, with their fronts outward (mesh_topology.h)
 };
 
 /// A mesh of the scene: index into Scene::meshes.
@@ -86,7 +86,7 @@ struct PerspectiveCamera {
     Shutter shutter{};
 };
 
-/// Orthographic: half of the height that the film shows, in metres. The width follows the film.
+/// Orthographic: half of the height that the film shows, in metres. The width follows from the film's shape.
 struct OrthographicCamera {
     double ymag = 1.0;
     Shutter shutter{};
@@ -94,7 +94,7 @@ struct OrthographicCamera {
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera>;
 
-/// Of a Camera, const or not.
+/// The shutter of a Camera, const or not.
 template <class AnyCamera>
 [[nodiscard]] auto& shutter_of(AnyCamera& camera) {
     return std::visit(
@@ -103,40 +103,40 @@ template <class AnyCamera>
 
 enum class LightKind { point, spot, directional };
 
-/// A light at the origin of its node; spots and directional lights shine along the node's -z. Without fall-off its
-/// colour times intensity is what Phong's model takes, at any distance, as in the paper. With `inverse_square` the
+/// A punctual light at the origin of its node; spots and directional lights shine along the node's -z. Without
+/// fall-off, Phong's model uses its colour times intensity at any distance, as in the paper. With `inverse_square` the
 /// intensity is in candela, and a surface of diffuse reflectance kd is as bright as a Lambertian one of that albedo.
 struct LightSource {
     LightKind kind = LightKind::point;
     Vec3f colour{1, 1, 1};  ///< RGB, linear
     float intensity = 1;
-    double inner_cone = 0;         ///< of a spot, radians from its axis: full intensity up to there,
-    double outer_cone = 0.785398;  ///< none from there on; above inner_cone, up to pi / 2
+    double inner_cone = 0;         ///< of a spot, radians from its axis: full intensity up to this angle
+    double outer_cone = 0.785398;  ///< and none from this one on; above inner_cone, up to pi / 2
     bool inverse_square = false;   ///< not for directional lights
     bool casts_shadows = true;
 };
 
-/// `sides` is of faces of meshes: the other shapes are closed and have no back. The back of a single-sided face sees no
-/// light but the ambient one. A body of glass needs a closed shape whose faces are not culled.
+/// `sides` applies to faces of meshes: the other shapes are closed and have no back. The back of a single-sided face
+/// receives only ambient light. A dielectric needs a closed shape whose faces are not culled.
 struct Material {
     std::string name;
     PhongMaterial phong;
     FaceSides sides = FaceSides::single_sided;
-    Optics optics{};                                    ///< mirrors and glass
-    std::optional<TextureReference> diffuse_texture{};  ///< multiplies the diffuse and the ambient reflectance
-    std::optional<TextureReference> normal_texture{};   ///< normals, as glTF 2.0 has them (kernel/texture/normal_map.h)
+    Optics optics{};                                     ///< mirrors, dielectrics and emission
+    std::optional<TextureReference> diffuse_texture{};   ///< multiplies the diffuse and the ambient reflectance
+    std::optional<TextureReference> normal_texture{};    ///< normal map, as in glTF 2.0 (kernel/texture/normal_map.h)
     std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
-    /// Metallic-roughness, as glTF 2.0 has it: the base colour is the diffuse reflectance with its texture. Takes the
-    /// place of Phong's diffuse and specular terms. Not with a mirror or with transmission.
+    /// Metallic-roughness, as in glTF 2.0: the base colour is the diffuse reflectance with its texture. Replaces
+    /// Phong's diffuse and specular terms. Not allowed with a mirror or with transmission.
     std::optional<Microfacets> microfacets{};
-    /// Linear: green multiplies the roughness, blue the share of metal.
+    /// Linear: green multiplies the roughness, blue the metalness.
     std::optional<TextureReference> metallic_roughness_texture{};
-    /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
-    /// gives any (KHR_materials_unlit).
+    /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives nor emits
+    /// light (KHR_materials_unlit).
     bool unlit = false;
-    float normal_scale = 1;  ///< of the normals' parts along the surface
+    float normal_scale = 1;  ///< multiplies the tangential components of the normal map
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1
+    float alpha = 1;            ///< multiplies the alpha of the diffuse texture; from 0 to 1
     float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
 };
 
@@ -148,7 +148,7 @@ struct Node {
     std::string name{};
     std::int32_t parent = no_parent;
     Trs trs{};
-    std::optional<Transform> matrix{};  ///< replaces trs; such a node cannot be animated
+    std::optional<Transform> matrix{};  ///< replaces trs; the node cannot be animated then
     std::vector<Geometry> geometry{};
     std::optional<Camera> camera{};
     std::optional<LightSource> light{};
@@ -157,9 +157,9 @@ struct Node {
 enum class Interpolation { step, linear, cubic };
 enum class AnimatedPath { translation, rotation, scale };
 
-/// Drives one path of one node. `times` in seconds, strictly increasing. `values`: 3 numbers per key (4 for a
+/// Animates one path of one node. `times` in seconds, strictly increasing. `values`: 3 numbers per key (4 for a
 /// rotation: x, y, z, w); for cubic interpolation three such groups per key: in-tangent, value, out-tangent.
-/// Before the first and after the last key the value stays.
+/// The value is constant before the first and after the last key.
 struct AnimationChannel {
     std::uint32_t node = 0;
     AnimatedPath path = AnimatedPath::translation;
@@ -178,12 +178,12 @@ struct Scene {
     std::vector<AnimationChannel> animation;
     Environment environment;
     bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
-    std::optional<EnvironmentImage> environment_image{};  ///< takes the place of the gradient
-    Display display{};                                    ///< of 8-bit pictures; no part of what is rendered
+    std::optional<EnvironmentImage> environment_image{};  ///< replaces the gradient
+    Display display{};                                    ///< for 8-bit images; does not affect the film
     double frames_per_second = 24;
 };
 
-/// For all cameras of the scene: at how many instants of its interval a shutter sees, at most.
+/// Sets the number of instants of the shutter interval for all cameras of the scene.
 void set_shutter_instants(Scene& scene, int instants);
 
 /// True if the light emits anything.
@@ -191,14 +191,13 @@ void set_shutter_instants(Scene& scene, int instants);
     return light.intensity > 0 && (light.colour.x > 0 || light.colour.y > 0 || light.colour.z > 0);
 }
 
-/// Time of a frame, in seconds. Rounded to float, as glTF stores the times of keys: a key that was written for a
-/// frame is hit exactly.
+/// The time of a frame, in seconds. Rounded to float, as glTF stores key times, so that frames hit their keys exactly.
 [[nodiscard]] double time_of_frame(const Scene& scene, std::int32_t frame);
 
-/// Number of frames from 0 to the last key of the animation, without repeating it; 1 for a still scene.
+/// The number of frames from 0 to the last key of the animation, without repeating it; 1 for a still scene.
 [[nodiscard]] std::int32_t frame_count(const Scene& scene);
 
-/// What is wrong with the scene, one sentence each, naming the node, material, mesh or channel; empty if nothing is.
+/// The problems of the scene, one sentence each, naming the node, material, mesh or channel; empty if it is valid.
 [[nodiscard]] std::vector<std::string> validate(const Scene& scene);
 
 }  // namespace tandem

@@ -21,7 +21,7 @@ std::vector<Vec3f> used_corners(const Mesh& mesh) {
     return corners;
 }
 
-/// Of a shape around its own origin.
+/// The support function of a shape around its own origin.
 double reach_of(const Shape& shape, const std::vector<std::vector<Vec3f>>& corners, const Vec3d& direction) {
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
         return sphere->radius * std::sqrt(dot(direction, direction));

@@ -1,4 +1,4 @@
-/// How far the surfaces of a scene reach.
+/// The extent of the surfaces of a scene.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// Does the map take every face to a line or a point? Authors hide things so.
+/// Whether the map collapses every face to a line or a point. Authors hide objects in this way.
 [[nodiscard]] bool leaves_no_area(const Matrix3& map);
 
 /// Calls `visit(geometry, world_from_shape)` for every shape that is not hidden, once for each instance.
@@ -25,13 +25,13 @@ void for_each_shape(const Scene& scene, const std::vector<Transform>& world_from
     }
 }
 
-/// The surfaces of a scene at a moment, as their extreme points. Vertices that no face uses do not count.
+/// The convex hull of the surfaces of a scene at one time. Vertices that no face uses do not count.
 class SurfaceReach {
   public:
     /// `time` in seconds. The scene must be valid and outlive this.
     SurfaceReach(const Scene& scene, double time);
 
-    /// Is there no surface?
+    /// Whether there is no surface.
     [[nodiscard]] bool is_empty() const { return is_empty_; }
 
     /// For each direction, of any length, its largest dot product with a point of a surface, in world space: the

@@ -46,7 +46,7 @@ class Finder {
             image.width >= 1 && image.width <= most_edge && image.height >= 1 && image.height <= most_edge;
         require(good, where, "has a width or height that is not from 1 to 16384");
         require(!good || image.texels.size() == std::size_t{image.width} * image.height, where,
-                "has a number of texels that is not its width times its height");
+                "does not have width times height texels");
     }
 
     void check_material(std::size_t index) {
@@ -60,7 +60,7 @@ class Finder {
         require(std::isfinite(material.normal_scale), where, "has a normal scale that is not finite");
         require(material.alpha >= 0 && material.alpha <= 1, where, "has an alpha outside [0, 1]");
         require(material.alpha_cutoff >= 0 && std::isfinite(material.alpha_cutoff), where,
-                "has an alpha cutoff that is not a number of 0 or more");
+                "has an alpha cutoff that is not a finite number >= 0");
     }
 
     void check_reference(const TextureReference& reference, const std::string& where) {
@@ -72,7 +72,7 @@ class Finder {
                 where, "has an offset, a rotation or a scale that is not finite or beyond 1e18");
     }
 
-    /// A mesh tells where its texture lies; the other shapes know it.
+    /// Meshes need the texture coordinates that their materials use; other shapes have their own.
     void check_node(std::size_t index) {
         const Node& node = scene_.nodes[index];
         for (const Geometry& geometry : node.geometry) {

@@ -1,4 +1,4 @@
-/// Validation of the author's textures.
+/// Validates authored textures.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// What is wrong with images, textures and their uses, one sentence each; for validate().
+/// The problems of images, textures and their uses, one sentence each; for validate().
 [[nodiscard]] std::vector<std::string> find_texture_problems(const Scene& scene);
 
 }  // namespace tandem

@@ -69,7 +69,7 @@ TEST(Baseline, EverySequenceOfRandomNumbersIsAnother) {
     EXPECT_EQ(first, drawn(naive_o3, job));
 }
 
-TEST(Baseline, RaysThroughPixelCentresMeetWhatTandemSays) {
+TEST(Baseline, RaysThroughPixelCentresHitWhatTandemHits) {
     for (const int frame : {0, 13, 60, 90}) {
         const NaiveJob job{200, 180, 1, frame, 0};
         const NaiveFrame moving = naive_frame(frame);

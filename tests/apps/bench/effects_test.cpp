@@ -43,7 +43,7 @@ double figure(const BenchmarkRow& row, const std::string& name) {
     return -1;
 }
 
-TEST(EffectLedger, PlansEachEffectThatTheSceneCallsFor) {
+TEST(EffectLedger, PlansEachEffectThatTheSceneNeeds) {
     const LedgerPlan plan = plan_ledger(load_scene(glass));
     const EffectMask called = Effect::shadows | Effect::refraction | Effect::absorption | Effect::nested_media;
     EXPECT_EQ(mask_of(plan.needs), called);

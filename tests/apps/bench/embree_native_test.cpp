@@ -12,7 +12,7 @@
 namespace tandem::bench {
 namespace {
 
-TEST(EmbreeNative, MeetsTheSpheresThatTandemMeets) {
+TEST(EmbreeNative, HitsTheSpheresThatTandemHits) {
     const PreparedScene scene = prepare(named_scene("spheres/500"));
     const LoopTracer tracer{view(scene)};
     for (const int threads : {0, 1, 2}) {
@@ -38,7 +38,7 @@ TEST(EmbreeNative, MeetsTheSpheresThatTandemMeets) {
     }
 }
 
-TEST(EmbreeNative, MeetsTheTrianglesThatTandemMeets) {
+TEST(EmbreeNative, HitsTheTrianglesThatTandemHits) {
     const PreparedScene scene = prepare(named_scene("icosphere/3"));
     const LoopTracer tracer{view(scene)};
     for (const EmbreeFlags flags : {EmbreeFlags::plain, EmbreeFlags::robust}) {

@@ -20,16 +20,16 @@ HardOptions small() {
     return options;
 }
 
-TEST(Hard, MarksHoldForRightBackends) {
+TEST(Hard, CorrectBackendsKeepTheErrorBounds) {
     Report report;
     EXPECT_TRUE(run_hard(small(), loop_source(), report)) << prose_of(report);
     EXPECT_EQ(report.rows.size(), 7U) << "two backends, three cases; and one case on the host";
-    EXPECT_EQ(property_of(report, "marks held"), "7 of 7");
+    EXPECT_EQ(property_of(report, "error bounds kept"), "7 of 7");
     EXPECT_NE(to_json(report).find("A2 A planet"), std::string::npos);
     EXPECT_NE(to_csv(report.rows).find("A2,"), std::string::npos);
 }
 
-TEST(Hard, AWrongHitMissesTheMarkAndIsReproduced) {
+TEST(Hard, AWrongHitExceedsTheErrorBoundAndIsReproduced) {
     const auto gpu_spoils = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
     Report report;
     EXPECT_FALSE(run_hard(small(), loop_source(gpu_spoils), report));

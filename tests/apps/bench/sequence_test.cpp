@@ -60,7 +60,7 @@ TEST_F(Sequence, AnErrorOfAnEncoderComesOut) {
         InputError);
 }
 
-TEST(SequenceText, NamesWhatHoldsItBack) {
+TEST(SequenceText, NamesTheBottleneck) {
     SequenceTimes times;
     times.frames = 10;
     times.encoders = 2;

@@ -1,4 +1,4 @@
-/// What is right for a ray, and which of it may be judged.
+/// The correct answer for a ray, and which parts of it may be judged.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace tandem::hard {
 
-/// Parts of an answer that hang on less than any arithmetic should be judged on are not judged; see exact_answers().
+/// The parts of an answer that are judged; see exact_answers().
 enum Judged : std::uint8_t { judged_hit = 1, judged_primitive = 2, judged_t = 4, judged_all = 7 };
 
 struct Answer {
@@ -21,14 +21,14 @@ struct Answer {
     std::uint8_t judged = judged_all;
 };
 
-/// The right answers by brute force in exact arithmetic on the scene as it was prepared, on all cores. Rays that are
-/// not traceable miss.
+/// The correct answers by brute force in exact arithmetic on the prepared scene, on all cores. Rays that are not
+/// traceable miss.
 ///
-/// Judged are, for spheres and boxes, all decisions: their numbers are floats and the ray's too, so nothing is in
-/// doubt. Two surfaces within 2^-48 of each other leave the primitive open, but not where they are equal by the same
-/// arithmetic (boxes with a face in one plane, equal spheres), or from t correctly rounded (triangles and quads): there
-/// the lowest id is right. For ellipsoids and parallelepipeds the ray goes through a matrix of doubles: where bodies
-/// 2^-30 smaller and larger differ, the decision, or t, is left open.
+/// For spheres and boxes all decisions are judged: their numbers and those of the ray are floats, so there is one
+/// correct decision. If two surfaces are within 2^-48 of each other the primitive is not judged, unless the two are
+/// equal by the same arithmetic (boxes with a face in one plane, equal spheres) or t is correctly rounded (triangles
+/// and quads): then the lowest id is correct. For ellipsoids and parallelepipeds the ray is transformed by a matrix of
+/// doubles: if solids 2^-30 smaller and larger give different results, the decision, or t, is not judged.
 [[nodiscard]] std::vector<Answer> exact_answers(const PreparedScene& scene, std::span<const Ray<float>> rays);
 
 }  // namespace tandem::hard

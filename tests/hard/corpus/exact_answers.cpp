@@ -17,7 +17,7 @@ using test::BigVector;
 
 using Long = long double;
 
-/// A ball around a primitive, with room to spare.
+/// A bounding ball of a primitive, with a margin.
 struct Ball {
     Vec3d centre;
     Long radius;
@@ -31,7 +31,7 @@ Ball ball_around(const Aabb& box) {
             1.001L * std::sqrt(Long{half.x} * half.x + Long{half.y} * half.y + Long{half.z} * half.z)};
 }
 
-/// True only if the line stays away from the ball by far more than this arithmetic errs.
+/// True only if the line misses the ball by far more than the error of this arithmetic.
 bool surely_misses(const Ball& ball, const Ray<float>& ray) {
     const Long f[3] = {ray.origin.x - Long{ball.centre.x}, ray.origin.y - Long{ball.centre.y},
                        ray.origin.z - Long{ball.centre.z}};
@@ -50,7 +50,7 @@ std::optional<Big> crossing_t(const BigVector& origin, const BigVector& directio
 
 float rounded(const Big& t) { return mpfr_get_flt(t.backend().data(), MPFR_RNDN); }
 
-/// Where one primitive is hit.
+/// The hit of one primitive.
 struct Crossing {
     std::optional<Big> t;
     std::uint8_t judged = judged_all;
@@ -70,7 +70,7 @@ Crossing cross_placed(const Placement& placement, bool is_box, const Ray<float>&
     return result;
 }
 
-/// The exact crossing, by the type of the primitive.
+/// The exact hit, by the type of the primitive.
 struct CrossExactly {
     const Ray<float>& ray;
     BigVector origin = test::big(ray.origin);
@@ -106,7 +106,7 @@ Crossing cross(const SceneView& scene, std::uint32_t id, const Ray<float>& ray) 
     return crossing.result;
 }
 
-/// Do equal crossings of two primitives come from the same arithmetic, so that every program finds them equal?
+/// Whether equal hits of two primitives come from the same arithmetic, so that every program finds them equal.
 bool same_arithmetic(const SceneView& scene, std::uint32_t a, std::uint32_t b) {
     if (a < scene.sphere_count && b < scene.sphere_count) {
         return std::memcmp(&scene.spheres[a], &scene.spheres[b], sizeof(Sphere)) == 0;
@@ -118,7 +118,7 @@ bool same_arithmetic(const SceneView& scene, std::uint32_t a, std::uint32_t b) {
     return (is_box(a) && is_box(b)) || (a >= faces && b >= faces);
 }
 
-/// Of equal spheres in a row only the first can be right.
+/// Of consecutive equal spheres only the first can be the answer.
 bool repeats_the_one_before(const SceneView& scene, std::uint32_t id) {
     return id > 0 && id < scene.sphere_count && same_arithmetic(scene, id - 1, id);
 }
@@ -136,7 +136,7 @@ Answer exact_answer(const SceneView& scene, std::span<const Ball> balls, const R
     for (std::uint32_t id = 0; id < balls.size(); ++id) {
         if (repeats_the_one_before(scene, id) || surely_misses(balls[id], ray)) continue;
         Crossing crossing = cross(scene, id, ray);
-        if (crossing.judged == 0) judged = 0;  // a body that may be in front of all or not
+        if (crossing.judged == 0) judged = 0;  // a solid that may or may not be in front of all others
         if (crossing.t) candidates.push_back({*crossing.t, id, crossing.judged});
     }
     answer.judged = judged;

@@ -1,4 +1,4 @@
-/// Functions of the kernel side, tried on one ray and on packets, against MPFR.
+/// Kernel functions, on single rays and on packets, against MPFR.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
@@ -18,7 +18,7 @@ using Packet = Lanes<float, Sse4>;
 using Exact =
     boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<60>, boost::multiprecision::et_off>;
 
-/// Distance from the right value in units of the last place of float.
+/// Distance from the correct value in float ulps.
 inline double ulps_from(float value, const Exact& right) { return ulps_from(value, right.convert_to<double>()); }
 
 /// Lane by lane: a packet made from one number turns -0 into 0.

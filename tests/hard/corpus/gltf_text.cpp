@@ -108,6 +108,7 @@ std::string to_gltf(const Scene& scene) {
     Json document = {{"asset", {{"version", "2.0"}, {"generator", "tandem-bench hard"}}},
                      {"extensionsUsed", {"EXT_implicit_geometry", "TANDEM_materials_phong", "TANDEM_environment"}},
                      {"scene", 0}};
+    // Nodes, with their cameras, lights and meshes
     Numbers numbers;
     Json nodes = Json::array(), meshes = Json::array(), cameras = Json::array(), lights = Json::array();
     std::vector<Json> children(scene.nodes.size(), Json::array());
@@ -144,6 +145,7 @@ std::string to_gltf(const Scene& scene) {
         }
         nodes.push_back(json);
     }
+    // The scene and its lists
     const Environment& sky = scene.environment;
     document["scenes"] = {{{"name", scene.name},
                            {"nodes", roots},
@@ -159,6 +161,7 @@ std::string to_gltf(const Scene& scene) {
         document["extensionsUsed"].push_back("KHR_lights_punctual");
         document["extensions"]["KHR_lights_punctual"]["lights"] = lights;
     }
+    // Buffer and materials
     numbers.write(document);
     document["materials"] = Json::array();
     for (const Material& material : scene.materials) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "tandem/kernel/shapes/sphere.h"
 
@@ -19,159 +19,159 @@ using test::any_unit;
 constexpr const char* exact = "exact arithmetic";
 const Sphere unit = {{0, 0, 0}, 1};
 
-/// Rays at a sphere around the origin from `distance` away that pass its centre at impact() radii.
+/// Rays toward a sphere around the origin, from `distance` away, that pass its centre at impact() radii.
 template <class Impact>
-void add_aimed(std::vector<Lot>& lots, Random& random, float radius, double distance, std::size_t rays, Impact impact,
-               double length = 1) {
+void add_aimed(std::vector<RayBatch>& batches, Random& random, float radius, double distance, std::size_t rays,
+               Impact impact, double length = 1) {
     const double r = double{radius};
     const double shell_radius = std::min(4 * distance, 9e17);
-    add_lots(lots, random, {{{0, 0, 0}, radius}}, {}, shell_radius, rays, [&] {
+    add_batches(batches, random, {{{0, 0, 0}, radius}}, {}, shell_radius, rays, [&] {
         return aim(random, {0, 0, 0}, r, distance, impact(), length).ray;
     });
 }
 
 double either_side_of_one(Random& random, double gap) { return random.coin() ? 1 + gap : 1 - gap; }
 
-std::vector<Lot> far_away(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> far_away(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (int k = 1; k <= 6; ++k) {
-        add_aimed(lots, random, 1, std::pow(10.0, k), rays / 6, [&] { return random.uniform(0.0, 0.999); });
+        add_aimed(batches, random, 1, std::pow(10.0, k), rays / 6, [&] { return random.uniform(0.0, 0.999); });
     }
-    return lots;
+    return batches;
 }
 
 const Sphere planet = {{0, -6.4e6F, 0}, 6.4e6F};
 const Vec3f eye_above_planet = {0, 1.75F, 0};
 
-std::vector<Lot> planet_from_above(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_lots(lots, random, {planet}, {}, 3e7, rays, [&] {
+std::vector<RayBatch> planet_from_above(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_batches(batches, random, {planet}, {}, 3e7, rays, [&] {
         Vec3d down = any_unit(random);
         down.y = -std::abs(down.y);
         return Ray<float>{eye_above_planet, narrow(down)};
     });
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> horizon(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_lots(lots, random, {planet}, {}, 3e7, rays, [&] {
+std::vector<RayBatch> horizon(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_batches(batches, random, {planet}, {}, 3e7, rays, [&] {
         const double elevation = random.uniform(-4e-3, 0.0);
         const double azimuth = random.uniform(0.0, 6.28);
         return Ray<float>{eye_above_planet, narrow(Vec3d{std::cos(azimuth), std::sin(elevation), std::sin(azimuth)})};
     });
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> grazing(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> grazing(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const double gap : {1e-2, 1e-4, 1e-6, 1e-7}) {
-        add_aimed(lots, random, 1, 4, rays / 4, [&] { return either_side_of_one(random, gap); });
+        add_aimed(batches, random, 1, 4, rays / 4, [&] { return either_side_of_one(random, gap); });
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> grazing_from_far(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_aimed(lots, random, 1, 1000, rays, [&] { return either_side_of_one(random, 1e-6); });
-    return lots;
+std::vector<RayBatch> grazing_from_far(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_aimed(batches, random, 1, 1000, rays, [&] { return either_side_of_one(random, 1e-6); });
+    return batches;
 }
 
-std::vector<Lot> tiny(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> tiny(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const float radius : {1e-4F, 1e-6F}) {
-        add_aimed(lots, random, radius, 100, rays / 2, [&] { return random.uniform(0.0, 1.2); });
+        add_aimed(batches, random, radius, 100, rays / 2, [&] { return random.uniform(0.0, 1.2); });
     }
-    return lots;
+    return batches;
 }
 
-/// Lines that touch exactly: Pythagorean directions and offsets, whole numbers below 2^24. The first ray of all is the
-/// one of the textbook, with both crossings at t = 5.
-std::vector<Lot> tangent(Random& random, std::size_t rays) {
-    std::vector<Lot> lots = {{scene_of({unit}), {{{1, 0, -5}, {0, 0, 1}}}}};
+/// Exactly tangent lines: Pythagorean directions and offsets, integers below 2^24. The first ray is the textbook
+/// example, with both hits at t = 5.
+std::vector<RayBatch> tangent(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches = {{scene_of({unit}), {{{1, 0, -5}, {0, 0, 1}}}}};
     static constexpr float triples[][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}, {20, 21, 29}};
     for (const auto& [p, q, hypotenuse] : triples) {
         for (const int off : {0, -1, 1}) {  // exactly; smaller and larger by the last bit of the radius
             const float k = static_cast<float>(random.below(500) + 1);
             float radius = hypotenuse * k;
             if (off != 0) radius = std::nextafter(radius, off < 0 ? 0.0F : HUGE_VALF);
-            add_lots(lots, random, {{{0, 0, 0}, radius}}, {}, 1e6, rays / 15, [&, p = p, q = q] {
+            add_batches(batches, random, {{{0, 0, 0}, radius}}, {}, 1e6, rays / 15, [&, p = p, q = q] {
                 const auto step = static_cast<float>(static_cast<int>(random.below(2000)) - 1000);
                 return Ray<float>{{-q * k + p * step, p * k + q * step, 0}, {-p, -q, 0}};
             });
         }
     }
-    return lots;
+    return batches;
 }
 
-/// From the float nearest to a point of the surface, which is just above, on or below it: judged by where it is.
-std::vector<Lot> from_surface(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Rays from the float nearest to a surface point, which is just above, on or below the surface, and is judged as such.
+std::vector<RayBatch> from_surface(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const float radius : {1e-3F, 1.0F, 1e3F}) {
         const Vec3d centre = any_unit(random) * random.uniform(0.0, 10.0);
         const Sphere sphere = {narrow(centre), radius};
-        add_lots(lots, random, {sphere}, {}, 5e3, rays / 3, [&] {
+        add_batches(batches, random, {sphere}, {}, 5e3, rays / 3, [&] {
             const Vec3d up = any_unit(random);
             const Vec3d out = random.coin() ? any_unit(random) : any_across(random, up);
             return Ray<float>{narrow(centre + up * double{radius}), narrow(out)};
         });
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> from_inside(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> from_inside(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const float radius : {1.0F, 1e7F}) {
-        add_lots(lots, random, {{{0, 0, 0}, radius}}, {}, 4.0 * double{radius}, rays / 2, [&] {
+        add_batches(batches, random, {{{0, 0, 0}, radius}}, {}, 4.0 * double{radius}, rays / 2, [&] {
             const double at = random.below(8) == 0 ? 0 : random.uniform(0.0, 1.0) * double{radius};
             return Ray<float>{narrow(any_unit(random) * at), narrow(any_unit(random))};
         });
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> close_above(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> close_above(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const double gap : {1e-4, 1e-5, 1e-6}) {
-        add_lots(lots, random, {unit}, {}, 4, rays / 3, [&] {
+        add_batches(batches, random, {unit}, {}, 4, rays / 3, [&] {
             const Vec3d up = any_unit(random);
             return Ray<float>{narrow(up * (1 + gap)), narrow(any_unit(random) - up * random.uniform(0.5, 2.0))};
         });
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> minute(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> minute(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const float radius : {1e-20F, 1e-25F}) {
-        add_aimed(lots, random, radius, 10.0 * double{radius}, rays / 2, [&] { return random.uniform(0.0, 1.1); });
+        add_aimed(batches, random, radius, 10.0 * double{radius}, rays / 2, [&] { return random.uniform(0.0, 1.1); });
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> enormous(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_aimed(lots, random, 9e16F, 9e17, rays, [&] { return random.uniform(0.0, 1.1); });
-    return lots;
+std::vector<RayBatch> enormous(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_aimed(batches, random, 9e16F, 9e17, rays, [&] { return random.uniform(0.0, 1.1); });
+    return batches;
 }
 
-std::vector<Lot> any_length(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> any_length(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const double length : {1e-38, 1e-25, 1e-20, 1e-12, 1e12, 9e17}) {
         add_aimed(
-            lots, random, 1, 4, rays / 6, [&] { return random.uniform(0.0, 1.1); }, length);
+            batches, random, 1, 4, rays / 6, [&] { return random.uniform(0.0, 1.1); }, length);
     }
-    return lots;
+    return batches;
 }
 
-std::vector<Lot> looking_back(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_lots(lots, random, {unit}, {}, 4, rays, [&] {  // the exit is nearer than the surface behind by up to 2^20
+std::vector<RayBatch> looking_back(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_batches(batches, random, {unit}, {}, 4, rays, [&] {  // the exit is nearer than the surface behind by up to 2^20
         const Vec3d up = any_unit(random);
         return Ray<float>{narrow(up * (1 - std::exp2(random.uniform(-20.0, -2.0)))),
                           narrow(up + any_unit(random) * random.uniform(0.0, 0.5))};
     });
-    return lots;
+    return batches;
 }
 
 /// |n| = 1 and the angle to the normal of the exact hit point, both in 2^-24.
@@ -198,17 +198,18 @@ Score normals(Random& random, std::size_t calls) {
     return score;
 }
 
-/// From between the surfaces of an eye and of its cornea, and from outside; the far one within 4e-5 of the near one.
-std::vector<Lot> concentric(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Rays from between two concentric spheres, like an eye and its cornea, and from outside; radii differ by 4e-5.
+std::vector<RayBatch> concentric(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const float radius : {0.012F, 1.0F, 6.4e6F}) {
         const float outer = radius * (1 + 4e-5F);
-        add_lots(lots, random, {{{0, 0, 0}, radius}, {{0, 0, 0}, outer}}, {}, 10.0 * double{outer}, rays / 3, [&] {
-            const double at = double{radius} * (random.coin() ? 1 + 2e-5 : random.uniform(0.0, 4.0));
-            return Ray<float>{narrow(any_unit(random) * at), narrow(any_unit(random))};
-        });
+        add_batches(batches, random, {{{0, 0, 0}, radius}, {{0, 0, 0}, outer}}, {}, 10.0 * double{outer}, rays / 3,
+                    [&] {
+                        const double at = double{radius} * (random.coin() ? 1 + 2e-5 : random.uniform(0.0, 4.0));
+                        return Ray<float>{narrow(any_unit(random) * at), narrow(any_unit(random))};
+                    });
     }
-    return lots;
+    return batches;
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // Group B: rays and boxes. The oracle is exact arithmetic on the same floats. Most rays are the kinds of
-// support/adversarial_rays.h, here through whole backends.
+// support/adversarial_rays.h, traced by whole backends.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/adversarial_rays.h"
 #include "support/exact_geometry.h"
 #include "tandem/base/error.h"
@@ -29,7 +29,7 @@ int kind_named(const std::string& name) {
 }
 
 /// The rays of a kind of adversarial_rays.h, sorted by their boxes.
-std::vector<Lot> of_kind(const std::string& name, std::size_t rays) {
+std::vector<RayBatch> of_kind(const std::string& name, std::size_t rays) {
     const int kind = kind_named(name);
     std::vector<Box> boxes;
     std::vector<std::vector<Ray<float>>> rays_of;
@@ -43,24 +43,24 @@ std::vector<Lot> of_kind(const std::string& name, std::size_t rays) {
         }
         rays_of[at].push_back(c.ray);
     }
-    std::vector<Lot> lots;
+    std::vector<RayBatch> batches;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         Random random(i);
         const double reach = static_cast<double>(norm1(boxes[i].lower) + norm1(boxes[i].upper));
         std::size_t next = 0;
-        add_lots(lots, random, {}, {boxes[i]}, 64 * reach, rays_of[i].size(), [&] { return rays_of[i][next++]; });
+        add_batches(batches, random, {}, {boxes[i]}, 64 * reach, rays_of[i].size(), [&] { return rays_of[i][next++]; });
     }
-    return lots;
+    return batches;
 }
 
-std::function<std::vector<Lot>(Random&, std::size_t)> kind(const char* name) {
+std::function<std::vector<RayBatch>(Random&, std::size_t)> kind(const char* name) {
     return [name](Random&, std::size_t rays) { return of_kind(name, rays); };
 }
 
-/// The four rays of the literature, along both faces of every axis, with both zeros.
-std::vector<Lot> along_faces(Random&, std::size_t rays) {
-    std::vector<Lot> lots = of_kind("zero direction components", rays);
-    Lot& first = lots.front();
+/// The four rays known from the literature, along both faces of every axis, with both zeros.
+std::vector<RayBatch> along_faces(Random&, std::size_t rays) {
+    std::vector<RayBatch> batches = of_kind("zero direction components", rays);
+    RayBatch& first = batches.front();
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0F, 1.0F}) {
             for (const float zero : {0.0F, -0.0F}) {
@@ -72,33 +72,33 @@ std::vector<Lot> along_faces(Random&, std::size_t rays) {
             }
         }
     }
-    return lots;
+    return batches;
 }
 
 /// Inside, with components of the direction that are zeros of either sign.
-std::vector<Lot> inside_with_zeros(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
-    add_lots(lots, random, {}, {unit}, 16, rays, [&] {
+std::vector<RayBatch> inside_with_zeros(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
+    add_batches(batches, random, {}, {unit}, 16, rays, [&] {
         Ray<float> ray = {{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)}, {}};
         for (int i = 0; i < 3; ++i) ray.direction[i] = random.coin() ? 0.0F : -0.0F;
         ray.direction[static_cast<int>(random.below(3))] = random.coin() ? 1.0F : -1.0F;
         return ray;
     });
-    return lots;
+    return batches;
 }
 
-/// Boxes of all shapes, sixteen of them, rays at their faces, edges and corners from all distances.
-std::vector<Lot> last_bits(Random&, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Sixteen boxes of various shapes, with rays at their faces, edges and corners from all distances.
+std::vector<RayBatch> last_bits(Random&, std::size_t rays) {
+    std::vector<RayBatch> batches;
     const int kind = kind_named("edges, by the last bits");
     for (std::uint64_t number = 0; number < std::min<std::size_t>(rays, 64); ++number) {
         const test::BoxCase c = test::box_case(kind, number);
-        lots.push_back({scene_of({}, {c.box}), {c.ray}});
+        batches.push_back({scene_of({}, {c.box}), {c.ray}});
     }
-    return lots;
+    return batches;
 }
 
-/// The axis of the face, where no other comes within 2^-50; exact on edges and corners: the lowest.
+/// The axis of the face, where no other is within 2^-50; exactly on edges and corners the lowest axis.
 Score face_normals(Random&, std::size_t calls) {
     using test::big;
     Score score;
@@ -121,9 +121,9 @@ Score face_normals(Random&, std::size_t calls) {
     return score;
 }
 
-/// 32 x 32 boxes that touch; rays at the edges and corners that they share, from before the wall. The lowest id of
-/// those that share the point is right.
-std::vector<Lot> wall(Random& random, std::size_t rays) {
+/// 32 x 32 touching boxes; rays from in front of the wall at shared edges and corners. The lowest id of the boxes that
+/// share the point is correct.
+std::vector<RayBatch> wall(Random& random, std::size_t rays) {
     std::vector<Box> boxes;
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
@@ -131,8 +131,8 @@ std::vector<Lot> wall(Random& random, std::size_t rays) {
             boxes.push_back({{fx, fy, 0}, {fx + 1, fy + 1, 1}});
         }
     }
-    Lot lot = {scene_of({}, boxes), {}};
-    lot.rays = make_rays(rays, [&] {
+    RayBatch batch = {scene_of({}, boxes), {}};
+    batch.rays = make_rays(rays, [&] {
         const auto grid = [&] { return static_cast<float>(1 + random.below(31)); };
         const auto place = [&] { return static_cast<float>(random.below(32 * 256)) / 256; };
         Vec3f target = {grid(), random.coin() ? grid() : place(), 0};
@@ -140,12 +140,12 @@ std::vector<Lot> wall(Random& random, std::size_t rays) {
         const Vec3f origin = {place(), place(), -1 - static_cast<float>(random.below(256)) / 16};
         return Ray<float>{origin, target - origin};
     });
-    return {lot};
+    return {batch};
 }
 
-/// Turned and stretched 1 : 1000 : 1,000,000; judged in the space of the body, through the matrix as it was prepared.
-std::vector<Lot> placed(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Rotated and scaled by 1 : 1000 : 1,000,000; judged in object space, through the prepared matrix.
+std::vector<RayBatch> placed(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (int i = 0; i < 8; ++i) {
         Scene scene = scene_of(shell(random, {0, 0, 0}, 1e4));
         Node node{.name = "body"};
@@ -155,16 +155,16 @@ std::vector<Lot> placed(Random& random, std::size_t rays) {
         node.geometry.push_back({i % 2 == 0 ? Shape(BoxShape{{2, 2, 2}}) : SphereShape{1}, 0, {}});
         const Transform world_from_body = to_transform(node.trs);
         scene.nodes.push_back(node);
-        lots.push_back({scene, make_rays(rays / 8, [&] {
-                            const Vec3d target = transform_point(world_from_body, any_unit(random) * 0.9);
-                            const Vec3d origin = any_unit(random) * random.uniform(0.0, 3000.0);
-                            return Ray<float>{narrow(origin), narrow(target - origin)};
-                        })});
+        batches.push_back({scene, make_rays(rays / 8, [&] {
+                               const Vec3d target = transform_point(world_from_body, any_unit(random) * 0.9);
+                               const Vec3d origin = any_unit(random) * random.uniform(0.0, 3000.0);
+                               return Ray<float>{narrow(origin), narrow(target - origin)};
+                           })});
     }
-    return lots;
+    return batches;
 }
 
-/// Boxes inside out, or with numbers that are none, never become primitives.
+/// Inverted boxes, and boxes with numbers that are not finite, never become primitives.
 Score bad_boxes(Random&, std::size_t) {
     Score score;
     const double nan = std::nan(""), infinity = HUGE_VAL;

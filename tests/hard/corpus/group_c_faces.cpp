@@ -1,12 +1,12 @@
-// Group C: rays and triangles and quads. The oracle is exact arithmetic on the same floats; a closed mesh lets nothing
-// out. Contraction (C3) is for tests/lint: no build of ours may contract.
+// Group C: rays and triangles and quads. The oracle is exact arithmetic on the same floats, and closed meshes must not
+// leak. Contraction (C3) is tested by tests/lint: no exact build may contract.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/adversarial_triangles.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
@@ -46,13 +46,13 @@ Mesh mesh_of(const std::vector<Triangle>& triangles) {
 
 /// Triangles one by one, `rays` shared among them; make_triangle() and then make_ray(triangle).
 template <class MakeTriangle, class MakeRay>
-std::vector<Lot> one_by_one(std::size_t count, std::size_t rays, MakeTriangle make_triangle, MakeRay make_ray) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> one_by_one(std::size_t count, std::size_t rays, MakeTriangle make_triangle, MakeRay make_ray) {
+    std::vector<RayBatch> batches;
     for (std::size_t i = 0; i < count; ++i) {
         const Triangle triangle = make_triangle();
-        lots.push_back({scene_of(mesh_of({triangle})), make_rays(rays / count, [&] { return make_ray(triangle); })});
+        batches.push_back({scene_of(mesh_of({triangle})), make_rays(rays / count, [&] { return make_ray(triangle); })});
     }
-    return lots;
+    return batches;
 }
 
 Vec3d in_ball(Random& random, double radius) { return any_unit(random) * (radius * random.uniform(0.0, 1.0)); }
@@ -67,37 +67,42 @@ struct Ball {
 };
 
 /// 1280 triangles; rays from inside at points of edges, or at vertices.
-std::vector<Lot> from_inside(Random& random, std::size_t rays, const std::vector<Ball>& balls, bool at_vertices) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> from_inside(Random& random, std::size_t rays, const std::vector<Ball>& balls, bool at_vertices) {
+    std::vector<RayBatch> batches;
     for (const Ball& ball : balls) {
         Mesh mesh = icosphere(3);
         for (Vec3f& p : mesh.positions) p = narrow(ball.centre + widen(p) * ball.radius);
         const auto any_corner = [&](std::uint32_t face, std::uint32_t i) {
             return widen(mesh.positions[mesh.triangles[3 * face + i % 3]]);
         };
-        lots.push_back({scene_of(mesh), make_rays(rays / balls.size(), [&] {
-                            const Vec3f from = narrow(ball.centre + in_ball(random, 0.8 * ball.radius));
-                            const std::uint32_t face =
-                                random.below(static_cast<std::uint32_t>(mesh.triangles.size() / 3));
-                            const std::uint32_t side = random.below(3);
-                            const double part = at_vertices ? 0 : random.uniform(0.0, 1.0);
-                            const Vec3d target =
-                                any_corner(face, side) * (1 - part) + any_corner(face, side + 1) * part;
-                            return Ray<float>{from, narrow(target - widen(from))};
-                        })});
+        batches.push_back({scene_of(mesh), make_rays(rays / balls.size(), [&] {
+                               const Vec3f from = narrow(ball.centre + in_ball(random, 0.8 * ball.radius));
+                               const std::uint32_t face =
+                                   random.below(static_cast<std::uint32_t>(mesh.triangles.size() / 3));
+                               const std::uint32_t side = random.below(3);
+                               const double part = at_vertices ? 0 : random.uniform(0.0, 1.0);
+                               const Vec3d target =
+                                   any_corner(face, side) * (1 - part) + any_corner(face, side + 1) * part;
+                               return Ray<float>{from, narrow(target - widen(from))};
+                           })});
     }
-    return lots;
+    return batches;
 }
 
 const std::vector<Ball> ordinary_balls = {{1, {0, 0, 0}}, {1, {10, -20, 30}}, {1, {1e4, 2e4, -3e4}}};
 
-std::vector<Lot> edges(Random& random, std::size_t rays) { return from_inside(random, rays, ordinary_balls, false); }
-std::vector<Lot> vertices(Random& random, std::size_t rays) { return from_inside(random, rays, ordinary_balls, true); }
-std::vector<Lot> small_mesh(Random& random, std::size_t rays) {
+std::vector<RayBatch> edges(Random& random, std::size_t rays) {
+    return from_inside(random, rays, ordinary_balls, false);
+}
+std::vector<RayBatch> vertices(Random& random, std::size_t rays) {
+    return from_inside(random, rays, ordinary_balls, true);
+}
+std::vector<RayBatch> small_mesh(Random& random, std::size_t rays) {
     return from_inside(random, rays, {{1e-4, {0, 0, 0}}, {1e-20, {0, 0, 0}}, {1e-4, {0.1, 0.1, 0}}}, false);
 }
 
-/// A sphere of 384 quads, none of them flat: a cube's faces of 8 x 8 cells, blown up. Shared corners are equal.
+/// A sphere of 384 quads, none of them flat: the faces of a cube, of 8 x 8 cells, projected to a sphere. Shared corners
+/// are equal.
 Mesh sphere_of_quads() {
     constexpr int cells = 8;
     Mesh mesh;
@@ -105,7 +110,7 @@ Mesh sphere_of_quads() {
         const int axis = face / 2, side = face % 2 == 0 ? -cells : cells;
         for (int cell = 0; cell < cells * cells; ++cell) {
             const int column = cell % cells, row = cell / cells;
-            // against the clock from outside
+            // counter-clockwise from outside
             static constexpr int corners[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 0}},
                                                      {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
             for (const auto& corner : corners[face % 2]) {
@@ -122,7 +127,7 @@ Mesh sphere_of_quads() {
 }
 
 /// From inside at edges, at diagonals and, every fourth ray, at a corner.
-Lot from_inside_quads(Random& random, std::size_t rays) {
+RayBatch from_inside_quads(Random& random, std::size_t rays) {
     Mesh mesh = sphere_of_quads();
     return {scene_of(mesh), make_rays(rays, [&] {
                 const std::uint32_t quad = 4 * random.below(static_cast<std::uint32_t>(mesh.quads.size() / 4));
@@ -135,29 +140,29 @@ Lot from_inside_quads(Random& random, std::size_t rays) {
             })};
 }
 
-/// 200 rays for every one that is asked for: ten million where others try 50,000. Whatever they hit, they hit.
+/// 200 times as many rays as requested: ten million where other cases have 50,000. Only misses are wrong.
 Score many_rays(const Subject& subject, Random& random, std::size_t rays) {
     constexpr std::size_t blocks = 50;
     Score score;
     for (std::size_t block = 0; block < blocks; ++block) {
-        std::vector<Lot> lots = from_inside(random, rays, ordinary_balls, block % 2 == 0);
-        lots.push_back(from_inside_quads(random, 3 * rays));
-        for (const Lot& lot : lots) {
-            std::vector<Hit> hits(lot.rays.size());
-            const auto scene = subject.backend.load(prepare(lot.scene, {.origin = Vec3d{0, 0, 0}}), subject.tier);
-            score.seconds += subject.backend.trace(*scene, TraceJob{.rays = lot.rays, .hits = hits});
+        std::vector<RayBatch> batches = from_inside(random, rays, ordinary_balls, block % 2 == 0);
+        batches.push_back(from_inside_quads(random, 3 * rays));
+        for (const RayBatch& batch : batches) {
+            std::vector<Hit> hits(batch.rays.size());
+            const auto scene = subject.backend.load(prepare(batch.scene, {.origin = Vec3d{0, 0, 0}}), subject.tier);
+            score.seconds += subject.backend.trace(*scene, TraceJob{.rays = batch.rays, .hits = hits});
             for (std::size_t i = 0; i < hits.size(); ++i) {
                 const bool leak = hits[i].primitive == no_primitive;
                 score.leaks += leak;
-                score.decide(leak, [&] { return to_literal(lot.rays[i]) + " leaves a closed mesh"; });
+                score.decide(leak, [&] { return to_literal(batch.rays[i]) + " leaves a closed mesh"; });
             }
         }
     }
     return score;
 }
 
-/// A hundred thousand times as long as wide.
-std::vector<Lot> needles(Random& random, std::size_t rays) {
+/// Triangles a hundred thousand times as long as wide.
+std::vector<RayBatch> needles(Random& random, std::size_t rays) {
     return one_by_one(
         16, rays,
         [&] {
@@ -171,8 +176,8 @@ std::vector<Lot> needles(Random& random, std::size_t rays) {
         });
 }
 
-/// Within 1e-4 to 1e-10 radians of the plane.
-std::vector<Lot> grazing(Random& random, std::size_t rays) {
+/// Rays within 1e-4 to 1e-10 radians of the plane.
+std::vector<RayBatch> grazing(Random& random, std::size_t rays) {
     return one_by_one(
         16, rays, [&] { return any_triangle(random); },
         [&](const Triangle& triangle) {
@@ -185,8 +190,8 @@ std::vector<Lot> grazing(Random& random, std::size_t rays) {
         });
 }
 
-/// A triangle of two thousand kilometres, seen from 1.7 m.
-std::vector<Lot> ground(Random& random, std::size_t rays) {
+/// A triangle of 2000 km, seen from 1.7 m above it.
+std::vector<RayBatch> ground(Random& random, std::size_t rays) {
     int tilted = 0;
     return one_by_one(
         2, rays,
@@ -201,7 +206,7 @@ std::vector<Lot> ground(Random& random, std::size_t rays) {
         });
 }
 
-std::vector<Lot> just_above(Random& random, std::size_t rays) {
+std::vector<RayBatch> just_above(Random& random, std::size_t rays) {
     return one_by_one(
         16, rays, [&] { return any_triangle(random); },
         [&](const Triangle& triangle) {
@@ -211,7 +216,7 @@ std::vector<Lot> just_above(Random& random, std::size_t rays) {
         });
 }
 
-/// Faces without area are dropped and counted, and no others.
+/// Degenerate faces are dropped and counted, and no others.
 Score flat_faces(Random& random, std::size_t calls) {
     Score score;
     std::vector<Triangle> triangles;
@@ -236,8 +241,8 @@ Score flat_faces(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Quads that are flat, folded, crossed and with a corner twice; whole numbers, so that rays meet diagonals exactly.
-std::vector<Lot> quads(Random& random, std::size_t rays) {
+/// Flat, folded and crossed quads, and quads with a repeated corner; integers, so that rays hit diagonals exactly.
+std::vector<RayBatch> quads(Random& random, std::size_t rays) {
     Mesh mesh;
     for (int i = 0; i < 64; ++i) {
         const Vec3f place = {static_cast<float>(i % 8 * 8), static_cast<float>(i / 8 * 8), 0};
@@ -261,9 +266,9 @@ std::vector<Lot> quads(Random& random, std::size_t rays) {
              })}};
 }
 
-/// Faces upon each other in one plane, level or tilted, and meeting at corners: the lowest id. Whole numbers.
-std::vector<Lot> coplanar(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Overlapping faces in one plane, level or tilted, that touch at corners: the lowest id. Integers.
+std::vector<RayBatch> coplanar(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const int slope : {0, 1}) {
         Mesh mesh;
         const auto corner = [&] {
@@ -274,7 +279,7 @@ std::vector<Lot> coplanar(Random& random, std::size_t rays) {
             mesh.triangles.push_back(i);
             mesh.positions.push_back(corner());
         }
-        lots.push_back(
+        batches.push_back(
             {scene_of(mesh), make_rays(rays / 2, [&] {
                  Vec3f target = mesh.positions[random.below(3 * 64)];
                  if (random.coin()) target = (target + mesh.positions[random.below(3 * 64)]) * 0.5F;
@@ -282,7 +287,7 @@ std::vector<Lot> coplanar(Random& random, std::size_t rays) {
                  return Ray<float>{from, target - from};
              })});
     }
-    return lots;
+    return batches;
 }
 
 /// u and v within [0, 1], u + v too, and within 2^-22 of the exact ones: at edges, at vertices, grazing, everywhere.

@@ -1,11 +1,11 @@
-// Group D: bounds and hierarchies, which may only propose. The oracle tries every primitive in exact arithmetic.
+// Group D: bounds and hierarchies, which may only propose candidates. The oracle tests every primitive exactly.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
 
@@ -27,30 +27,30 @@ std::vector<Sphere> spheres_around(Random& random, const Vec3d& middle, double h
     return spheres;
 }
 
-/// Along an axis, past a sphere at (1 - 2^-24) of its radius: where its bounds are no wider than itself.
-std::vector<Lot> poles(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Along an axis, past a sphere at (1 - 2^-24) of its radius, where its bounds are exactly as wide as the sphere.
+std::vector<RayBatch> poles(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const double place : {1e2, 1e4, 1e6}) {
         const std::vector<Sphere> spheres = spheres_around(random, {place, place, place}, 64, 1, 128);
-        lots.push_back({scene_of(spheres), make_rays(rays / 3, [&] {
-                            const Sphere& s = spheres[random.below(128)];
-                            const int along = static_cast<int>(random.below(3));
-                            const int side = (along + 1 + static_cast<int>(random.below(2))) % 3;
-                            const float sign = random.coin() ? 1.0F : -1.0F;
-                            Ray<float> ray = {s.centre, {0, 0, 0}};
-                            ray.origin[side] += sign * s.radius;
-                            if (random.coin()) ray.origin[side] = std::nextafter(ray.origin[side], s.centre[side]);
-                            ray.origin[along] -= static_cast<float>(std::exp2(random.uniform(2.0, 20.0)));
-                            ray.direction[along] = 1;
-                            return ray;
-                        })});
+        batches.push_back({scene_of(spheres), make_rays(rays / 3, [&] {
+                               const Sphere& s = spheres[random.below(128)];
+                               const int along = static_cast<int>(random.below(3));
+                               const int side = (along + 1 + static_cast<int>(random.below(2))) % 3;
+                               const float sign = random.coin() ? 1.0F : -1.0F;
+                               Ray<float> ray = {s.centre, {0, 0, 0}};
+                               ray.origin[side] += sign * s.radius;
+                               if (random.coin()) ray.origin[side] = std::nextafter(ray.origin[side], s.centre[side]);
+                               ray.origin[along] -= static_cast<float>(std::exp2(random.uniform(2.0, 20.0)));
+                               ray.direction[along] = 1;
+                               return ray;
+                           })});
     }
-    return lots;
+    return batches;
 }
 
 /// Just inside the edges of 64 cubes, from 10^3 to 10^6 away.
-std::vector<Lot> edges_from_far(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> edges_from_far(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     std::vector<Box> boxes;
     for (int i = 0; i < 64; ++i) {
         const Vec3f corner = {static_cast<float>(3 * (i % 4)), static_cast<float>(3 * (i / 4 % 4)),
@@ -58,23 +58,23 @@ std::vector<Lot> edges_from_far(Random& random, std::size_t rays) {
         boxes.push_back({corner, corner + Vec3f{2, 2, 2}});
     }
     for (const double distance : {1e3, 1e4, 1e5, 1e6}) {
-        lots.push_back({scene_of({}, boxes), make_rays(rays / 4, [&] {
-                            const Box& box = boxes[random.below(64)];
-                            const Vec3d middle = (widen(box.lower) + widen(box.upper)) * 0.5;
-                            Vec3d at = {random.coin() ? 1.0 : -1.0, random.coin() ? 1.0 : -1.0, 0};
-                            at.z = random.uniform(-1.0, 1.0);
-                            const int turn = static_cast<int>(random.below(3));
-                            at = {at[turn], at[(turn + 1) % 3], at[(turn + 2) % 3]};
-                            const Vec3d target = middle + at * (1 - std::exp2(random.uniform(-30.0, -10.0)));
-                            const Vec3d origin = middle + any_unit(random) * distance;
-                            return Ray<float>{narrow(origin), narrow(target - origin)};
-                        })});
+        batches.push_back({scene_of({}, boxes), make_rays(rays / 4, [&] {
+                               const Box& box = boxes[random.below(64)];
+                               const Vec3d middle = (widen(box.lower) + widen(box.upper)) * 0.5;
+                               Vec3d at = {random.coin() ? 1.0 : -1.0, random.coin() ? 1.0 : -1.0, 0};
+                               at.z = random.uniform(-1.0, 1.0);
+                               const int turn = static_cast<int>(random.below(3));
+                               at = {at[turn], at[(turn + 1) % 3], at[(turn + 2) % 3]};
+                               const Vec3d target = middle + at * (1 - std::exp2(random.uniform(-30.0, -10.0)));
+                               const Vec3d origin = middle + any_unit(random) * distance;
+                               return Ray<float>{narrow(origin), narrow(target - origin)};
+                           })});
     }
-    return lots;
+    return batches;
 }
 
-/// At the corners of the bounds of spheres among 512: most of these rays run along the seams of boxes of nodes.
-std::vector<Lot> corners_of_bounds(Random& random, std::size_t rays) {
+/// At the corners of the bounds of 512 spheres: most of these rays run along the borders of node boxes.
+std::vector<RayBatch> corners_of_bounds(Random& random, std::size_t rays) {
     const std::vector<Sphere> spheres = spheres_around(random, {3, -2, 7}, 10, 0.25F, 512);
     return {{scene_of(spheres), make_rays(rays, [&] {
                  const Aabb box = bounds(spheres[random.below(512)]);
@@ -86,7 +86,7 @@ std::vector<Lot> corners_of_bounds(Random& random, std::size_t rays) {
 }
 
 /// Components of 1e-19, -1e-19, 0 and -0 beside one of ordinary size.
-std::vector<Lot> almost_along_axes(Random& random, std::size_t rays) {
+std::vector<RayBatch> almost_along_axes(Random& random, std::size_t rays) {
     std::vector<Sphere> spheres = spheres_around(random, {0, 0, 0}, 8, 0.5F, 64);
     std::vector<Box> boxes;
     for (int i = 0; i < 64; ++i) {
@@ -110,7 +110,7 @@ std::vector<Lot> almost_along_axes(Random& random, std::size_t rays) {
 }
 
 /// Sixteen equal spheres each, at eight places, in shuffled order: the lowest id.
-std::vector<Lot> coincident(Random& random, std::size_t rays) {
+std::vector<RayBatch> coincident(Random& random, std::size_t rays) {
     const std::vector<Sphere> places = spheres_around(random, {0, 0, 0}, 4, 1, 8);
     std::vector<Sphere> spheres;
     for (int i = 0; i < 16 * 8; ++i) spheres.push_back(places[static_cast<std::size_t>(i * 5 % 8)]);
@@ -121,7 +121,7 @@ std::vector<Lot> coincident(Random& random, std::size_t rays) {
 
 /// 256 boxes of all sizes whose lower faces lie in one plane: many candidates at the same t, among which culling by the
 /// best so far must not lose the lowest id.
-std::vector<Lot> coplanar(Random& random, std::size_t rays) {
+std::vector<RayBatch> coplanar(Random& random, std::size_t rays) {
     std::vector<Box> boxes;
     for (int i = 0; i < 256; ++i) {
         const Vec3f corner = {static_cast<float>(random.below(64)) / 4, static_cast<float>(random.below(64)) / 4, 5};
@@ -166,8 +166,8 @@ Score alone_and_together(const Subject& subject, Random& random, std::size_t cou
     return score;
 }
 
-/// As many spheres as rays, at most a million, all equal: no plane splits them.
-std::vector<Lot> one_point(Random& random, std::size_t rays) {
+/// As many equal spheres as rays, at most a million: no plane separates them.
+std::vector<RayBatch> one_point(Random& random, std::size_t rays) {
     const std::size_t count = std::clamp<std::size_t>(rays, 2000, 1'000'000);
     const std::vector<Sphere> spheres(count, {{1, 2, 3}, 0.5F});
     return {{scene_of(spheres), make_rays(std::min<std::size_t>(rays, 32), [&] {
@@ -175,7 +175,7 @@ std::vector<Lot> one_point(Random& random, std::size_t rays) {
              })}};
 }
 
-/// One sphere, for which no bounds are looked at, and the same with 64 others behind: the same bits.
+/// One sphere, whose bounds are not tested, and the same with 64 others behind it: the same bits.
 Score one_or_many(const Subject& subject, Random& random, std::size_t count) {
     const Sphere body = {{1e4F, 0, 0}, 1};
     std::vector<Sphere> many = {body};
@@ -202,8 +202,8 @@ Score one_or_many(const Subject& subject, Random& random, std::size_t count) {
     return score;
 }
 
-/// From outside of the bounds, with directions down to 2^-140 of small integers: what the same direction of ordinary
-/// length meets, at a t that is 2^k times as large, and may be beyond float.
+/// Rays from outside of the bounds whose directions are small integers times down to 2^-140: the same hits as with the
+/// direction of ordinary length, with t 2^k times as large, which may be beyond float.
 Score minute_directions(const Subject& subject, Random& random, std::size_t count) {
     const PreparedScene prepared =
         prepare(scene_of(spheres_around(random, {0, 0, 0}, 10, 1, 64)), {.origin = Vec3d{0, 0, 0}});
@@ -235,18 +235,18 @@ Score minute_directions(const Subject& subject, Random& random, std::size_t coun
     return score;
 }
 
-/// Scattered frames of an animation, each against its own bodies.
-std::vector<Lot> frames(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+/// Scattered frames of an animation, each compared with its own solids.
+std::vector<RayBatch> frames(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const std::int32_t frame : {0, 17, 63, 119}) {
         const PreparedScene prepared = prepare(named_scene("paper"), {.frame = frame, .camera = ""});
-        lots.push_back(
+        batches.push_back(
             {scene_of(prepared.spheres, {}), make_rays(rays / 4, [&] {
                  const Sphere& s = prepared.spheres[random.below(static_cast<std::uint32_t>(prepared.spheres.size()))];
                  return test::aim(random, widen(s.centre), double{s.radius}, 6, random.uniform(0.0, 1.1)).ray;
              })});
     }
-    return lots;
+    return batches;
 }
 
 }  // namespace

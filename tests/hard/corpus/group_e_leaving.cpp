@@ -1,6 +1,6 @@
 // Group E: rays that leave surfaces. An offset of the origin that is too small gives false shadows (acne), one that is
-// too large lets light through what touches (leaks), and no size is right at every scale. Rays are made on the host as
-// the path loop makes them (kernel/spawn_ray.h); the backend says what they meet.
+// too large lets light leak through touching surfaces, and no offset is right at every scale. The host makes the rays
+// like the path loop (kernel/spawn_ray.h); the backend traces them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/bsdf/reflect.h"
 #include "tandem/kernel/bsdf/refract.h"
@@ -30,7 +30,7 @@ Vec3d with_cosine(const Vec3d& axis, double cosine, Random& random) {
     return axis * cosine + any_across(random, axis) * std::sqrt((1 - cosine) * (1 + cosine));
 }
 
-/// Rays that leave surfaces, and what is asked of them.
+/// Rays that leave surfaces, with their sources and ends.
 struct Departures {
     std::vector<Ray<float>> rays;
     std::vector<RaySource> sources;
@@ -62,7 +62,7 @@ struct Departures {
     }
 };
 
-/// Shadow rays with the right answers.
+/// Shadow rays with the correct answers.
 class Shadows {
   public:
     void add(const ShadowRay<float>& shadow, bool blocked) {
@@ -87,20 +87,20 @@ class Shadows {
     std::vector<bool> blocked_;
 };
 
-/// The point that a ray sees first; nothing where it sees nothing. The host decides, in the tier `strict`.
+/// The first hit point of a ray; empty for a miss. The host decides, in the tier `strict`.
 std::optional<Point> seen_point(const SceneView& scene, const Ray<float>& ray) {
     const Closest<float> hit = LoopTracer{scene}.closest(ray, NoSource{}, true);
     if (hit.primitive == no_primitive) return std::nullopt;
     return surface_point(scene, ray, NoSource{}, hit, true);
 }
 
-/// Of a sphere that a camera at the world's origin looks at.
+/// The size and distance of a sphere that a camera at the world's origin looks at.
 struct Place {
     double radius;
     double distance;  ///< of the centre
 };
 
-/// A sphere at a place, and points of it that the camera sees.
+/// A sphere at a position, and its points that the camera sees.
 class SeenSphere {
   public:
     SeenSphere(const Place& place, Random& random)
@@ -127,8 +127,8 @@ Vec3f light_towards(const Point& point, const Vec3d& direction, double radius, R
     return narrow(widen(point.position) + direction * (radius * std::pow(10.0, random.uniform(0.5, 4.0))));
 }
 
-/// Lights above the horizon are seen and lights below are not, down to a cosine of 1e-4. Balls inside the sphere, which
-/// no ray above the horizon can meet, make sure that bounds are tried.
+/// Lights above the horizon are visible and lights below are not, down to a cosine of 1e-4. Balls inside the sphere,
+/// which no ray above the horizon can hit, make the backend build an acceleration structure.
 void try_horizon(const Subject& subject, const Place& place, Random& random, std::size_t rays, Score& score) {
     const SeenSphere seen(place, random);
     Shadows shadows;
@@ -145,7 +145,7 @@ void try_horizon(const Subject& subject, const Place& place, Random& random, std
     shadows.judge(subject, in_world(scene_of(spheres)), score);
 }
 
-/// 64 balls touch the sphere but for 1e-5 of its radius: none of them lets light through to the point below it.
+/// 64 balls at a gap of 1e-5 radii from the sphere: none of them lets light through to the point below it.
 void try_contact(const Subject& subject, const Place& place, Random& random, std::size_t rays, Score& score) {
     const SeenSphere seen(place, random);
     const double size = 0.1 * place.radius;
@@ -219,7 +219,7 @@ Mesh grid(bool quads) {
     return mesh;
 }
 
-/// A mesh turned, around (0, 0, -3) times `scale`, moved by `offset`.
+/// A mesh, rotated, around (0, 0, -3) times `scale`, translated by `offset`.
 Scene one_mesh(const Mesh& mesh, double scale, const Vec3d& offset) {
     Scene scene = scene_of({});
     scene.meshes.push_back(mesh);
@@ -243,8 +243,8 @@ bool share_a_corner(const PreparedScene& scene, std::uint32_t a, std::uint32_t b
     return std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
 }
 
-/// Rays that leave the faces of a flat or convex mesh meet no neighbour, and those that leave a closed one inward meet
-/// another face. Far from the origin rounding makes bumps of a flat mesh, whose far faces a grazing ray meets rightly.
+/// Rays that leave the faces of a flat or convex mesh hit no neighbour, and those that leave a closed one inward hit
+/// another face. Far from the origin rounding makes a flat mesh bumpy, so that a grazing ray may hit its far faces.
 void try_mesh(const Subject& subject, const Scene& scene, const Vec3d& middle, double size, bool closed, Random& random,
               std::size_t rays, Score& score) {
     const PreparedScene prepared = in_world(scene);
@@ -289,8 +289,8 @@ Score meshes(const Subject& subject, Random& random, std::size_t rays) {
     return score;
 }
 
-/// Shadow rays from spheres to points of a ball that is a light: its own surface does not hide it, and a ball that
-/// touches it does, but for 1e-5 of its radius.
+/// Shadow rays from spheres to points of an emissive ball: its own surface does not hide it, but a ball at a gap of
+/// 1e-5 of its radius does.
 Score to_surfaces(const Subject& subject, Random& random, std::size_t rays) {
     Score score;
     for (const double distance : {3.0, 1000.0}) {
@@ -318,8 +318,8 @@ Score to_surfaces(const Subject& subject, Random& random, std::size_t rays) {
     return score;
 }
 
-/// A light at the very point, inside the sphere, and so near that the vector to it is subnormal: no light or light, no
-/// NaN, and nothing that cannot be traced.
+/// A light exactly at the point, inside the sphere, and so near that the vector to it is subnormal: no NaN, and no
+/// untraceable ray.
 Score light_at_the_point(const Subject& subject, Random& random, std::size_t rays) {
     Score score;
     const SeenSphere seen({1, 5}, random);
@@ -339,8 +339,8 @@ Score light_at_the_point(const Subject& subject, Random& random, std::size_t ray
     return score;
 }
 
-/// From 1e-8 to 1e8 long: what lies between hides, what lies behind does not, and a surface exactly at the light, along
-/// an axis where all numbers are exact, does not either.
+/// Shadow rays from 1e-8 to 1e8 long: surfaces in between block, surfaces behind do not, and neither does a surface
+/// exactly at the light, along an axis where all numbers are exact.
 Score long_and_short(const Subject& subject, Random& random, std::size_t rays) {
     Score score;
     for (const float length : {1e-8F, 1.0F, 1e8F}) {
@@ -379,14 +379,14 @@ Score long_and_short(const Subject& subject, Random& random, std::size_t rays) {
     return score;
 }
 
-/// Many paths at once, a step of all of them per trace.
+/// Many paths at once; each trace advances all of them by a step.
 struct Path {
     SpawnedRay<float> next;
     std::string crossed;  ///< a letter for every surface
     bool ended = false;
 };
 
-/// Traces all paths that have not ended. `step` takes the path and the point that it meets, null if none.
+/// Traces all paths that have not ended. `step` gets the path and its hit point, null for a miss.
 template <class Step>
 void advance(const Subject& subject, const PreparedScene& prepared, ResidentScene& resident, std::vector<Path>& paths,
              Score& score, const Step& step) {
@@ -439,8 +439,8 @@ void try_straight(const Subject& subject, const Place& place, Random& random, st
     }
 }
 
-/// A body of glass: light is refracted in, mirrored three times inside, and goes out straight; it does not meet the
-/// body again. Where a grazing direction is rounded to the other side the path is not judged.
+/// A dielectric solid: light is refracted in, mirrored three times inside, and leaves straight; it must not hit the
+/// solid again. If a grazing direction is rounded to the other side the path is not judged.
 void try_glass(const Subject& subject, const Shape& shape, const Trs& trs, Random& random, std::size_t rays,
                Score& score) {
     Scene scene = scene_of({});

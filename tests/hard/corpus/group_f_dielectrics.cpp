@@ -1,4 +1,4 @@
-// Group F: mirrors and the borders of glass. All directions are unit vectors in double, as the path loop has them.
+// Group F: mirrors and dielectric interfaces. All directions are unit vectors in double, as in the path loop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/bsdf/fresnel.h"
@@ -30,7 +30,7 @@ constexpr double unit = 0x1p-53;  ///< half a unit of the last place of a double
 struct Incidence {
     Vec3d direction, normal;
 
-    /// sin^2 and cos of the angle, of the vectors as they are, be they of length 1 or not.
+    /// sin^2 and cos of the angle between the vectors, whatever their lengths.
     [[nodiscard]] Big sine2() const {
         const test::BigVector d = test::big(direction), n = test::big(normal);
         const test::BigVector across = {d.y * n.z - d.z * n.y, d.z * n.x - d.x * n.z, d.x * n.y - d.y * n.x};
@@ -63,7 +63,7 @@ struct Interface {
     double cosine_out, reflectance;
 };
 
-/// Of one ray; a packet that differs counts as wrong.
+/// The result for one ray; a packet that differs counts as wrong.
 Interface cross_interface(Score& score, const Incidence& in, double eta) {
     const auto one = refract<float>(in.direction, in.normal, eta);
     const Interface interface = {one.transmits, one.direction, one.cosine_out, fresnel_dielectric<float>(one, eta)};
@@ -101,7 +101,7 @@ Score next_to_total(Random& random, std::size_t calls) {
     return score;
 }
 
-/// The sine behind is eta times the sine before, to a float's last place, down to 1e-6 from the normal.
+/// The refracted sine is eta times the incident one, to a float ulp, down to 1e-6 from the normal.
 Score near_the_normal(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -117,7 +117,7 @@ Score near_the_normal(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Equal indices: the direction as it was, to the bit, and nothing reflected, at every angle.
+/// Equal indices: the direction is unchanged to the bit, and nothing is reflected, at every angle.
 Score equal_indices(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -146,7 +146,7 @@ Score grazing(Random& random, std::size_t calls) {
     return score;
 }
 
-/// R against Fresnel's formula, on the vectors as they are, and R + T against 1.
+/// R against Fresnel's formula, on the given vectors, and R + T against 1.
 Score energy(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -184,8 +184,8 @@ Score many_mirrors(Random& random, std::size_t calls) {
     return score;
 }
 
-/// In or out, where the direction is in the tangent plane but for 1e-9 and less: the sign of the very dot product, if
-/// it is not smaller than the rounding of doubles.
+/// Entering or leaving, for directions within 1e-9 of the tangent plane: the sign of the exact dot product, unless it
+/// is smaller than the rounding of doubles.
 Score sides(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -207,7 +207,7 @@ Score sides(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Where a line is within a sphere, exactly; empty for a line that misses it.
+/// The exact spans of a line inside spheres; a line that misses a sphere has none.
 struct Span {
     Big in, out;
     std::uint32_t medium, priority;
@@ -228,7 +228,7 @@ std::vector<Span> spans_of(const std::vector<Sphere>& spheres, const std::vector
     return spans;
 }
 
-/// What fills the line at t: of the spans around it the one of the highest priority, and of those the last one entered.
+/// The medium at t: among the spans around it that of the highest priority, and among equals the last one entered.
 std::uint32_t medium_at(const std::vector<Span>& spans, const Big& t) {
     const Span* best = nullptr;
     for (const Span& span : spans) {
@@ -241,19 +241,19 @@ std::uint32_t medium_at(const std::vector<Span>& spans, const Big& t) {
     return best == nullptr ? no_medium : best->medium;
 }
 
-/// One crossing of a border.
+/// One crossing of an interface.
 struct Event {
     Big t;
     std::uint32_t medium, priority;
     bool enters;
 };
 
-/// Spheres within each other, across each other and upon each other, each of a medium of its own. Between two crossings
-/// the stack must name the medium that looking at all of them names. The tracer must find the same crossings one after
-/// another, if none coincide.
+/// Nested, crossing and coincident spheres, each of its own medium. Between two crossings the stack must name the same
+/// medium as a test of all spheres. If none coincide, the tracer must find the same crossings in order.
 Score glass_in_glass(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
+        // Make spheres and a ray
         std::vector<Sphere> spheres;
         std::vector<std::uint32_t> priorities;
         bool coincide = false;
@@ -269,16 +269,17 @@ Score glass_in_glass(Random& random, std::size_t calls) {
         const Vec3f origin = narrow(any_unit(random) * 3.0);
         const Ray<float> ray = {origin, narrow(any_unit(random) * 0.3) - origin};
         const std::vector<Span> spans = spans_of(spheres, priorities, ray);
+        // Sort the crossings by t, then by id, as hits are
         std::vector<Event> events;
         for (const Span& span : spans) {
             events.push_back({span.in, span.medium, span.priority, true});
             events.push_back({span.out, span.medium, span.priority, false});
         }
-        // by t, then by id, as hits are ordered
         std::stable_sort(events.begin(), events.end(),
                          [](const Event& a, const Event& b) { return a.t != b.t ? a.t < b.t : a.medium < b.medium; });
         const auto text = [&] { return fmt::format("{} spheres, {}", count, to_literal(ray)); };
 
+        // Follow the crossings on the stack
         MediumStack<float> stack;
         MediumStack<Packet> packet;
         using Word = UInt<Packet>;
@@ -293,11 +294,12 @@ Score glass_in_glass(Random& random, std::size_t calls) {
                 (void)packet.leave(Word(event.medium), all_lanes);
             }
             const bool last = e + 1 == events.size();
-            if (!last && events[e + 1].t == event.t) continue;  // what coincides counts as one border
+            if (!last && events[e + 1].t == event.t) continue;  // coincident interfaces count as one
             const std::uint32_t right = last ? no_medium : medium_at(spans, (event.t + events[e + 1].t) / 2);
             score.decide(refused || stack.current() != right || packet.current()[2] != right, text);
         }
 
+        // Trace the crossings
         if (coincide) continue;
         const PreparedScene prepared = prepare(scene_of(spheres), {.origin = Vec3d{0, 0, 0}});
         const SceneView scene = view(prepared);
@@ -317,8 +319,8 @@ Score glass_in_glass(Random& random, std::size_t calls) {
     return score;
 }
 
-/// A ball of glass brings rays near its axis to n r / (2 (n - 1)) behind its centre. Those at a height h come short of
-/// that by about (h / r)^2 of it.
+/// A glass ball focuses rays near its axis at n r / (2 (n - 1)) from its centre; rays at a height h fall short of that
+/// by about (h / r)^2 of it.
 Score ball_lens(Random& random, std::size_t calls) {
     Score score;
     const PreparedScene prepared = prepare(scene_of({{{0, 0, 0}, 1}}), {.origin = Vec3d{0, 0, 0}});

@@ -1,11 +1,11 @@
-// Group G: Phong's lobe and the normalising of vectors.
+// Group G: Phong's lobe and the normalisation of vectors.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/bsdf/phong_lobe.h"
@@ -16,7 +16,7 @@ namespace {
 
 const Vec3f white = {1, 1, 1};
 
-/// The highlight alone: no diffuse reflection, a white light.
+/// Only the highlight: no diffuse reflection, a white light.
 template <class Real>
 Real highlight(const Real& shininess, const Vec3<Double<Real>>& normal, const Vec3<Double<Real>>& to_light,
                const Vec3<Double<Real>>& to_viewer) {
@@ -39,8 +39,8 @@ float on_both(Score& score, float shininess, const Vec3d& normal, const Vec3d& t
     return one;
 }
 
-/// A viewer beside the mirror direction, where cos^n is between 1 and e^-20. For n = 10^8 the cosine is given: the
-/// rounding of a dot product in double, times 10^8, would be seen.
+/// A viewer near the mirror direction, where cos^n is between 1 and e^-20. For n = 10^8 the cosine is given: the
+/// rounding of a dot product in double, times 10^8, would be visible.
 Score lobe(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -68,7 +68,7 @@ Score lobe(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Below the horizon of the mirror nothing; never more than the light; 0^0 is 1.
+/// 0 below the horizon of the mirror direction; never more than the light; 0^0 is 1.
 Score clamped(Random& random, std::size_t calls) {
     Score score;
     const Vec3d up = {0, 0, 1};
@@ -91,7 +91,7 @@ Score clamped(Random& random, std::size_t calls) {
     return score;
 }
 
-/// n = 0 gives 1 wherever the mirror direction is met at all; n = 1e-3 nearly so.
+/// n = 0 gives 1 wherever the cosine is positive; n = 1e-3 nearly so.
 Score smallest_exponents(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -105,7 +105,7 @@ Score smallest_exponents(Random& random, std::size_t calls) {
     return score;
 }
 
-/// All vectors of floats, from subnormal to 1e38: unit length in float.
+/// Float vectors of all lengths, from subnormal to 1e38: unit length in float.
 Score normalised(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -128,7 +128,7 @@ Score normalised(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Normals that are a little too long, as every fourth one is after rounding to float: no NaN, no gain.
+/// Normals that are a little too long, as a quarter of them are after rounding to float: no NaN, no gain.
 Score too_long(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {

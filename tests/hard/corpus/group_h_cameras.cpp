@@ -1,4 +1,4 @@
-// Group H: camera rays and random numbers. There is no lens yet, so H3 and H4 have nothing to try.
+// Group H: camera rays and random numbers. There are no cases for lenses (H3, H4) yet.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/camera/camera.h"
@@ -26,7 +26,7 @@ Scene camera_scene(double yfov, const Quaternion& rotation) {
     return scene;
 }
 
-/// The directions of 4096 pixels of a view of 1e-3 and 1e-4 degrees: each its own, within 1e-3 of a pixel.
+/// The directions of 4096 pixels of a view of 1e-3 and 1e-4 degrees: all different, within 1e-3 of a pixel.
 template <class Real>
 void narrow_view(const Quaternion& rotation, Score& score) {
     constexpr int size = 4096;
@@ -58,7 +58,7 @@ Score narrow_views(Random&, std::size_t, Tier tier) {
     return score;
 }
 
-/// Cameras whose node has no three directions are refused; all others give finite rays at right angles.
+/// Cameras with singular transforms are refused; all others give finite rays and orthogonal axes.
 Score degenerate_cameras(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -88,7 +88,7 @@ Score degenerate_cameras(Random& random, std::size_t calls) {
     return score;
 }
 
-/// All upper 24 bits, with the lower ones at both ends: below 1, and exactly a multiple of 2^-24.
+/// All upper 24 bits, with the lower ones all 0 or all 1: below 1, and exactly a multiple of 2^-24.
 Score unit_interval(Random&, std::size_t) {
     Score score;
     for (std::uint32_t high = 0; high < 1U << 24; ++high) {
@@ -124,7 +124,7 @@ Score large_film(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Blocks of counters around the ends of 32 bits: no two alike.
+/// Blocks of counters around the limits of 32 bits: no two are equal.
 Score counters(Random& random, std::size_t calls) {
     Score score;
     std::set<std::array<std::uint32_t, 4>> asked, given;

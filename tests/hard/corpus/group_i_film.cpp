@@ -1,13 +1,13 @@
-// Group I: sums over many samples. There is no variance, no resuming and no filter yet, so I4, I8 and I10 have nothing
-// to try; orders of summation (I5, I6) are those of group L.
+// Group I: sums over many samples. There are no cases for variance, resuming and filters (I4, I8, I10) yet; group L
+// covers the orders of summation (I5, I6).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/lights/environment.h"
 #include "tandem/render/pixel_job.h"
@@ -16,7 +16,7 @@ namespace tandem::hard {
 
 namespace {
 
-/// Samples of the one pixel: the number of rays times 200, a million in the tests.
+/// Samples of the only pixel: the number of rays times 200, a million in the tests.
 RenderJob long_sum(const Subject& subject, std::size_t rays) {
     const std::size_t most = std::size_t{1} << 24;
     return {.width = 1,
@@ -97,8 +97,8 @@ Score enormous_fireflies(const Subject& subject, Random&, std::size_t rays) {
     return score;
 }
 
-/// A light too bright for float: every sample that meets the sphere is infinite or NaN, is dropped, and is counted; the
-/// sky around it stays as it is.
+/// A light too bright for float: every sample that hits the sphere is infinite or NaN, is dropped, and is counted; the
+/// background around it does not change.
 Score not_finite(const Subject& subject, Random&, std::size_t) {
     Scene scene = scene_of({{{0, 0, -5}, 1}});
     scene.nodes.push_back({.name = "lamp", .light = LightSource{.casts_shadows = false}});

@@ -5,8 +5,8 @@
 
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "support/under_parent.h"
 #include "tandem/base/error.h"
@@ -22,8 +22,8 @@ namespace {
 using test::any_unit;
 using test::under_parent;
 
-/// Ellipsoids a thousandth in size, a million away; rays among them. Judged in the space of the body.
-std::vector<Lot> small_and_far(Random& random, std::size_t rays) {
+/// Ellipsoids of size 0.001 at a distance of a million; rays among them. Judged in object space.
+std::vector<RayBatch> small_and_far(Random& random, std::size_t rays) {
     const Vec3d middle = {1e6, -1e6, 1e6};
     Scene scene = scene_of({});
     Node frame{.name = "frame"};
@@ -45,7 +45,7 @@ std::vector<Lot> small_and_far(Random& random, std::size_t rays) {
              })}};
 }
 
-/// The normal of a ball pressed to 1e-3 along z against the exact gradient at the exact hit point.
+/// The normal of a sphere scaled to 1e-3 along z, against the exact gradient at the exact hit point.
 Score pressed_normals(Random& random, std::size_t calls) {
     Scene scene = scene_of({});
     Node node{.name = "body"};
@@ -79,7 +79,7 @@ Score pressed_normals(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Flat bodies are refused by name; a mirror image is the image in a mirror.
+/// Flat solids are refused by name; a mirrored scene gives the mirror image.
 Score determinants(Random&, std::size_t) {
     Score score;
     for (const double flat : {0.0, 1e-13, -1e-13, 1e-300}) {
@@ -144,7 +144,7 @@ Score clock_and_path(Random& random, std::size_t calls) {
     return score;
 }
 
-/// A turn between keys stays a rotation at every frame; a quaternion and its negative are the same turn.
+/// A rotation between keys stays a rotation at every frame; a quaternion and its negative are the same rotation.
 Score rotations(Random& random, std::size_t calls) {
     Score score;
     for (std::size_t i = 0; i < calls; ++i) {
@@ -182,7 +182,7 @@ Score rotations(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Frame 7 by itself, and after six others.
+/// Frame 7 alone, and after six others.
 Score frame_alone(const Subject& subject, Random&, std::size_t) {
     const Scene scene = named_scene("paper");
     Score score;

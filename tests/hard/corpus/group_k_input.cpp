@@ -1,4 +1,4 @@
-// Group K: scenes as they should not be, and scenes at the ends of what they may be.
+// Group K: invalid scenes, and scenes at the limits.
 #include <fmt/format.h>
 
 #include <clocale>
@@ -9,8 +9,8 @@
 #include "hard/corpus/functions.h"
 #include "hard/corpus/gltf_text.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/temporary_folder.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
@@ -31,7 +31,7 @@ Scene one_of_each() {
     return scene;
 }
 
-/// Is the scene refused with a sentence that holds `part`?
+/// Expects that the scene is refused with a message that contains `part`.
 void must_refuse(Score& score, const Scene& scene, const std::string& part, const std::string& what) {
     std::string message;
     try {
@@ -76,7 +76,7 @@ Score not_numbers(Random&, std::size_t) {
     return score;
 }
 
-/// Rays that are none among rays that are: misses, on every lane of a packet.
+/// Untraceable rays among traceable ones: they miss, on every lane of a packet.
 Score not_rays(const Subject& subject, Random& random, std::size_t count) {
     const PreparedScene scene = prepare(scene_of(shell(random, {0, 0, 0}, 4)), {.origin = Vec3d{0, 0, 0}});
     const float inf = HUGE_VALF, nan = std::nanf("");
@@ -93,7 +93,7 @@ Score not_rays(const Subject& subject, Random& random, std::size_t count) {
     return score;
 }
 
-/// Radius 0 and below, coordinates beyond 10^18, shininess and reflectances that give energy: refused by name.
+/// Radius 0 and below, coordinates beyond 10^18, shininess and reflectances that create energy: refused by name.
 Score beyond_limits(Random&, std::size_t) {
     Score score;
     const auto refuse = [&](const char* part, const char* what, auto change) {
@@ -120,7 +120,7 @@ Score beyond_limits(Random&, std::size_t) {
     return score;
 }
 
-/// A program whose decimal point is a comma, while it lives: C++ streams, and C where such a locale is installed.
+/// Sets a decimal comma during its lifetime: for C++ streams, and for C if such a locale is installed.
 class CommaLocale {
   public:
     CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Comma))) {
@@ -198,7 +198,7 @@ Score equal_lights(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// No primitive at all, one pixel, and jobs that ask for nothing.
+/// No primitive, one pixel, and empty jobs.
 Score nothing_there(const Subject& subject, Random&, std::size_t) {
     Score score;
     const auto scene = subject.backend.load(prepare(scene_of({})), subject.tier);
@@ -223,25 +223,25 @@ Score nothing_there(const Subject& subject, Random&, std::size_t) {
 }
 
 /// Sizes that are subnormal in float.
-std::vector<Lot> subnormal(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> subnormal(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (const double size : {1e-40, 1e-43}) {
         std::vector<Sphere> spheres;
         spheres.reserve(64);
         for (int i = 0; i < 64; ++i) {
             spheres.push_back({narrow(any_unit(random) * 20.0 * size), static_cast<float>(3 * size)});
         }
-        lots.push_back({scene_of(spheres), make_rays(rays / 2, [&] {
-                            const Vec3d origin = any_unit(random) * 60.0 * size;
-                            return Ray<float>{narrow(origin), narrow(any_unit(random) * 20.0 - origin * (1 / size))};
-                        })});
+        batches.push_back({scene_of(spheres), make_rays(rays / 2, [&] {
+                               const Vec3d origin = any_unit(random) * 60.0 * size;
+                               return Ray<float>{narrow(origin), narrow(any_unit(random) * 20.0 - origin * (1 / size))};
+                           })});
     }
-    return lots;
+    return batches;
 }
 
 /// Centres on a line, in a plane and in a point: bounds without extent.
-std::vector<Lot> no_extent(Random& random, std::size_t rays) {
-    std::vector<Lot> lots;
+std::vector<RayBatch> no_extent(Random& random, std::size_t rays) {
+    std::vector<RayBatch> batches;
     for (int dimensions = 0; dimensions < 3; ++dimensions) {
         std::vector<Sphere> spheres;
         std::vector<Box> boxes;
@@ -251,17 +251,17 @@ std::vector<Lot> no_extent(Random& random, std::size_t rays) {
             spheres.push_back({place, random.coin() ? 0.125F : 0.25F});
             boxes.push_back({place, place + Vec3f{dimensions > 0 ? 0.25F : 0, dimensions > 1 ? 0.25F : 0, 0}});
         }
-        lots.push_back({scene_of(spheres, boxes), make_rays(rays / 3, [&] {
-                            const Vec3d target = widen(spheres[random.below(200)].centre) + any_unit(random) * 0.3;
-                            const Vec3d origin = any_unit(random) * 40.0;
-                            return Ray<float>{narrow(origin), narrow(target - origin)};
-                        })});
+        batches.push_back({scene_of(spheres, boxes), make_rays(rays / 3, [&] {
+                               const Vec3d target = widen(spheres[random.below(200)].centre) + any_unit(random) * 0.3;
+                               const Vec3d origin = any_unit(random) * 40.0;
+                               return Ray<float>{narrow(origin), narrow(target - origin)};
+                           })});
     }
-    return lots;
+    return batches;
 }
 
-/// Ten spheres for every ray, up to ten millions; a thousandth of the rays is traced.
-std::vector<Lot> crowd(Random& random, std::size_t rays) {
+/// Ten spheres per ray, up to ten million; a thousandth of the rays is traced.
+std::vector<RayBatch> crowd(Random& random, std::size_t rays) {
     const std::size_t count = std::min<std::size_t>(10 * rays, 10'000'000);
     const auto radius = static_cast<float>(0.6 / std::cbrt(static_cast<double>(count)));
     std::vector<Sphere> spheres;

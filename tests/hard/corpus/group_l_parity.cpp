@@ -1,5 +1,5 @@
-// Group L: what must not matter: device, threads, tiles, the state of the processor, kinds of NaN. Compilers (L3) are
-// compared by scripts/compilers and the stored films of tests/agree.
+// Group L: what must not change a bit: device, threads, tiles, the state of the processor, kinds of NaN.
+// scripts/compilers and the stored films of tests/agree compare compilers (L3).
 #include <fmt/format.h>
 #include <immintrin.h>
 
@@ -7,8 +7,8 @@
 
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/correct_rounding.h"
 #include "support/hard_scenes.h"
 #include "tandem/backends/make_backend.h"
@@ -19,16 +19,16 @@ namespace tandem::hard {
 
 namespace {
 
-/// The CPU with the least instruction set and one thread.
+/// The CPU backend with the baseline instruction set and one thread.
 std::unique_ptr<Backend> least_processor() {
     return make_backend("cpu", {.threads = 1, .instruction_set = "x86-64-v2"});
 }
 
-/// Films and hits against those of the least processor.
+/// Films and hits against those of the baseline.
 Score least_processor_alike(const Subject& subject, Random&, std::size_t rays) {
     const auto least = least_processor();
     Score score;
-    Score theirs;  // its time is none of the subject's
+    Score theirs;  // its time does not count for the subject
     for (const char* name : {"paper", "mixed/300", "spheres/100"}) {
         const PreparedScene scene = prepare(named_scene(name));
         const Film right = picture_of(*least, scene, small_picture(subject), theirs);
@@ -106,7 +106,7 @@ Score least_and_greatest(Random& random, std::size_t calls) {
     return score;
 }
 
-/// NaN from our functions is one and the same, and integers become floats without a detour.
+/// Our functions return only one NaN, and integers are converted to float directly.
 Score one_nan(Random& random, std::size_t calls) {
     Score score;
     for (const test::Function& function : test::functions) {

@@ -1,5 +1,5 @@
-// Group M: lights. Here those without extent, and which of several is drawn. Those that are surfaces are in
-// group_m_surfaces.cpp; what stands before lights is in group_m_obstacles.cpp.
+// Group M: lights. This file has punctual lights and the choice among several; area lights are in group_m_surfaces.cpp,
+// occluders in group_m_obstacles.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "hard/corpus/functions.h"
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lit_scenes.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "support/light_shares.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
@@ -25,7 +25,7 @@ namespace {
 using test::any_turn;
 using test::any_unit;
 
-/// Box, camera and light from one direction under one turned root: N = L = V, and the highlight is 1 for every
+/// Box, camera and light from one direction under one rotated root: N = L = V, and the highlight is 1 for every
 /// exponent.
 Score turned_highlight(const Subject& subject, Random& random, std::size_t) {
     Score score;
@@ -48,18 +48,18 @@ Score turned_highlight(const Subject& subject, Random& random, std::size_t) {
     return score;
 }
 
-/// A scene of one lit plane with these spheres that glow above it, in their order.
-PreparedScene glowing_spheres(const std::vector<double>& radii) {
+/// A scene of one lit plane with these emissive spheres above it, in their order.
+PreparedScene emissive_spheres(const std::vector<double>& radii) {
     Scene scene = dark_scene({0, 0, 1}, 0.1);
-    const std::uint32_t lamp = add_material(scene, glowing("lamp", 1));
+    const std::uint32_t lamp = add_material(scene, emissive("lamp", 1));
     for (std::size_t i = 0; i < radii.size(); ++i) {
         add_shape(scene, SphereShape{radii[i]}, {static_cast<double>(i), 0, 10}, lamp);
     }
     return prepare(scene);
 }
 
-/// All numbers of 64 bits are shared out, each light's chance is the share of those that draw it, and none has less
-/// than an eighth of an equal share; nor less than seven eighths of its share of the power.
+/// All 64-bit numbers are distributed, each light's probability is the share of its numbers, and it is at least an
+/// eighth of an equal share and at least seven eighths of the light's share of the power.
 void judge_shares(const PreparedScene& scene, const std::vector<double>& powers, const std::string& what,
                   Score& score) {
     const std::vector<AreaLight>& lights = scene.area_lights;
@@ -90,15 +90,15 @@ Score area_shares(Random&, std::size_t) {
         for (int place = 0; place < 4; ++place) {
             std::vector<double> radii(4, 1.0), powers;
             radii[static_cast<std::size_t>(place)] = std::sqrt(ratio);
-            const PreparedScene scene = glowing_spheres(radii);
+            const PreparedScene scene = emissive_spheres(radii);
             for (const Sphere& sphere : scene.spheres) powers.push_back(widen(sphere.radius) * widen(sphere.radius));
             judge_shares(scene, powers, fmt::format("1 : {}, at {}", ratio, place), score);
         }
     }
-    judge_shares(glowing_spheres({2}), {1}, "one sphere", score);
+    judge_shares(emissive_spheres({2}), {1}, "one sphere", score);
     Scene mesh = dark_scene({0, 0, 3}, 1);
     mesh.meshes = {icosphere(5)};
-    add_shape(mesh, MeshShape{0}, {0, 0, 0}, add_material(mesh, glowing("lamp", 1)));
+    add_shape(mesh, MeshShape{0}, {0, 0, 0}, add_material(mesh, emissive("lamp", 1)));
     const PreparedScene prepared = prepare(mesh);
     std::vector<double> areas;
     for (const Triangle& face : prepared.triangles) {
@@ -109,7 +109,7 @@ Score area_shares(Random&, std::size_t) {
     return score;
 }
 
-/// The chance of the second of two lights, over all numbers that there are.
+/// The probability of the second of two lights, over all numbers.
 Score light_choice_shares(Random& random, std::size_t calls) {
     Score score;
     const auto judge = [&](float first, float second) {
@@ -129,24 +129,25 @@ Score light_choice_shares(Random& random, std::size_t calls) {
     return score;
 }
 
-/// A light below an opaque sheet does not show on it from above, by no term of Phong's model, if it casts shadows; one
-/// above it does, and one that casts none does as in the paper.
+/// If a light below an opaque sheet casts shadows, no term of Phong's model shows it from above. A light above the
+/// sheet shows, and so does one without shadows, as in the paper.
 Score behind_sheets(const Subject& subject, Random& random, std::size_t) {
     Score score;
     constexpr Vec3f corners[4] = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
+    // Punctual lights
     const auto try_one = [&](LightKind kind, bool double_sided, bool triangles, bool below, bool shadows) {
         Scene scene = dark_scene({0, 0, 0}, 0.5);
         Material lobe = mirror_lobe("lobe", 8);
         lobe.phong.diffuse = {0.5F, 0.5F, 0.5F};
         lobe.sides = double_sided ? FaceSides::double_sided : FaceSides::single_sided;
         add_sheet(scene, corners, add_material(scene, lobe), triangles);
-        // the eye looks at the origin from (-6, 1, 0) direction; the lamp is where its mirror image would be
+        // the camera looks at the origin from (-6, 1, 0); the lamp is at its mirror image
         scene.nodes[0].camera = PerspectiveCamera{0.3};
         scene.nodes[0].trs = {{-6, 1, 0}, {0, -std::sqrt(0.5), 0, std::sqrt(0.5)}, {1, 1, 1}};
         const double height = below ? -0.5 : 0.5;
         Node& lamp = add_lamp(scene, {.kind = kind, .outer_cone = 1.2, .casts_shadows = shadows}, {6, height, 0});
         const double angle = std::atan2(height, 6.0);
-        // towards the origin: -z turned to -x, and down or up to it
+        // towards the origin: -z rotated to -x, then pitched up or down
         lamp.trs.rotation = Quaternion{0, std::sqrt(0.5), 0, std::sqrt(0.5)};
         if (kind != LightKind::point) {
             const double half = angle / 2;
@@ -177,7 +178,7 @@ Score behind_sheets(const Subject& subject, Random& random, std::size_t) {
         }
         try_one(kind, false, false, true, false);
     }
-    // a ball that glows in the place of the lamp; what is below the sheet is met by no path from above it
+    // An emissive ball in place of the lamp: no path from above hits what is below the sheet
     for (const bool indirect : {false, true}) {
         for (const bool double_sided : {false, true}) {
             Scene scene = dark_scene({0, 0, 0}, 0.5);
@@ -187,7 +188,7 @@ Score behind_sheets(const Subject& subject, Random& random, std::size_t) {
             lobe.phong.diffuse = {0.5F, 0.5F, 0.5F};
             lobe.sides = double_sided ? FaceSides::double_sided : FaceSides::single_sided;
             add_sheet(scene, corners, add_material(scene, lobe));
-            add_shape(scene, SphereShape{0.1}, {6, -0.5, 0}, add_material(scene, glowing("lamp", 100)));
+            add_shape(scene, SphereShape{0.1}, {6, -0.5, 0}, add_material(scene, emissive("lamp", 100)));
             scene.indirect_light = indirect;
             const PreparedScene prepared = prepare(scene);
             with_oracle(subject, [&](Backend& backend, const std::string& name) {
@@ -224,7 +225,7 @@ Score narrow_spots(const Subject& subject, Random&, std::size_t) {
         for (const double part : {0.0, 0.5, 0.95}) {
             const double ymag = 1.1 * std::tan(outer);
             Scene scene = dark_scene({0, 2, 0}, ymag, downward());
-            add_shape(scene, BoxShape{{4, 1, 4}}, {0, -0.5, 0}, add_material(scene, matt_material("matt", 1)));
+            add_shape(scene, BoxShape{{4, 1, 4}}, {0, -0.5, 0}, add_material(scene, lambertian_material("diffuse", 1)));
             add_lamp(scene, {.kind = LightKind::spot, .inner_cone = part * outer, .outer_cone = outer}, {0, 1, 0},
                      downward());
             const PreparedScene prepared = prepare(scene);
@@ -274,7 +275,7 @@ Score spot_shares(Random& random, std::size_t calls) {
     return score;
 }
 
-/// Lights at the very point that they light, with and without fall-off: no light, no NaN, and the ambient light stays.
+/// Lights exactly at the shaded point, with and without fall-off: no light, no NaN, and the ambient light stays.
 Score at_the_light(const Subject& subject, Random&, std::size_t) {
     Score score;
     constexpr Vec3f corners[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -304,12 +305,12 @@ Score at_the_light(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// What the kernels see has to be a float: colour times intensity, the cone of a spot.
+/// Kernels read floats: colour times intensity and the cone of a spot must not overflow or vanish.
 Score beyond_float(Random&, std::size_t) {
     Score score;
     const auto judge = [&](const LightSource& light, bool is_good, const std::string& what) {
         Scene scene = dark_scene({0, 0, 1}, 1);
-        add_shape(scene, SphereShape{0.3}, {0, 0, 0}, add_material(scene, matt_material("matt", 0.5F)));
+        add_shape(scene, SphereShape{0.3}, {0, 0, 0}, add_material(scene, lambertian_material("diffuse", 0.5F)));
         add_lamp(scene, light, {0, 0, 2});
         bool taken = true;
         try {
@@ -328,15 +329,14 @@ Score beyond_float(Random&, std::size_t) {
     return score;
 }
 
-/// Lights that bring nothing to anything that is seen, among three that do: with indirect light, where one stands for
-/// all, the same bits.
+/// Lights that contribute nothing, among three that do: with indirect light, where one light is sampled, the same bits.
 Score without_effect(const Subject& subject, Random&, std::size_t) {
     Score score;
     const auto scene_with = [&](bool more) {
         Scene scene = dark_scene({0, 2, 0}, 0.8, downward());
-        const std::uint32_t matt = add_material(scene, matt_material("matt", 0.7F));
-        add_shape(scene, BoxShape{{4, 1, 4}}, {0, -0.5, 0}, matt);
-        add_shape(scene, SphereShape{0.3}, {0.2, 0.3, 0.1}, matt);
+        const std::uint32_t lambertian = add_material(scene, lambertian_material("diffuse", 0.7F));
+        add_shape(scene, BoxShape{{4, 1, 4}}, {0, -0.5, 0}, lambertian);
+        add_shape(scene, SphereShape{0.3}, {0.2, 0.3, 0.1}, lambertian);
         scene.indirect_light = true;
         const auto nothing = [&] {
             if (!more) return;

@@ -1,4 +1,4 @@
-// Group M: what is in the way of light, and scenes that are hard to prepare.
+// Group M: occluders of light, and scenes that are hard to prepare.
 #include <fmt/format.h>
 #include <xmmintrin.h>
 
@@ -8,8 +8,8 @@
 
 #include "hard/corpus/groups.h"
 #include "hard/corpus/lit_scenes.h"
-#include "hard/corpus/lots.h"
 #include "hard/corpus/pictures.h"
+#include "hard/corpus/ray_batches.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/render/motion_blur.h"
@@ -22,25 +22,26 @@ namespace {
 
 using test::any_turn;
 
-/// Sheets that are holes all over lie exactly upon an opaque one, which has the highest or the lowest id: the camera
-/// sees it, it stops the light, and paths that go through holes elsewhere find a lamp as if there were none.
-Score holes_upon_sheets(const Subject& subject, Random& random, std::size_t) {
+/// Fully masked-out sheets lie exactly on an opaque one, which has the highest or the lowest id: the camera sees it, it
+/// blocks the light, and paths through masked sheets elsewhere find a lamp as if there were none.
+Score masked_sheets_on_opaque_ones(const Subject& subject, Random& random, std::size_t) {
     Score score;
-    Material hole = matt_material("hole", 0.5F);
-    hole.alpha_mode = AlphaMode::mask;
-    hole.alpha = 0;
-    hole.sides = FaceSides::double_sided;
+    // Stacks of masked-out sheets around an opaque one
+    Material masked = lambertian_material("masked", 0.5F);
+    masked.alpha_mode = AlphaMode::mask;
+    masked.alpha = 0;
+    masked.sides = FaceSides::double_sided;
     const auto stack = [&](Scene& scene, float height, float half, int before, int behind, bool triangles,
                            std::uint32_t opaque) {
         const Square square(0, height, 0, half);
         // a material each: none is another's copy
-        for (int i = 0; i < before; ++i) add_sheet(scene, square.corner, add_material(scene, hole), triangles);
+        for (int i = 0; i < before; ++i) add_sheet(scene, square.corner, add_material(scene, masked), triangles);
         add_sheet(scene, square.corner, opaque, triangles);
-        for (int i = 0; i < behind; ++i) add_sheet(scene, square.corner, add_material(scene, hole), triangles);
+        for (int i = 0; i < behind; ++i) add_sheet(scene, square.corner, add_material(scene, masked), triangles);
     };
     for (const bool triangles : {false, true}) {
-        for (const auto& holes : {std::pair{1, 0}, {0, 1}, {3, 2}, {20, 20}}) {
-            const int before = holes.first, behind = holes.second;
+        for (const auto& masked_sheets : {std::pair{1, 0}, {0, 1}, {3, 2}, {20, 20}}) {
+            const int before = masked_sheets.first, behind = masked_sheets.second;
             for (const float height : {0.25F, 1e-3F, 777.125F}) {
                 Scene seen = dark_scene({0, double{height} + 1, 0}, 0.4, downward());
                 Scene shadow = dark_scene({0, 0.5 * double{height}, 0}, 0.1 * double{height}, downward());
@@ -50,7 +51,7 @@ Score holes_upon_sheets(const Subject& subject, Random& random, std::size_t) {
                 stack(seen, height, 0.5F, before, behind, triangles, add_material(seen, white));
                 stack(shadow, height, 4 * height, before, behind, triangles, add_material(shadow, white));
                 add_shape(shadow, BoxShape{{1e4, 1, 1e4}}, {0, -0.5, 0},
-                          add_material(shadow, matt_material("floor", 1)));
+                          add_material(shadow, lambertian_material("floor", 1)));
                 add_lamp(shadow, {}, Vec3d{0.01, 2, 0.02} * double{height});
                 for (Scene* scene : {&seen, &shadow}) {
                     const bool is_seen = scene == &seen;
@@ -63,8 +64,8 @@ Score holes_upon_sheets(const Subject& subject, Random& random, std::size_t) {
                         const FilmMean film = mean_of(backend, prepared, square_film(subject, 12, 2), score);
                         score.leaks += film.mean != (is_seen ? 1 : 0);
                         score.decide(film.mean != (is_seen ? 1 : 0), [&] {
-                            return fmt::format("{}: {} holes before, {} behind at {}: {} {}", name, before, behind,
-                                               height, is_seen ? "the sheet shows" : "under the sheet there is",
+                            return fmt::format("{}: {} masked sheets before, {} behind at {}: {} {}", name, before,
+                                               behind, height, is_seen ? "the sheet shows" : "under the sheet there is",
                                                film.mean);
                         });
                     });
@@ -72,23 +73,23 @@ Score holes_upon_sheets(const Subject& subject, Random& random, std::size_t) {
             }
         }
     }
-    // a lamp, and paths to it, behind holes: the light of the lamp alone
+    // A lamp behind masked-out sheets, which paths find: its light is unchanged
     for (const int sheets : {0, 1, 3}) {
         Scene scene = dark_scene({0, 0.9, 0}, 1e-3, downward());
-        add_shape(scene, BoxShape{{40, 1, 40}}, {0, -0.5, 0}, add_material(scene, matt_material("floor", 0.6F)));
-        const std::uint32_t open = add_material(scene, hole);
+        add_shape(scene, BoxShape{{40, 1, 40}}, {0, -0.5, 0}, add_material(scene, lambertian_material("floor", 0.6F)));
+        const std::uint32_t open = add_material(scene, masked);
         for (int i = 0; i < sheets; ++i) {
             add_sheet(scene, Square(0, 0.3F + 0.1F * static_cast<float>(i), 0, 20).corner, open);
         }
-        add_shape(scene, SphereShape{1}, {0, 2, 0}, add_material(scene, glowing("lamp", 5)));
+        add_shape(scene, SphereShape{1}, {0, 2, 0}, add_material(scene, emissive("lamp", 5)));
         scene.indirect_light = true;
         const FilmMean film = mean_of(subject.backend, prepare(scene), square_film(subject, 32, 64), score);
-        judge_mean(score, film, 0.6F * 5 / 4.0, 1e-4, 0.01, fmt::format("a lamp behind {} holes", sheets));
+        judge_mean(score, film, 0.6F * 5 / 4.0, 1e-4, 0.01, fmt::format("a lamp behind {} masked sheets", sheets));
     }
     return score;
 }
 
-/// Texels of alpha k / 255 where that, as a float, is the cutoff: there in every tier. One below the cutoff is not.
+/// Texels of alpha k / 255 with that float as the cutoff are opaque in every tier. One level below is masked out.
 Score alpha_levels(const Subject& subject, Random&, std::size_t) {
     Score score;
     for (const int above : {0, 1}) {
@@ -118,7 +119,7 @@ Score alpha_levels(const Subject& subject, Random&, std::size_t) {
                 const bool is_there = film.sums()[i].x > 0;
                 score.decide(is_there == (above == 1), [&] {
                     return fmt::format("{}: alpha {} of 255 against a cutoff of {} of 255 is {}", name, i + 1,
-                                       i + 1 + static_cast<std::size_t>(above), is_there ? "there" : "a hole");
+                                       i + 1 + static_cast<std::size_t>(above), is_there ? "opaque" : "masked out");
                 });
             }
         });
@@ -126,25 +127,25 @@ Score alpha_levels(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// Faces and bodies of 10^10 to 10^17 metres in the light of a lamp and of the sun: whatever is seen is a number, and
-/// no ray ends the process.
+/// Faces and solids of 10^10 to 10^17 metres, lit by a lamp and a sun: every pixel is finite, and no ray aborts the
+/// process.
 Score far_out(const Subject& subject, Random& random, std::size_t) {
     Score score;
     for (const double size : {1e10, 2e13, 1e15, 1e17}) {
         for (const bool indirect : {false, true}) {
             Scene scene = dark_scene({0, 0, 3 * size}, size);
             scene.nodes[0].camera = PerspectiveCamera{0.8};
-            Material material = matt_material("matt", 0.5F);
+            Material material = lambertian_material("diffuse", 0.5F);
             material.phong.specular = {0.5F, 0.5F, 0.5F};
             material.sides = FaceSides::double_sided;
-            const std::uint32_t matt = add_material(scene, material);
+            const std::uint32_t lambertian = add_material(scene, material);
             const auto place = [&] { return Vec3d{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0} * size; };
             for (int i = 0; i < 24; ++i) {
                 Vec3f corner[4];
                 for (Vec3f& c : corner) c = narrow(place() + Vec3d{0, 0, random.uniform(-0.3, 0.3) * size});
-                add_sheet(scene, corner, matt, i % 2 == 0);
-                add_shape(scene, SphereShape{0.05 * size}, place(), matt);
-                add_shape(scene, BoxShape{Vec3d{0.1, 0.05, 0.2} * size}, place(), matt, any_turn(random));
+                add_sheet(scene, corner, lambertian, i % 2 == 0);
+                add_shape(scene, SphereShape{0.05 * size}, place(), lambertian);
+                add_shape(scene, BoxShape{Vec3d{0.1, 0.05, 0.2} * size}, place(), lambertian, any_turn(random));
             }
             scene.indirect_light = indirect;
             add_lamp(scene, {.kind = LightKind::directional}, {0, 0, 0}, {0.3, 0.1, 0, 0.9});
@@ -159,8 +160,8 @@ Score far_out(const Subject& subject, Random& random, std::size_t) {
     return score;
 }
 
-/// What its transform leaves nothing of is dropped and counted, at any time of an animation, and leaves all else as it
-/// is; what it makes flat is refused.
+/// What a transform shrinks to nothing is dropped and counted, at any time of an animation, and changes nothing else;
+/// what it flattens is refused.
 Score hidden(Random& random, std::size_t) {
     Score score;
     const auto body = [&](int kind) {
@@ -171,6 +172,7 @@ Score hidden(Random& random, std::size_t) {
         if (kind == 3) node.light = LightSource{.kind = LightKind::directional};
         return node;
     };
+    // Objects that are hidden at all times
     for (int kind = 0; kind < 4; ++kind) {
         for (const Vec3d& scale : {Vec3d{0, 0, 0}, Vec3d{1e-60, 1e-60, 1e-60}, Vec3d{0, 0, 1}, Vec3d{1e-60, 0, 0}}) {
             for (const bool by_parent : {false, true}) {
@@ -202,7 +204,7 @@ Score hidden(Random& random, std::size_t) {
             }
         }
     }
-    // a ball that shrinks to nothing and comes back, at every hundredth of the way
+    // A ball that shrinks to nothing and comes back, in steps of a hundredth
     Scene scene = scene_of({{{0, 0, -5}, 1}, {{1, 1, -6}, 0.5F}});
     AnimationChannel channel;
     channel.node = 2;
@@ -222,8 +224,8 @@ Score hidden(Random& random, std::size_t) {
     return score;
 }
 
-/// A frame with motion blur whose instants meet scale 0: what is hidden for one instant of five is missing from that
-/// one alone, and is counted once.
+/// A frame with motion blur in which scale 0 hides an object at one instant of five: it is missing only there, and is
+/// counted once.
 Score hidden_for_an_instant(const Subject& subject, Random&, std::size_t) {
     Score score;
     for (int kind = 0; kind < 4; ++kind) {
@@ -240,7 +242,7 @@ Score hidden_for_an_instant(const Subject& subject, Random&, std::size_t) {
             }
             if (kind == 1) node.geometry[0].instances = {Trs{{0, 0, 0}, {}, {1, 0.5, 0.7}}};
         } else {
-            add_shape(scene, BoxShape{}, {0, 0, -1}, add_material(scene, matt_material("matt", 1)));
+            add_shape(scene, BoxShape{}, {0, 0, -1}, add_material(scene, lambertian_material("diffuse", 1)));
             node.trs = {{0, 0, 3}, {}, {1, 1, 1}};
             node.light = LightSource{.kind = LightKind::spot};
         }
@@ -272,7 +274,7 @@ Score hidden_for_an_instant(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// The same scene and film, whatever the caller's rounding and whether it flushes subnormals to zero.
+/// The same scene and film for any rounding mode and flush-to-zero setting of the caller.
 Score callers_state(const Subject& subject, Random&, std::size_t) {
     Score score;
     const auto make = [] {
@@ -310,7 +312,7 @@ Score callers_state(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// Thousands of copies of each kind of primitive, with another thing among them: hits, ids and films of one.
+/// Thousands of copies of each kind of primitive, with another primitive among them: the hits, ids and films of one.
 Score copies(const Subject& subject, Random& random, std::size_t rays) {
     Score score;
     for (int kind = 0; kind < 5; ++kind) {
@@ -365,7 +367,7 @@ std::vector<HardCase> light_obstacle_cases() {
     return {
         {"M11", "Alpha-masked surfaces exactly on opaque ones",
          "a ray continues behind the masked point, and so misses what lies in its plane",
-         "rule: the opaque surface is visible and blocks light; closed form", RenderCase{holes_upon_sheets}},
+         "rule: the opaque surface is visible and blocks light; closed form", RenderCase{masked_sheets_on_opaque_ones}},
         {"M12", "Alpha of k / 255 against a cutoff of k / 255",
          "a double is compared with a float: masked out at 254 of 255 levels",
          "rule: opaque, and masked out at one level less", RenderCase{alpha_levels}},

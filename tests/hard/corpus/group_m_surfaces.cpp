@@ -1,4 +1,4 @@
-// Group M: lights that are surfaces, and lights at surfaces.
+// Group M: area lights, and lights at surfaces.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,24 +15,25 @@ namespace tandem::hard {
 
 namespace {
 
-/// A lamp lights what is under a roof; above the roof is a light 10^6 to 10^15 times as strong. Once the lamp is the
-/// first of the two, once the last, with and without indirect light.
+/// A lamp under a roof, above which is a light 10^6 to 10^15 times as strong. The lamp is the first or the last of the
+/// two, with and without indirect light.
 Score under_a_roof(const Subject& subject, Random&, std::size_t) {
     Score score;
     for (const double ratio : {1e6, 1e9, 1e12, 1e15}) {
         for (int number = 0; number < 4; ++number) {
             Scene scene = dark_scene({0.5, 1, 0}, 1e-3, downward());
-            add_shape(scene, BoxShape{{40, 1, 40}}, {0, -0.5, 0}, add_material(scene, matt_material("floor", 0.6F)));
-            const std::uint32_t lamp = add_material(scene, glowing("lamp", 5));
+            add_shape(scene, BoxShape{{40, 1, 40}}, {0, -0.5, 0},
+                      add_material(scene, lambertian_material("floor", 0.6F)));
+            const std::uint32_t lamp = add_material(scene, emissive("lamp", 5));
             // 4 pi 100^2 against 4 pi 0.25^2
             const auto power = static_cast<float>(5 * ratio / 160'000);
-            const std::uint32_t sun = add_material(scene, glowing("sun", power));
+            const std::uint32_t sun = add_material(scene, emissive("sun", power));
             const auto add = [&](bool is_lamp) {
                 if (is_lamp) add_shape(scene, SphereShape{0.25}, {0, 1, 0}, lamp);
                 if (!is_lamp) add_shape(scene, SphereShape{100}, {0, 1000, 0}, sun);
             };
             add(number % 2 == 0);
-            add_shape(scene, BoxShape{{40, 0.1, 40}}, {0, 3, 0}, add_material(scene, matt_material("roof", 0)));
+            add_shape(scene, BoxShape{{40, 0.1, 40}}, {0, 3, 0}, add_material(scene, lambertian_material("roof", 0)));
             add(number % 2 != 0);
             // what paths find are walls that are black, but for the floor, which does not see itself
             scene.indirect_light = number / 2 != 0;
@@ -45,8 +46,8 @@ Score under_a_roof(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// Sheets that are folded, with their halves to different sides: from a point below, Lambert's form of those halves
-/// whose front is seen. With indirect light paths meet them too.
+/// Folded sheets, whose halves face different sides: at a point below, the light of the halves whose fronts are
+/// visible, by Lambert's formula. With indirect light paths hit them too.
 Score folded_lights(const Subject& subject, Random&, std::size_t) {
     struct Fold {
         const char* name;
@@ -66,14 +67,15 @@ Score folded_lights(const Subject& subject, Random&, std::size_t) {
          false},
         {"flat", {{-1, 2, 1}, {1, 2, 1}, {1, 2, -1}, {-1, 2, -1}}, true, true},
     };
-    // the back of one half before the other, which shines: the oracle's mean, or the whole form where backs are not
-    // there
+    // the back of one half hides the other, emissive half: compare with the oracle or, if backs are culled, with the
+    // formula for the whole half
     const Fold half_hidden = {
         "half hidden", {{-1, 2, 0.2F}, {0, 1.2F, -0.3F}, {1, 2, 0.2F}, {0, 2.2F, -1.5F}}, false, true};
+    // The scene and the formula of a fold
     const auto scene_of_fold = [](const Fold& fold, FaceSides sides, bool indirect) {
         Scene scene = dark_scene({0, 1, 0}, 1e-4, downward());
-        add_shape(scene, BoxShape{{9, 1, 9}}, {0, -0.5, 0}, add_material(scene, matt_material("floor", 0.6F)));
-        Material lamp = glowing("lamp", 5);
+        add_shape(scene, BoxShape{{9, 1, 9}}, {0, -0.5, 0}, add_material(scene, lambertian_material("floor", 0.6F)));
+        Material lamp = emissive("lamp", 5);
         lamp.sides = sides;
         // seen from below the corners run clockwise
         const Vec3f corner[4] = {fold.corner[0], fold.corner[3], fold.corner[2], fold.corner[1]};
@@ -88,6 +90,7 @@ Score folded_lights(const Subject& subject, Random&, std::size_t) {
         };
         return 0.6F * 5 * ((fold.first ? half(0, 1, 2) : 0) + (fold.second ? half(0, 2, 3) : 0)) / std::numbers::pi;
     };
+    // Compare all folds
     const RenderJob job = square_film(subject, 32, 64);
     Score score;
     for (const bool indirect : {false, true}) {
@@ -114,8 +117,8 @@ Score folded_lights(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// A ball and a square that glow, half a radius above a face and 1000 to 30000 radii from the origin, whose light paths
-/// and points of it share: the mean over a square below it.
+/// An emissive ball and square, half a radius above a face and 1000 to 30000 radii from the origin, found by paths and
+/// sampled: the mean over a square below it.
 Score above_a_face(const Subject& subject, Random&, std::size_t) {
     constexpr double reach = 0.25;
     const auto mean_below = [](int steps, const auto& form) {
@@ -144,8 +147,9 @@ Score above_a_face(const Subject& subject, Random&, std::size_t) {
                                   half);
                 };
                 Scene scene = dark_scene({at.x, at.y + 0.375, at.z}, reach, downward());
-                add_sheet(scene, square(0, 64).corner, add_material(scene, matt_material("floor", 0.6F)), triangles);
-                const std::uint32_t lamp = add_material(scene, glowing("lamp", 5));
+                add_sheet(scene, square(0, 64).corner, add_material(scene, lambertian_material("floor", 0.6F)),
+                          triangles);
+                const std::uint32_t lamp = add_material(scene, emissive("lamp", 5));
                 if (is_ball) {
                     add_shape(scene, SphereShape{1}, at + Vec3d{0, 1.5, 0}, lamp);
                 } else {
@@ -163,8 +167,8 @@ Score above_a_face(const Subject& subject, Random&, std::size_t) {
     return score;
 }
 
-/// A lamp in the plane of a sheet gives it nothing. One that lies exactly upon a ceiling, or at the lowest vertex of a
-/// body, is not hidden by it: the floor is lit as without.
+/// A lamp in the plane of a sheet does not light it. One that lies exactly on a ceiling, or at the lowest vertex of a
+/// solid, is not hidden by it: the floor is lit as without it.
 Score at_surfaces(const Subject& subject, Random& random, std::size_t) {
     Score score;
     for (int number = 0; number < 12; ++number) {
@@ -172,12 +176,12 @@ Score at_surfaces(const Subject& subject, Random& random, std::size_t) {
         const Vec3f exact = narrow(lamp);
         const auto floor_with = [&](int what) {
             Scene scene = dark_scene({0, 1, 0}, 0.5, downward());
-            Material floor = matt_material("floor", 0.8F);
+            Material floor = lambertian_material("floor", 0.8F);
             floor.phong.specular = {0.3F, 0.3F, 0.3F};
             add_sheet(scene, Square(0, 0, 0, 4).corner, add_material(scene, floor));
-            const std::uint32_t matt = add_material(scene, matt_material("matt", 0.5F));
-            if (what == 1) add_sheet(scene, Square(0, exact.y, 0, 4).corner, matt, number % 2 == 0);
-            if (what == 2) add_shape(scene, BoxShape{{8, 1, 8}}, {0, double{exact.y} + 0.5, 0}, matt);
+            const std::uint32_t lambertian = add_material(scene, lambertian_material("diffuse", 0.5F));
+            if (what == 1) add_sheet(scene, Square(0, exact.y, 0, 4).corner, lambertian, number % 2 == 0);
+            if (what == 2) add_shape(scene, BoxShape{{8, 1, 8}}, {0, double{exact.y} + 0.5, 0}, lambertian);
             if (what == 3) {  // a pyramid on its tip
                 Mesh mesh{.name = "tip", .positions = {exact}};
                 for (const Vec3f& corner : {Vec3f{1, 1, 1}, Vec3f{-1, 1, 1}, Vec3f{-1, 1, -1}, Vec3f{1, 1, -1}}) {
@@ -185,7 +189,7 @@ Score at_surfaces(const Subject& subject, Random& random, std::size_t) {
                 }
                 mesh.triangles = {0, 2, 1, 0, 3, 2, 0, 4, 3, 0, 1, 4, 1, 2, 3, 1, 3, 4};
                 scene.meshes.push_back(mesh);
-                add_shape(scene, MeshShape{static_cast<std::uint32_t>(scene.meshes.size() - 1)}, {0, 0, 0}, matt);
+                add_shape(scene, MeshShape{static_cast<std::uint32_t>(scene.meshes.size() - 1)}, {0, 0, 0}, lambertian);
             }
             add_lamp(scene, {.inverse_square = number % 2 == 0}, widen(exact));
             return prepare(scene, {.origin = Vec3d{0, 0, 0}});

@@ -18,7 +18,7 @@ namespace tandem::hard {
 [[nodiscard]] std::vector<HardCase> input_cases();           // K
 [[nodiscard]] std::vector<HardCase> parity_cases();          // L
 [[nodiscard]] std::vector<HardCase> light_cases();           // M
-[[nodiscard]] std::vector<HardCase> light_surface_cases();   // M, lights that are surfaces
-[[nodiscard]] std::vector<HardCase> light_obstacle_cases();  // M, what is in the way of light
+[[nodiscard]] std::vector<HardCase> light_surface_cases();   // M, area lights
+[[nodiscard]] std::vector<HardCase> light_obstacle_cases();  // M, occluders
 
 }  // namespace tandem::hard

@@ -67,27 +67,27 @@ std::vector<const HardCase*> select_cases(const std::vector<std::string>& patter
     return selected;
 }
 
-std::vector<AnsweredLot> answered_lots(const HardCase& hard_case, std::size_t rays) {
+std::vector<AnsweredBatch> answered_batches(const HardCase& hard_case, std::size_t rays) {
     Random random = random_for(hard_case);
-    std::vector<AnsweredLot> result;
-    for (Lot& lot : std::get<RayCase>(hard_case.body).make(random, rays)) {
-        PreparedScene prepared = prepare(lot.scene, {.origin = Vec3d{0, 0, 0}});  // rays are in world space
-        std::vector<Answer> answers = exact_answers(prepared, lot.rays);
-        result.push_back({std::move(lot.scene), std::move(prepared), std::move(lot.rays), std::move(answers)});
+    std::vector<AnsweredBatch> result;
+    for (RayBatch& batch : std::get<RayCase>(hard_case.body).make(random, rays)) {
+        PreparedScene prepared = prepare(batch.scene, {.origin = Vec3d{0, 0, 0}});  // rays are in world space
+        std::vector<Answer> answers = exact_answers(prepared, batch.rays);
+        result.push_back({std::move(batch.scene), std::move(prepared), std::move(batch.rays), std::move(answers)});
     }
     return result;
 }
 
-Score try_rays(const HardCase& hard_case, const std::vector<AnsweredLot>& lots, Backend& backend, Tier tier) {
+Score try_rays(const HardCase& hard_case, const std::vector<AnsweredBatch>& batches, Backend& backend, Tier tier) {
     const bool watertight = std::get<RayCase>(hard_case.body).watertight;
     Score score;
-    for (const AnsweredLot& lot : lots) {
-        const auto scene = backend.load(lot.prepared, tier);
-        std::vector<Hit> hits(lot.rays.size());
-        const double seconds = backend.trace(*scene, TraceJob{.rays = lot.rays, .hits = hits});
-        Score of_lot = score_hits(lot.rays, lot.answers, hits, watertight);
-        of_lot.seconds = seconds;
-        score.add(of_lot);
+    for (const AnsweredBatch& batch : batches) {
+        const auto scene = backend.load(batch.prepared, tier);
+        std::vector<Hit> hits(batch.rays.size());
+        const double seconds = backend.trace(*scene, TraceJob{.rays = batch.rays, .hits = hits});
+        Score of_batch = score_hits(batch.rays, batch.answers, hits, watertight);
+        of_batch.seconds = seconds;
+        score.add(of_batch);
     }
     return score;
 }

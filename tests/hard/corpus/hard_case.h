@@ -1,5 +1,5 @@
-/// A hard case: what it is, why naive code fails, and how it is tried. The catalogue with its sources is
-/// docs/hard-corpus.md; the marks are tests/hard/corpus/marks.def.
+/// A hard case: what it is, why naive code fails, and how it is run. docs/hard-corpus.md lists the cases with their
+/// sources, tests/hard/corpus/error_bounds.def their error bounds.
 #pragma once
 
 #include <cstddef>
@@ -18,19 +18,19 @@ namespace tandem::hard {
 using test::Random;
 
 /// Rays against one scene.
-struct Lot {
+struct RayBatch {
     Scene scene;
     std::vector<Ray<float>> rays;
 };
 
 /// Rays whose answers exact arithmetic knows (answer.h).
 struct RayCase {
-    std::function<std::vector<Lot>(Random& random, std::size_t rays)> make;
-    bool watertight = false;  ///< every miss of what is there lets light through
+    std::function<std::vector<RayBatch>(Random& random, std::size_t rays)> make;
+    bool watertight = false;  ///< a miss where something is hit is a leak
 };
 
-/// Functions of the kernel side, or rules of the host. Tried on the host: on one ray and on packets. A GPU runs the
-/// same source, which the films of group L compare. Those that do not look at the tier are tried as strict has them.
+/// Kernel functions, or host-side rules. They run on the host, on single rays and on packets. A GPU runs the same
+/// source; the films of group L compare it. Functions that do not depend on the tier run as in strict.
 struct FunctionCase {
     std::function<Score(Random& random, std::size_t calls, Tier tier)> run;
 
@@ -39,7 +39,7 @@ struct FunctionCase {
     FunctionCase(Score (*of_tier)(Random&, std::size_t, Tier)) : run(of_tier) {}
 };
 
-/// What a render case may use.
+/// The backend and tier under test.
 struct Subject {
     std::string name;
     Tier tier;
@@ -47,16 +47,16 @@ struct Subject {
     std::function<std::unique_ptr<Backend>(const BackendOptions& options)> make;  ///< another one of the same kind
 };
 
-/// Whole pictures and traces: transformations that must not change them, closed forms, backends against each other.
+/// Whole images and traces: transformations that must not change them, closed forms, backends compared.
 struct RenderCase {
     std::function<Score(const Subject& subject, Random& random, std::size_t rays)> run;
 };
 
 struct HardCase {
     std::string id;      ///< letter of the group, number
-    std::string title;   ///< what is tried
+    std::string title;   ///< what is tested
     std::string why;     ///< why naive code fails
-    std::string oracle;  ///< where the right answer comes from
+    std::string oracle;  ///< the source of the correct answer
     std::variant<RayCase, FunctionCase, RenderCase> body;
 
     [[nodiscard]] bool has_rays() const { return std::holds_alternative<RayCase>(body); }
@@ -66,23 +66,23 @@ struct HardCase {
 /// All cases, by group and number.
 [[nodiscard]] const std::vector<HardCase>& corpus();
 
-/// The cases that one of the patterns names: "A1", or "B*" for a group; all if there are none. Throws InputError for a
-/// pattern that names nothing.
+/// The cases that match one of the patterns, such as "A1", or "B*" for a group; all cases if there are no patterns.
+/// Throws InputError for a pattern that matches nothing.
 [[nodiscard]] std::vector<const HardCase*> select_cases(const std::vector<std::string>& patterns);
 
-/// The rays of a ray case with their answers; made once, tried by every backend and tier.
-struct AnsweredLot {
+/// Rays of a ray case with their exact answers; made once for all backends and tiers.
+struct AnsweredBatch {
     Scene scene;
     PreparedScene prepared;
     std::vector<Ray<float>> rays;
     std::vector<Answer> answers;
 };
-[[nodiscard]] std::vector<AnsweredLot> answered_lots(const HardCase& hard_case, std::size_t rays);
+[[nodiscard]] std::vector<AnsweredBatch> answered_batches(const HardCase& hard_case, std::size_t rays);
 
-/// Tries a ray case; `lots` are those of answered_lots().
-[[nodiscard]] Score try_rays(const HardCase& hard_case, const std::vector<AnsweredLot>& lots, Backend& backend,
+/// Runs a ray case; `batches` come from answered_batches().
+[[nodiscard]] Score try_rays(const HardCase& hard_case, const std::vector<AnsweredBatch>& batches, Backend& backend,
                              Tier tier);
-/// Tries a case without a backend, or with one.
+/// Runs a case without a backend, or with one.
 [[nodiscard]] Score try_functions(const HardCase& hard_case, Tier tier, std::size_t calls);
 [[nodiscard]] Score try_pictures(const HardCase& hard_case, const Subject& subject, std::size_t rays);
 

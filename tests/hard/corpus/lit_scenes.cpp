@@ -18,14 +18,14 @@ Scene dark_scene(const Vec3d& eye, double ymag, const Quaternion& turn) {
 
 Quaternion downward() { return {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}; }
 
-Material matt_material(const std::string& name, float reflectance) {
+Material lambertian_material(const std::string& name, float reflectance) {
     return {name, {{0, 0, 0}, Vec3f{1, 1, 1} * reflectance, {0, 0, 0}, 1}};
 }
 Material mirror_lobe(const std::string& name, float shininess) {
     return {name, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, shininess}};
 }
-Material glowing(const std::string& name, float radiance) {
-    Material material = matt_material(name, 0);
+Material emissive(const std::string& name, float radiance) {
+    Material material = lambertian_material(name, 0);
     material.optics.emission = Vec3f{1, 1, 1} * radiance;
     return material;
 }

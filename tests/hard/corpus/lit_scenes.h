@@ -1,4 +1,4 @@
-/// Small scenes for the cases of light: a black world, one lamp, one surface; and what their films show.
+/// Small scenes for the light cases: a black background, one lamp, one surface; and statistics of their films.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ namespace tandem::hard {
 /// To look straight down.
 [[nodiscard]] Quaternion downward();
 
-[[nodiscard]] Material matt_material(const std::string& name, float reflectance);
+[[nodiscard]] Material lambertian_material(const std::string& name, float reflectance);
 [[nodiscard]] Material mirror_lobe(const std::string& name, float shininess);  ///< Phong's highlight alone
-[[nodiscard]] Material glowing(const std::string& name, float radiance);
-[[nodiscard]] Material bright(const std::string& name);  ///< white in the ambient light, and nothing else
+[[nodiscard]] Material emissive(const std::string& name, float radiance);
+[[nodiscard]] Material bright(const std::string& name);  ///< reflects only ambient light, all of it
 
 /// A horizontal square around (x, y, z), its front above.
 struct Square {
@@ -36,19 +36,19 @@ Node& add_lamp(Scene& scene, const LightSource& light, const Vec3d& at, const Qu
 /// All pixels of a square film as estimates of one number: red.
 struct FilmMean {
     double mean;
-    double error;  ///< standard
+    double error;  ///< standard error
     std::uint64_t invalid;
 };
 [[nodiscard]] FilmMean mean_of(Backend& backend, const PreparedScene& scene, const RenderJob& job, Score& score);
 
-/// Is the mean of a film right, within 5 standard errors and `slack` of it? An error above `most` of it is a failure,
-/// since it would say nothing.
+/// Expects the mean of a film within 5 standard errors, plus the relative tolerance `slack`. A relative error above
+/// `most` is a failure, since the comparison would prove nothing.
 void judge_mean(Score& score, const FilmMean& film, double right, double slack, double most, const std::string& what);
 
 /// A square film.
 [[nodiscard]] RenderJob square_film(const Subject& subject, int edge, int samples);
 
-/// Calls judge(backend, name) with the subject's backend, and with the oracle if the tier promises bits.
+/// Calls judge(backend, name) with the subject's backend, and with the oracle in an exact tier.
 void with_oracle(const Subject& subject, const std::function<void(Backend& backend, const std::string& name)>& judge);
 
 }  // namespace tandem::hard

@@ -9,7 +9,7 @@
 
 namespace tandem::hard {
 
-/// Writes rows of `columns` numbers; one column is an array of one dimension. Each file whole or not at all.
+/// Writes rows of `columns` numbers; one column is a one-dimensional array. The file is written whole or not at all.
 void write_npy(const std::string& path, std::span<const float> numbers, std::size_t columns = 1);
 void write_npy(const std::string& path, std::span<const double> numbers);
 void write_npy(const std::string& path, std::span<const std::int32_t> numbers);

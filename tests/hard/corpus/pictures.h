@@ -1,4 +1,4 @@
-/// Small pictures, and how they are compared.
+/// Small images, and their comparison.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace tandem::hard {
 /// 61 x 47 pixels, three samples each: odd, so that tiles and packets end in the middle.
 [[nodiscard]] RenderJob small_picture(const Subject& subject);
 
-/// The film, and its time and NaN into `score`.
+/// Renders a film, and adds its time and NaN to `score`.
 [[nodiscard]] Film picture_of(Backend& backend, const PreparedScene& scene, const RenderJob& job, Score& score);
 
 /// Every pixel of the two, bit by bit.

@@ -1,4 +1,4 @@
-/// How far what was computed is from what is right.
+/// Scores computed results against correct ones.
 #pragma once
 
 #include <concepts>
@@ -13,10 +13,10 @@
 
 namespace tandem::hard {
 
-/// Of one case on one backend and tier. What is tried are rays, or calls of a function, or pixels.
+/// The score of one case on one backend and tier. Tries are rays, calls of a function, or pixels.
 class Score {
   public:
-    /// One thing tried; `wrong` says that it is, with a line that reproduces the first such.
+    /// Counts a try; if it is `wrong`, keeps a line that reproduces the first such.
     template <std::invocable Describe>
     void decide(bool wrong, Describe describe) {
         ++tried;
@@ -28,7 +28,7 @@ class Score {
         decide(wrong, [&] { return description; });
     }
 
-    /// An error in units of the last place; remembered for the worst and the median. Keeps the line of the worst.
+    /// Records an error in ulps, for the worst and the median; keeps the line of the worst.
     template <class Describe>
     void measure(double ulps, Describe describe) {
         ulps_.push_back(ulps);
@@ -45,9 +45,9 @@ class Score {
     void add(const Score& other);
 
     std::size_t tried = 0;
-    std::size_t unjudged = 0;  ///< left out: no arithmetic should be judged on them
+    std::size_t unjudged = 0;  ///< left out: not judged
     std::size_t wrong = 0;
-    std::size_t leaks = 0;    ///< of the wrong: went through what is closed
+    std::size_t leaks = 0;    ///< of the wrong: rays that left a closed surface
     std::size_t nans = 0;     ///< answers that are NaN
     std::size_t refused = 0;  ///< of the wrong: not answered at all
     double seconds = 0;       ///< of tracing, or rendering; 0 where nothing is timed
@@ -59,14 +59,14 @@ class Score {
     std::string worst_description_;
 };
 
-/// Id of an answer that a renderer did not give: it refuses the ray.
+/// The id for a ray that a renderer refused.
 inline constexpr std::uint32_t refused_primitive = 0xFFFFFFFEU;
 
-/// Answers against the right ones. `watertight`: a miss where something is hit is a leak.
+/// Scores answers against the correct ones. `watertight`: a miss where something is hit is a leak.
 [[nodiscard]] Score score_hits(std::span<const Ray<float>> rays, std::span<const Answer> answers,
                                std::span<const Hit> hits, bool watertight);
 
-/// Distance of a float from a value that was rounded to double, in units of the last place there.
+/// Distance of a float from a value that was rounded to double, in ulps.
 [[nodiscard]] double ulps_from(float value, double right);
 
 /// A ray as a C++ literal.

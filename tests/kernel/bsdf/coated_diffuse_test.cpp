@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-TEST(CoatedDiffuse, IsLambertTimesWhatTheBorderLetsThrough) {
+TEST(CoatedDiffuse, IsLambertTimesWhatTheInterfaceTransmits) {
     const CoatedDiffuse<double> lobe{{{0.8, 0.5, 0}}, 0.04};
     for (std::uint64_t number = 0; number < 10'000; ++number) {
         Random random(number);
@@ -29,7 +29,7 @@ TEST(CoatedDiffuse, IsLambertTimesWhatTheBorderLetsThrough) {
     }
 }
 
-TEST(CoatedDiffuse, SharesTheLightWithTheBorder) {
+TEST(CoatedDiffuse, SharesTheLightWithTheInterface) {
     for (const double alpha : {0.0, 0.1, 0.5, 1.0}) {
         for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
             const CoatedDiffuse<double> base{{{1, 1, 1}}, 0.04};

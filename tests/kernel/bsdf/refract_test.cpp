@@ -60,7 +60,7 @@ TEST(Refract, FollowsSnellAlsoNearTheNormal) {
     }
 }
 
-TEST(Refract, LeavesAlongTheInterfaceExactlyAtTheBorder) {
+TEST(Refract, LeavesAlongTheInterfaceExactlyAtTheCriticalAngle) {
     // eta = 2, sine = 1/2
     const Vec3d direction = {0.5, 0, -std::sqrt(0.75)};
     const Refraction<float> found = refract<float>(direction, {0, 0, 1}, 2.0);

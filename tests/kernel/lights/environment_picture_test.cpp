@@ -418,7 +418,7 @@ TEST(EnvironmentPicture, TheWordsAtTheEndsGiveSamples) {
     }
 }
 
-TEST(EnvironmentTables, GiveEveryLitCellAChanceAndNoOther) {
+TEST(EnvironmentTables, GiveEveryLitCellAProbabilityAndNoOther) {
     for (const auto& [name, sky] : skies()) {
         const std::uint32_t width = sky.picture.width, height = sky.picture.height;
         EXPECT_EQ(sky.tables.band_ends.back(), 1U << 31) << name;

@@ -1,4 +1,4 @@
-/// Normals from a texture.
+/// Normal mapping.
 #pragma once
 
 #include "tandem/kernel/texture/texture_view.h"
@@ -6,12 +6,12 @@
 
 namespace tandem {
 
-/// Unit normal that a texel of a normal map says, world space.
+/// The unit normal of a texel of a normal map, in world space.
 ///
 /// `frame`: of the surface, tangent along growing u, bitangent along falling v (tangent_frame()). Red, green and blue
-/// from 0 to 1 are coordinates from -1 to 1 along tangent, bitangent and normal; `scale` multiplies the first two.
-/// Where they vanish it is the frame's normal. On the back of a double-sided face: with the frame of the front, then
-/// turned round. Source: glTF 2.0, 3.9.3, normal textures.
+/// from 0 to 1 are coordinates from -1 to 1 along tangent, bitangent and normal; `scale` multiplies the first two. If
+/// all vanish, the result is the frame's normal. For the back of a double-sided face, use the frame of the front and
+/// negate the result. Source: glTF 2.0, 3.9.3, normal textures.
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> mapped_normal(const Frame<Double<Real>>& frame, const Rgba<Real>& texel, float scale) {
     using D = Double<Real>;

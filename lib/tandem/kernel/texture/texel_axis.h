@@ -1,22 +1,22 @@
-/// From a texture coordinate to texels, along one axis.
+/// Converts a texture coordinate to texels, along one axis.
 #pragma once
 
 #include "tandem/math/real.h"
 
 namespace tandem {
 
-/// What a texture shows outside of [0, 1] (glTF 2.0, 3.8.4.5).
+/// The wrap mode: what a texture shows outside of [0, 1] (glTF 2.0, 3.8.4.5).
 enum class Wrap : std::uint32_t { repeat, mirrored_repeat, clamp_to_edge };
 
 enum class Filter : std::uint32_t { nearest, linear };
 
-/// The two texels that a point lies between: whole numbers from 0 to size - 1, and the weight of the second, in [0, 1).
+/// The two texels around a point: indices from 0 to size - 1, and the weight of the second, in [0, 1).
 template <class D>
 struct TexelPair {
     D first, second, weight;
 };
 
-/// Greatest integer that is not above `a`. In float, for the tier fast, magnitudes of 2^22 and more stay as they are.
+/// The largest integer not above `a`. In float, for the tier fast, magnitudes of 2^22 and more stay as they are.
 template <class D>
 TANDEM_HD D floor_of(const D& a) {
     D nearest;
@@ -29,7 +29,7 @@ TANDEM_HD D floor_of(const D& a) {
     return select(nearest > a, nearest - D(1.0F), nearest);
 }
 
-/// The coordinate in [0, 1] that shows what `coordinate` shows. One that is not finite counts as 0.
+/// Wraps a coordinate to [0, 1]. One that is not finite counts as 0.
 template <class D>
 TANDEM_HD D wrapped(const D& coordinate, Wrap wrap) {
     const D zero(0.0F);
@@ -43,13 +43,13 @@ TANDEM_HD D wrapped(const D& coordinate, Wrap wrap) {
 }
 
 /// The texels around a coordinate of any size on an axis of `size` texels, from 1 to 65536; their centres are at half
-/// integers. For Filter::nearest `first` is the one that holds the point, and the weight is 0.
+/// integers. For Filter::nearest `first` is the texel that contains the point, and the weight is 0.
 template <class D>
 TANDEM_HD TexelPair<D> texels_around(const D& coordinate, Wrap wrap, Filter filter, const D& size) {
     const D zero(0.0F);
     const D last = size - D(1.0F);
     const D along = wrapped(coordinate, wrap) * size;
-    // beyond the ends comes the other end, or the last texel again
+    // beyond an end follows the other end, or the last texel is repeated
     const D before = wrap == Wrap::repeat ? last : zero;
     const D behind = wrap == Wrap::repeat ? zero : last;
     const auto inside = [&](const D& i)

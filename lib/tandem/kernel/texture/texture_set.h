@@ -1,4 +1,4 @@
-/// The textures of a scene as flat arrays, and which material has which.
+/// The textures of a scene as flat arrays, and their assignment to materials.
 #pragma once
 
 #include "tandem/kernel/texture/texture_view.h"
@@ -8,7 +8,7 @@ namespace tandem {
 inline constexpr std::uint32_t no_texture = 0xFFFFFFFFU;
 inline constexpr std::uint32_t no_slot = 0xFFFFFFFFU;
 
-/// What the levels of red, green and blue mean: given by what a texture is used for.
+/// The encoding of red, green and blue, which follows from the use of a texture.
 enum class ColourSpace : std::uint32_t { srgb, linear };
 
 /// A texture in the arrays of a TextureSet.
@@ -20,9 +20,9 @@ struct TextureDescriptor {
     ColourSpace space = ColourSpace::srgb;
 };
 
-/// A texture of a material, and how its coordinates come from those of the surface: u is u_row . (u, v, 1). A face has
-/// several pairs of values at its corners; `slot` is the one that holds the texture's coordinates. Other primitives
-/// have one parametrisation.
+/// A texture of a material, and the transform from the surface's coordinates to the texture's: u is u_row . (u, v, 1).
+/// The corners of a face have several slots of coordinates; `slot` is that of the texture. Other primitives have a
+/// single parametrisation.
 struct TextureUse {
     std::uint32_t texture = no_texture;
     float u_row[3] = {1, 0, 0};
@@ -30,29 +30,29 @@ struct TextureUse {
     std::uint32_t slot = 0;
 };
 
-/// The textures of one material. Its alpha is `alpha` times that of the base colour (kernel/base_colour.h); where
-/// that is below `alpha_cutoff`, there is no surface. 0 cuts nothing.
+/// The textures of one material. Its alpha is `alpha` times that of the base colour (kernel/corner_values.h); where
+/// that is below `alpha_cutoff`, the surface is masked out. A cutoff of 0 masks nothing.
 struct MaterialTextures {
     TextureUse diffuse;             ///< base colour: multiplies the diffuse and the ambient reflectance
     TextureUse normal;              ///< normals in the frame of the surface: normal_map.h
     TextureUse emission;            ///< multiplies the emission
-    TextureUse metallic_roughness;  ///< green multiplies the roughness of microfacets, blue their share of metal
+    TextureUse metallic_roughness;  ///< green multiplies the roughness of microfacets, blue their metalness
     float normal_scale = 1;
     float alpha = 1;
     float alpha_cutoff = 0;
-    /// Of faces: red and green at the corners in this slot, blue and alpha in the next. They multiply the base colour.
+    /// Vertex colours of faces: red and green in this slot, blue and alpha in the next. They multiply the base colour.
     std::uint32_t colour_slot = no_slot;
 };
 static_assert(sizeof(MaterialTextures) == 144 && sizeof(TextureDescriptor) == 28,
-              "no byte is undefined; scene_hash() reads all");
+              "no padding: scene_hash() reads all bytes");
 
-/// Does the material read colours of corners, or texture coordinates of another slot than 0?
+/// Whether the material reads vertex colours, or texture coordinates of another slot than 0.
 TANDEM_HD bool reads_several_slots(const MaterialTextures& material) {
     return material.colour_slot != no_slot || (material.diffuse.slot | material.normal.slot | material.emission.slot |
                                                material.metallic_roughness.slot) != 0;
 }
 
-/// Pointers are to memory of the side that reads them.
+/// Pointers are to memory of the host or the device, whichever reads them.
 struct TextureSet {
 #define TANDEM_TEXTURE_ARRAY(Type, names) const Type* names;
 #include "tandem/kernel/texture/texture_arrays.def"
@@ -72,7 +72,7 @@ TANDEM_HD TextureView texture_view(const TextureSet& set, std::uint32_t texture)
             d.filter};
 }
 
-/// A texture of a material at the coordinates (u, v) of its surface; white if there is none.
+/// Looks up a texture of a material at the coordinates (u, v) of its surface; white without a texture.
 template <class Real>
 TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
@@ -82,8 +82,8 @@ TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, D
     return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
 }
 
-/// The product of two alphas. It is a float in every tier, as what it is compared with is: k / 255 against a cutoff of
-/// k / 255 is opaque.
+/// The product of two alphas. It is a float in every tier, like the cutoff: an alpha of k / 255 with a cutoff of k /
+/// 255 is opaque.
 template <class Real>
 TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
     const Float<Real> product = narrow(a) * narrow(b);
@@ -94,7 +94,7 @@ TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
     }
 }
 
-/// Where the material is there at all, given the alpha of its base colour.
+/// The lanes in which the material is opaque, given the alpha of its base colour.
 template <class Real>
 TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& alpha) {
     return times_alpha(Real(material.alpha), alpha) >= Real(material.alpha_cutoff);

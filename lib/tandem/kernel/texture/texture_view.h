@@ -1,20 +1,20 @@
-/// A texture as kernels see it, and its value at a point.
+/// A texture as kernels read it, and its lookup.
 #pragma once
 
 #include "tandem/kernel/texture/texel_axis.h"
 
 namespace tandem {
 
-/// Pointers are to memory of the side that reads them.
+/// Pointers are to memory of the host or the device, whichever reads them.
 struct TextureView {
     const std::uint32_t* texels;  ///< row by row from the top; red in the lowest 8 bits, then green, blue, alpha
-    const float* levels;          ///< what each of the 256 levels of red, green and blue stands for, linear
+    const float* levels;          ///< the linear values of the 256 levels of red, green and blue
     std::uint32_t width, height;  ///< from 1 to 65536
     Wrap wrap_s, wrap_t;          ///< along u, along v
     Filter filter;
 };
 
-/// Linear. Without premultiplication: the colour does not know of alpha.
+/// Linear; the colour is not premultiplied by alpha.
 template <class Real>
 struct Rgba {
     Real r, g, b, a;
@@ -22,7 +22,7 @@ struct Rgba {
 
 namespace texture_detail {
 
-/// The number of type T whose lane i is make(i).
+/// A T whose lane i is make(i).
 template <class T, class Make>
 TANDEM_HD T from_lanes(Make make) {
     if constexpr (RealTraits<T>::lanes == 1) {
@@ -40,7 +40,7 @@ TANDEM_HD UInt<Real> words_from_lanes(Make make) {
     }
 }
 
-/// The texel in column x of row y, which are within the texture.
+/// The texel in column x of row y; both are within the texture.
 template <class Real>
 TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, const Double<Real>& y) {
     return words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
@@ -50,7 +50,7 @@ TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, co
     });
 }
 
-/// A texel's red, green and blue at `shift` 0, 8 and 16, and its alpha.
+/// Decodes a texel: red, green and blue at `shift` 0, 8 and 16, and alpha.
 template <class Real>
 TANDEM_HD Double<Real> colour(const TextureView& texture, const UInt<Real>& texel, int shift) {
     return widen(from_lanes<Float<Real>>(
@@ -61,13 +61,13 @@ TANDEM_HD Double<Real> alpha(const UInt<Real>& texel) {
     return widen(from_uint<Float<Real>>(texel >> 24)) / Double<Real>(255.0F);
 }
 
-/// The texels at the corners of a cell, and the place in it.
+/// The four texels around a point, and their weights.
 template <class Real>
 struct Cell {
     UInt<Real> corner[4];  ///< (first, first), (second, first), (first, second), (second, second) of x, y
     Double<Real> x, y;
 
-    /// `value`: of a texel. Exact where the four are equal.
+    /// Interpolates `value` of the four texels. Exact if they are equal.
     template <class Value>
     TANDEM_HD Real mean(Value value) const {
         using D = Double<Real>;
@@ -81,13 +81,12 @@ struct Cell {
 
 }  // namespace texture_detail
 
-/// The texture at (u, v): (0, 0) is the corner of the first texel, v runs downwards, the whole picture is [0, 1]^2.
+/// The texture at (u, v): (0, 0) is the corner of the first texel, v runs downwards, the whole image is [0, 1]^2.
 ///
 /// Needs: any u and v, in all lanes. One that is not finite counts as 0.
-/// Gives: the texel that holds the point (one of the two on a border), or the mean of the four around it, weighted by
-/// distance. Texels become linear
-///        before the mean, which is formed in double and rounded once; it lies between the least and the greatest of
-///        them but for the rounding of a Real that is a double.
+/// Gives: the texel that contains the point (one of the two on a border), or the bilinear mean of the four around it.
+///        Texels become linear before the mean, which is computed in double and rounded once. It lies between the least
+///        and the greatest of them, except for the rounding of a Real that is a double.
 /// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Tested by
 ///        tests/kernel/texture/texture_test.cpp.
 template <class Real>

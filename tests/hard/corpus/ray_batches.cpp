@@ -1,4 +1,4 @@
-#include "hard/corpus/lots.h"
+#include "hard/corpus/ray_batches.h"
 
 #include <stdexcept>
 
