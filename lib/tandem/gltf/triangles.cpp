@@ -188,7 +188,7 @@ const char* why_ignored_attribute(const std::string& name, const std::vector<std
     if (std::any_of(sets.begin(), sets.end(), is_used)) return nullptr;
     if (name.starts_with("TEXCOORD_")) return "no texture that Tandem renders uses it";
     if (name.starts_with("COLOR_")) return "glTF gives a meaning to COLOR_0 only";
-    if (name == "TANGENT") return "the frame of normal maps comes from the texture coordinates";
+    if (name == "TANGENT") return "the tangents of normal maps and of anisotropy come from the texture coordinates";
     return "Tandem does not know it";
 }
 

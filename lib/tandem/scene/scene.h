@@ -131,6 +131,8 @@ struct Material {
     std::optional<Microfacets> microfacets{};
     /// Linear: green multiplies the roughness, blue the share of metal.
     std::optional<TextureReference> metallic_roughness_texture{};
+    /// Linear: red and green are the direction in which microfacets are rougher, blue multiplies the anisotropy.
+    std::optional<TextureReference> anisotropy_texture{};
     /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives light nor
     /// gives any (KHR_materials_unlit).
     bool unlit = false;
@@ -139,6 +141,11 @@ struct Material {
     float alpha = 1;            ///< multiplies that of the diffuse texture; from 0 to 1
     float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
 };
+
+/// Are its microfacets rougher in one direction than in others?
+[[nodiscard]] inline bool is_anisotropic(const Material& material) {
+    return material.microfacets && material.microfacets->anisotropy > 0 && !material.unlit;
+}
 
 /// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
 /// that Node{.name = ..., .light = ...} compiles without warnings.

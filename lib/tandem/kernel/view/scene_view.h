@@ -11,6 +11,7 @@
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/quad.h"
+#include "tandem/kernel/texture/anisotropy.h"
 #include "tandem/kernel/texture/texture_set.h"
 
 namespace tandem {
