@@ -60,7 +60,7 @@ class PathSorter {
         }
         if (!any(working)) return false;
         // camera rays are coherent anyway
-        const bool sorts = any(gone_on);
+        const bool sorts = any(leaves_surface);
         const int together = sorts ? packet_count : 1;
         PathTally<Real> tally;
         for (int first = 0; first < packet_count; first += together) {

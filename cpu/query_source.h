@@ -21,7 +21,8 @@ struct QuerySource : PathSource<Real> {
 
 namespace query_detail {
 
-/// first_from() for rays that start on the primitive itself, that have passed a masked hit, or that hit a culled face.
+/// first_hit_from() for rays that start on the primitive itself, that have passed a masked hit, or that hit a culled
+/// face.
 template <class Real, class Primitive>
 TANDEM_HD_CALL Mask<Real> first_hit_from_surface(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
                                                  const PathSource<Real>& source, const Mask<Real>& active,

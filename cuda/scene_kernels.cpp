@@ -81,7 +81,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
         facts.area_lights = static_cast<std::uint32_t>(known);
     }
     if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
-    if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts)) {
+    if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts | Effect::anisotropy)) {
         facts.several_slots = scene.several_slots;
     }
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;

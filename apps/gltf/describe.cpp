@@ -93,7 +93,10 @@ Json describe_materials(const Scene& scene) {
     for (const Material& material : scene.materials) {
         Json facets;  // null without microfacets
         if (material.microfacets) {
-            facets = {{"metallic", material.microfacets->metallic}, {"roughness", material.microfacets->roughness}};
+            facets = {{"metallic", material.microfacets->metallic},
+                      {"roughness", material.microfacets->roughness},
+                      {"anisotropy", material.microfacets->anisotropy},
+                      {"rotation", material.microfacets->rotation}};
         }
         materials.push_back({{"name", material.name},
                              {"ambient", colour(material.phong.ambient)},
@@ -204,6 +207,9 @@ std::string line_of_material(const Json& material) {
     if (!material["microfacets"].is_null()) {
         line += fmt::format(", metallic {:g}, roughness {:g}", material["microfacets"]["metallic"].get<float>(),
                             material["microfacets"]["roughness"].get<float>());
+        if (const auto anisotropy = material["microfacets"]["anisotropy"].get<float>(); anisotropy > 0) {
+            line += fmt::format(", anisotropy {:g}", anisotropy);
+        }
     }
     if (material["mirror"] != black) line += ", mirror " + components(material["mirror"]);
     if (material["transmission"].get<float>() > 0) {

@@ -80,6 +80,9 @@ TEST(SceneHash, ChangesWithEveryField) {
          [](PreparedScene& s) {
              s.microfacets = {{1, 0.5F}};
          }},
+        {"anisotropy", [](PreparedScene& s) { s.microfacets = {{.anisotropy = 0.5F}}; }},
+        {"directions", [](PreparedScene& s) { s.anisotropies.resize(1); }},
+        {"slot of directions", [](PreparedScene& s) { s.anisotropies = {{.slot = 1}}; }},
         {"no texture", [](PreparedScene& s) { s.textures = {}; }},
         {"light position", [](PreparedScene& s) { s.lights[0].position.x = 7; }},
         {"light intensity", [](PreparedScene& s) { s.lights[0].intensity.y = 7; }},

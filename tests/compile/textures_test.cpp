@@ -1,6 +1,7 @@
 // From an author's textures to what the kernels read.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -140,6 +141,59 @@ TEST(PrepareTextures, MovesScalesAndTurns) {
     EXPECT_NEAR(moved(0.5F, 0.5F).y, 19, 1e-5);
 }
 
+TEST(PrepareTextures, MakesDirectionsOnlyForAnisotropicMaterials) {
+    Scene scene = small_scene();
+    scene.materials.push_back({"isotropic", {}});
+    scene.materials[1].microfacets = Microfacets{};
+    scene.materials[0].microfacets = Microfacets{.rotation = 2};
+    EXPECT_TRUE(prepare(scene).anisotropies.empty());
+    scene.materials[0].microfacets->anisotropy = 0.5F;
+    const PreparedScene prepared = prepare(scene);
+    ASSERT_EQ(prepared.anisotropies.size(), 2U);
+    EXPECT_NEAR(prepared.anisotropies[0].x, std::cos(2), 1e-7);
+    EXPECT_NEAR(prepared.anisotropies[0].y, std::sin(2), 1e-7);
+    EXPECT_TRUE(prepared.textures.materials.empty());
+    // a picture without strength leaves nothing of it
+    scene.images = {{"none", 1, 1, {0xFF00FF00U}}};
+    scene.textures = {{0}};
+    scene.materials[0].anisotropy_texture = TextureReference{};
+    const PreparedScene none = prepare(scene);
+    EXPECT_TRUE(none.anisotropies.empty() && none.textures.materials.empty());
+    EXPECT_FALSE(none.effects.has(Effect::anisotropy));
+    scene.images = {{"directions", 2, 1, {0xFF00FF00U, 0xFFFF00FFU}}};
+    const PreparedScene pictured = prepare(scene);
+    ASSERT_EQ(pictured.textures.textures.size(), 1U);
+    EXPECT_EQ(pictured.textures.textures[0].space, ColourSpace::linear);
+    EXPECT_EQ(pictured.anisotropies[0].texture.texture, 0U);
+    EXPECT_TRUE(pictured.effects.has(Effect::textures) && pictured.effects.has(Effect::anisotropy));
+}
+
+// That of the normal texture, else that of the directions, else the first; a mesh need not have the first.
+TEST(PrepareTextures, TakesTheTangentFromASetOfCoordinates) {
+    Scene scene = small_scene();
+    scene.images = {{"picture", 2, 1, {red, half_blue}}};
+    scene.textures = {{0}};
+    Mesh face{.name = "face", .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {0, 1, 2}};
+    scene.meshes = {face};
+    scene.nodes[1].geometry[0].shape = MeshShape{0};
+    Material& material = scene.materials[0];
+    material.microfacets = Microfacets{.anisotropy = 1};
+    EXPECT_TRUE(validate(scene).empty());
+    EXPECT_EQ(prepare(scene).texcoords, std::vector<Vec2f>(3, Vec2f{0, 0}));
+    const auto set = [](float a) { return std::vector<Vec2f>{{a, 0}, {a, 1}, {a, 2}}; };
+    scene.meshes[0].texcoords = {set(1), set(2), set(3)};
+    EXPECT_EQ(prepare(scene).texcoords, set(1));
+    material.diffuse_texture = TextureReference{};
+    material.anisotropy_texture = TextureReference{.texcoord = 1};
+    EXPECT_EQ(prepare(scene).anisotropies[0].slot, 1U);
+    EXPECT_EQ(prepare(scene).anisotropies[0].texture.slot, 1U);
+    EXPECT_TRUE(prepare(scene).several_slots);
+    material.normal_texture = TextureReference{.texcoord = 2};
+    EXPECT_EQ(prepare(scene).anisotropies[0].slot, 2U);
+    material.anisotropy_texture->texcoord = 3;
+    EXPECT_FALSE(validate(scene).empty());
+}
+
 // What a sphere and a box do not know of, a body with its own space does.
 TEST(PrepareTextures, KeepsPicturesOnTurnedAndMirroredBodies) {
     const Trs turned{{1, 2, 3}, {0.1, 0.2, 0.3, 0.9}, {2, 2, 2}};
@@ -155,6 +209,14 @@ TEST(PrepareTextures, KeepsPicturesOnTurnedAndMirroredBodies) {
     EXPECT_EQ(prepare_as(SphereShape{1}, scaled, true).spheres.size(), 1U);
     EXPECT_EQ(prepare_as(SphereShape{1}, turned, true).ellipsoids.size(), 1U);
     EXPECT_EQ(prepare_as(SphereShape{1}, mirrored, true).ellipsoids.size(), 1U);
+    const auto brushed = [&](float strength) {
+        Scene scene = small_scene();
+        scene.nodes[1].trs = turned;
+        scene.materials[0].microfacets = Microfacets{.anisotropy = strength};
+        return prepare(scene).ellipsoids.size();
+    };
+    EXPECT_EQ(brushed(0), 0U);
+    EXPECT_EQ(brushed(0.5F), 1U) << "the grooves turn with it";
     EXPECT_EQ(prepare_as(BoxShape{}, mirrored, false).boxes.size(), 1U);
     EXPECT_EQ(prepare_as(BoxShape{}, scaled, true).boxes.size(), 1U);
     EXPECT_EQ(prepare_as(BoxShape{}, mirrored, true).parallelepipeds.size(), 1U);

@@ -54,7 +54,8 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
     const std::map<Effect, EffectMask> base = {{Effect::absorption, Effect::refraction},
                                                {Effect::nested_media, Effect::refraction},
                                                {Effect::area_lights, Effect::emission},
-                                               {Effect::roulette, Effect::indirect}};
+                                               {Effect::roulette, Effect::indirect},
+                                               {Effect::anisotropy, Effect::microfacets}};
     nlohmann::ordered_json table = nlohmann::ordered_json::array();
     const auto write = [&](EffectMask effects) {
         const Linked& kernel = linked(facts(effects));
@@ -107,8 +108,8 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.light_count = 3;
     const PathLimits limits = {5, 6, 7};
     const LinkedFacts plain = linked_facts(scene, Effect::shadows, limits);
-    EXPECT_EQ(plain,
-              (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 0, 3, 0, 0, 0}));
+    EXPECT_EQ(plain, (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 0, 3, 0,
+                                  0, 0}));
     const LinkedFacts mirrors = linked_facts(scene, Effect::reflection, limits);
     EXPECT_EQ(mirrors.reflection, 5U);
     EXPECT_EQ(mirrors.refraction, 0U);
@@ -126,6 +127,7 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     }
     scene.several_slots = 1;
     EXPECT_EQ(linked_facts(scene, Effect::textures, limits).several_slots, 1U);
+    EXPECT_EQ(linked_facts(scene, Effect::anisotropy, limits).several_slots, 1U);
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).several_slots, 0U);
     scene.cutout_kinds = PrimitiveKinds::triangle;
     EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).cutout_kinds, PrimitiveKinds::triangle);

@@ -231,6 +231,37 @@ TEST_F(Import, ReadsMetallicRoughness) {
               std::string::npos);
 }
 
+TEST_F(Import, ReadsAnisotropy) {
+    TestFile file = small_file();
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_materials_anisotropy"};
+    Json& material = file.json["materials"][0];
+    material = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.5}}}};
+    Json& anisotropy = material["extensions"]["KHR_materials_anisotropy"];
+    anisotropy = {{"anisotropyStrength", 0.75}, {"anisotropyRotation", -1.5}};
+    const ImportResult read = import(file);
+    EXPECT_EQ(read.scene.materials[0].microfacets->anisotropy, 0.75F);
+    EXPECT_EQ(read.scene.materials[0].microfacets->rotation, -1.5F);
+    EXPECT_TRUE(prepare(read.scene).effects.has(Effect::anisotropy));
+    const auto expect_note = [&](const std::string& note) {
+        const ImportResult result = import(file);
+        const std::string all = test::sentences(result.report);
+        EXPECT_TRUE(test::contains(all, note)) << all;
+        return result.scene.materials[0];
+    };
+    const std::string path = "KHR_materials_anisotropy at materials[0].extensions.KHR_materials_anisotropy: ";
+    expect_note("rendered: " + path + "the tangent is where u of the texture coordinates grows");
+    anisotropy = {{"anisotropyStrength", 2}, {"anisotropyRotation", "left"}};
+    const Material mended = expect_note("KHR_materials_anisotropy.anisotropyStrength: ");
+    EXPECT_EQ(mended.microfacets->anisotropy, 1) << "the nearest";
+    EXPECT_EQ(mended.microfacets->rotation, 0);
+    expect_note("KHR_materials_anisotropy.anisotropyRotation: must be a number");
+    anisotropy = Json::object();
+    EXPECT_EQ(expect_note("rendered: " + path + "its strength is 0").microfacets->anisotropy, 0);
+    anisotropy = {{"anisotropyStrength", 1}};
+    material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
+    EXPECT_FALSE(expect_note("ignored: " + path + "the material has no microfacets").microfacets);
+}
+
 TEST_F(Import, GlassAndUnlitMaterialsHaveNoMicrofacets) {
     TestFile file = small_file();
     file.json["materials"][0] = {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"roughnessFactor", 0.5}}}};

@@ -163,6 +163,20 @@ TEST_F(GltfMesh, ReportsWhatItLeavesOut) {
     }
 }
 
+TEST_F(GltfMesh, OfAnAnisotropicMaterialHasATangentWhereItHasCoordinates) {
+    TestFile file = mesh_file();
+    primitive(file)["material"] = 0;
+    file.json["materials"] =
+        Json::parse(R"([{"extensions": {"KHR_materials_anisotropy": {"anisotropyStrength": 1}}}])");
+    const std::string note = "approximated: anisotropy without coordinates at meshes[0].primitives[0].attributes: ";
+    EXPECT_TRUE(contains(sentences(import(file).report), note + "there is no TEXCOORD_0"));
+    const std::size_t vertices = import(file).scene.meshes[0].positions.size();
+    primitive(file)["attributes"]["TEXCOORD_0"] = file.add_floats("VEC2", std::vector<float>(2 * vertices, 0.5F));
+    const ImportResult result = import(file);
+    EXPECT_EQ(sentences(result.report).find(note), std::string::npos);
+    EXPECT_EQ(result.scene.meshes[0].texcoords[0], std::vector<Vec2f>(vertices, Vec2f{0.5F, 0.5F}));
+}
+
 struct MeshFlaw {
     const char* name;
     std::function<void(TestFile&, Json& primitive)> make;

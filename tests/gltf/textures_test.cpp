@@ -110,6 +110,25 @@ TEST_F(Textures, OfNormalsHaveAScale) {
     EXPECT_TRUE(contains(sentences(result.report), "rendered: normal texture at materials[0].normalTexture: linear"));
 }
 
+TEST_F(Textures, OfAnisotropyHaveATransformAndASet) {
+    TestFile file = textured_file();
+    Json& anisotropy = file.json["materials"][0]["extensions"]["KHR_materials_anisotropy"];
+    const Json transform = {{"KHR_texture_transform", {{"scale", {3, 4}}}}};
+    anisotropy = {{"anisotropyStrength", 1},
+                  {"anisotropyTexture", {{"index", 0}, {"texCoord", 1}, {"extensions", transform}}}};
+    const ImportResult result = import(file);
+    EXPECT_EQ(result.scene.textures.size(), 1U) << "one for both uses";
+    ASSERT_TRUE(result.scene.materials[0].anisotropy_texture);
+    EXPECT_EQ(result.scene.materials[0].anisotropy_texture->scale, Vec2f(3, 4));
+    EXPECT_EQ(result.scene.materials[0].anisotropy_texture->texcoord, 1U);
+    const std::string path = "materials[0].extensions.KHR_materials_anisotropy.anisotropyTexture: ";
+    EXPECT_TRUE(contains(sentences(result.report), "rendered: anisotropy texture at " + path + "linear"));
+    anisotropy["anisotropyStrength"] = 0;
+    const ImportResult none = import(file);
+    EXPECT_FALSE(none.scene.materials[0].anisotropy_texture);
+    EXPECT_TRUE(contains(sentences(none.report), "ignored: anisotropy texture at " + path));
+}
+
 TEST_F(Textures, AreMovedByKhrTextureTransform) {
     TestFile file = textured_file();
     file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_texture_transform"};

@@ -246,6 +246,29 @@ Scene worn_scene() {
     }
     return scene;
 }
+/// The same metals, brushed along u or in a direction of their own.
+Scene brushed(Scene scene) {
+    float rotation = 0;
+    for (Material& material : scene.materials) {
+        if (!material.microfacets) continue;
+        material.microfacets->anisotropy = 0.8F;
+        material.microfacets->rotation = rotation;
+        rotation += 0.7F;
+    }
+    return scene;
+}
+/// Of every kind of primitive. The directions of some come from a picture, at a second set of coordinates where there
+/// is one; the tangent then comes from the set of the normals.
+Scene brushed_and_worn() {
+    Scene scene = brushed(worn_scene());
+    scene.meshes[0].texcoords.push_back({{0, 0}, {0.5F, 0}, {0.5F, 1}, {0, 1}, {0.3F, 0.7F}});
+    for (const std::size_t i : {2, 4}) {
+        scene.materials[i].anisotropy_texture = TextureReference{1, {0.1F, 0}, 0.4F, {1, 2}};
+    }
+    scene.materials[4].anisotropy_texture->texcoord = 1;
+    scene.materials[3].normal_texture.reset();
+    return scene;
+}
 Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
     scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U};
     scene.indirect_light = indirect;
@@ -342,7 +365,12 @@ std::vector<EffectScene> make_scenes() {
                       lamps | facets | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back({"worn metal", in_daylight(lit(worn_scene(), {}), true, false),
                       shadows | facets | Effect::textures | Effect::normal_maps | Effect::environment_light});
-    // Environment pictures
+    const EffectMask grooves = facets | Effect::anisotropy;
+    scenes.push_back({"brushed metal, lamps", with_lamps(brushed(polished_scene())), lamps | grooves});
+    scenes.push_back(
+        {"brushed metal without coordinates", lit(with_meshes(brushed(polished_scene())), plain), grooves});
+    scenes.push_back({"brushed and worn metal", in_daylight(lit(brushed_and_worn(), {}), true, false),
+                      shadows | grooves | Effect::textures | Effect::normal_maps | Effect::environment_light});
     const EffectMask surroundings = shadows | Effect::environment_light | Effect::environment_picture;
     scenes.push_back(
         {"picture behind", within_picture(lit(diffuse_scene(), plain), false, false), Effect::environment_picture});
@@ -355,7 +383,7 @@ std::vector<EffectScene> make_scenes() {
     everything.images = pictures.images;
     everything.textures = pictures.textures;
     everything.materials[0] = pictures.materials[1];
-    everything.materials[0].microfacets = Microfacets{0.6F, 0.5F};
+    everything.materials[0].microfacets = Microfacets{.metallic = 0.6F, .roughness = 0.5F, .anisotropy = 0.5F};
     everything.materials[0].metallic_roughness_texture = TextureReference{1};
     everything = through(everything, {0.03, 3});
     everything.materials[3].optics.mirror = {0.2F, 0.1F, 0.1F};

@@ -140,6 +140,12 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
             const Microfacets& facets = prepared.microfacets[i];
             needs.add(Effect::microfacets, fmt::format("{} has roughness {:g} and is {:.3g} % metal", name,
                                                        facets.roughness, facets.metallic * 100));
+            if (facets.anisotropy > 0) {
+                needs.add(Effect::anisotropy, fmt::format("{} has an anisotropy of {:g}", name, facets.anisotropy));
+                if (prepared.anisotropies[i].texture.texture != no_texture) {
+                    needs.add(Effect::textures, name + " has an anisotropy texture");
+                }
+            }
         }
     }
     if (prepared.culled_node != PreparedScene::never) {
@@ -202,6 +208,10 @@ Scene without_effects(Scene scene, EffectMask off) {
     for (Material& material : scene.materials) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
         if (off.has(Effect::microfacets)) material.microfacets.reset();
+        if (off.has(Effect::anisotropy)) {
+            if (material.microfacets) material.microfacets->anisotropy = material.microfacets->rotation = 0;
+            material.anisotropy_texture.reset();
+        }
         if (off.has(Effect::refraction)) material.optics.transmission = 0;
         if (off.has(Effect::cutouts)) {
             material.alpha_mode = AlphaMode::opaque;
@@ -211,6 +221,7 @@ Scene without_effects(Scene scene, EffectMask off) {
             remove_colours(scene, material);
             material.emissive_texture.reset();
             material.metallic_roughness_texture.reset();
+            material.anisotropy_texture.reset();
         }
         if (off.has(Effect::normal_maps)) material.normal_texture.reset();
         if (off.has(Effect::emission)) {

@@ -126,7 +126,8 @@ class Preparer {
             result_.optics.push_back(material.optics);
         }
         add_microfacets();
-        result_.textures = prepare_textures(scene_, result_.materials, result_.optics, result_.microfacets);
+        result_.textures =
+            prepare_textures(scene_, result_.materials, result_.optics, result_.microfacets, result_.anisotropies);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             if (scene_.materials[i].unlit) make_unlit(result_.materials[i], result_.optics[i]);
         }
@@ -154,6 +155,9 @@ class Preparer {
         result_.area_light_shadows = settings_.area_light_shadows;
         for (const MaterialTextures& material : result_.textures.materials) {
             result_.several_slots = result_.several_slots || reads_several_slots(material);
+        }
+        for (const Anisotropy& anisotropy : result_.anisotropies) {
+            result_.several_slots = result_.several_slots || (anisotropy.slot | anisotropy.texture.slot) != 0;
         }
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
@@ -312,9 +316,11 @@ class Preparer {
         add_placement(world_from_object, half, true, material, node);
     }
 
-    /// Spheres and boxes have the axes of the world; a texture that is rotated or mirrored needs axes of its own.
+    /// Spheres and boxes have the axes of the world; a picture that is turned or mirrored needs its own, and so do the
+    /// grooves of a brushed surface.
     bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
-        return !has_texture(result_.textures, material) || is_upright(world_from_object.linear);
+        const bool is_brushed = !result_.anisotropies.empty() && result_.microfacets[material].anisotropy > 0;
+        return !(is_brushed || has_texture(result_.textures, material)) || is_upright(world_from_object.linear);
     }
 
     /// `size`: scale from the unit solid to the shape.
@@ -332,7 +338,7 @@ class Preparer {
         // below this the inverse has no digits left; a NaN fails as well
         if (!(volume > 1e-12 * lengths) || !std::isnormal(volume)) {
             if (!is_box) fail(node, "a sphere that its transform flattens");
-            fail(node, is_diagonal(m) ? "a mirrored box that is flat and has a texture; give it thickness"
+            fail(node, is_diagonal(m) ? "a mirrored box that is flat and has a texture or is brushed; give it thickness"
                                       : "a rotated or sheared box that is flat; give it thickness");
         }
         check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);

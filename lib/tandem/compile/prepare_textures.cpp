@@ -18,7 +18,9 @@ constexpr std::size_t most_texels = std::size_t{1} << 30;
 constexpr std::uint32_t rgb = 0x00FFFFFF;  // the bits of a texel's red, green and blue
 constexpr std::uint32_t green_blue = 0x00FFFF00;
 
-/// Whether all texels are equal in the channels of `bits`.
+float level_of(std::uint32_t channel) { return static_cast<float>(channel & 255U) / 255.0F; }
+
+/// Of the channels in `bits`.
 bool has_one_colour(const Image& image, std::uint32_t bits = ~0U) {
     return std::all_of(image.texels.begin(), image.texels.end(),
                        [&](std::uint32_t t) { return (t & bits) == (image.texels[0] & bits); });
@@ -54,15 +56,25 @@ bool has_picture(const MaterialTextures& m) {
 class Preparer {
   public:
     Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
-             std::vector<Microfacets>& microfacets)
-        : scene_(scene), phong_(phong), optics_(optics), microfacets_(microfacets), slots_(corner_slots(scene)) {
+             std::vector<Microfacets>& microfacets, std::vector<Anisotropy>& anisotropies)
+        : scene_(scene),
+          phong_(phong),
+          optics_(optics),
+          microfacets_(microfacets),
+          anisotropies_(anisotropies),
+          slots_(corner_slots(scene)) {
         result_.levels = texture_levels();
     }
 
     PreparedTextures run() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
+        if (std::none_of(microfacets_.begin(), microfacets_.end(), [](const auto& m) { return m.anisotropy > 0; })) {
+            anisotropies_.clear();
+        }
         const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(),
-                                        [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; });
+                                        [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; }) ||
+                            std::any_of(anisotropies_.begin(), anisotropies_.end(),
+                                        [](const auto& a) { return a.texture.texture != no_texture; });
         return needed ? std::move(result_) : PreparedTextures{};
     }
 
@@ -88,7 +100,7 @@ class Preparer {
                 phong_[index].ambient *= factor;
             }
             if (facts.has_one_rgba) {
-                prepared.alpha *= static_cast<float>(image.texels[0] >> 24) / 255.0F;
+                prepared.alpha *= level_of(image.texels[0] >> 24);
             } else if (!one_colour || prepared.alpha_cutoff > 0) {
                 if (prepared.alpha_cutoff > 0) alpha = facts.alpha;
                 prepared.diffuse = with_transform(reference, add(reference, ColourSpace::srgb, one_colour), slots);
@@ -111,6 +123,8 @@ class Preparer {
             add_metallic_roughness(*material.metallic_roughness_texture, slots, index, prepared);
         }
         result_.materials.push_back(prepared);
+        anisotropies_.emplace_back();
+        if (is_anisotropic(material)) add_anisotropy(material, slots, index);
     }
 
     /// Facts about all texels of an image.
@@ -146,10 +160,30 @@ class Preparer {
                                 MaterialTextures& prepared) {
         const Image& image = image_of(reference);
         if (has_one_colour(image, green_blue)) {
-            microfacets_[index].roughness *= static_cast<float>(image.texels[0] >> 8 & 255U) / 255.0F;
-            microfacets_[index].metallic *= static_cast<float>(image.texels[0] >> 16 & 255U) / 255.0F;
+            microfacets_[index].roughness *= level_of(image.texels[0] >> 8);
+            microfacets_[index].metallic *= level_of(image.texels[0] >> 16);
         } else {
             prepared.metallic_roughness = with_transform(reference, add(reference, ColourSpace::linear, false), slots);
+        }
+    }
+
+    void add_anisotropy(const Material& material, const CornerSlots& slots, std::size_t index) {
+        Microfacets& facets = microfacets_[index];
+        Anisotropy& anisotropy = anisotropies_[index];
+        anisotropy.x = exact_cos(facets.rotation);
+        anisotropy.y = exact_sin(facets.rotation);
+        anisotropy.slot = slots.slot_of(tangent_set(material));
+        if (!material.anisotropy_texture) return;
+        const TextureReference& reference = *material.anisotropy_texture;
+        const Image& image = image_of(reference);
+        if (has_one_colour(image, rgb)) {
+            const Rgba<float> texel = {level_of(image.texels[0]), level_of(image.texels[0] >> 8), 1, 1};
+            const Vec3d direction = rough_tangent<float>(anisotropy, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, texel);
+            anisotropy.x = static_cast<float>(direction.x);
+            anisotropy.y = static_cast<float>(direction.y);
+            facets.anisotropy *= level_of(image.texels[0] >> 16);
+        } else {
+            anisotropy.texture = with_transform(reference, add(reference, ColourSpace::linear, false), slots);
         }
     }
 
@@ -195,6 +229,7 @@ class Preparer {
     std::vector<PhongMaterial>& phong_;
     std::vector<Optics>& optics_;
     std::vector<Microfacets>& microfacets_;
+    std::vector<Anisotropy>& anisotropies_;
     std::vector<CornerSlots> slots_;                                                 ///< by material
     std::map<std::tuple<std::uint32_t, ColourSpace>, std::uint32_t> descriptor_of_;  ///< by texture and use
     std::map<const Image*, Facts> facts_;
@@ -223,8 +258,8 @@ bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
 }
 
 PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
-                                  std::vector<Microfacets>& microfacets) {
-    return Preparer(scene, phong, optics, microfacets).run();
+                                  std::vector<Microfacets>& microfacets, std::vector<Anisotropy>& anisotropies) {
+    return Preparer(scene, phong, optics, microfacets, anisotropies).run();
 }
 
 }  // namespace tandem

@@ -84,13 +84,17 @@ std::optional<Geometry> GeometryReader::read_primitive(std::size_t mesh, std::si
     return geometry;
 }
 
-void GeometryReader::complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path) {
-    for (const std::uint32_t set : sets) {
+void GeometryReader::complete_texcoords(Mesh& mesh, const Material& material, const std::string& path) {
+    for (const std::uint32_t set : texcoord_sets(material)) {
         if (!mesh.texcoords[set].empty()) continue;
         mesh.texcoords[set].assign(mesh.positions.size(), Vec2f{0, 0});
         report_.add(Treatment::approximated, "texture without coordinates", path + ".attributes",
                     fmt::format("there is no TEXCOORD_{}; the texture's corner texel covers the whole mesh", set));
     }
+    const std::uint32_t set = tangent_set(material);
+    if (!is_anisotropic(material) || !mesh.texcoords[set].empty()) return;
+    report_.add(Treatment::approximated, "anisotropy without coordinates", path + ".attributes",
+                fmt::format("there is no TEXCOORD_{}; the direction is any", set));
 }
 
 void GeometryReader::note_sides(const Geometry& geometry, const std::string& path) {
@@ -125,15 +129,16 @@ std::optional<Shape> GeometryReader::read_mesh(std::size_t mesh, std::size_t ind
     const Json& described = source_.document.json["meshes"][mesh];
     const Json& primitive = described["primitives"][index];
     const Json* material = find(primitive, "material");
-    std::vector<std::uint32_t> sets;
-    if (material != nullptr) sets = texcoord_sets(scene_.materials[material->get<std::size_t>()]);
+    const Material plain;
+    const Material& used = material == nullptr ? plain : scene_.materials[material->get<std::size_t>()];
+    const std::vector<std::uint32_t> sets = corner_sets(used);
     ImportReport notes;
     const bool is_drawn = has_triangles(primitive, sets, is_skinned_, path, notes);
     auto known = mesh_of_.find({mesh, index});
     if (is_drawn && known == mesh_of_.end()) {
         auto [read, elements] = read_triangles(source_, primitive, sets, path, budget_, flaws_, notes);
         read.name = described.value("name", std::string());
-        complete_texcoords(read, sets, path);
+        complete_texcoords(read, used, path);
         known = mesh_of_.emplace(Primitive{mesh, index}, static_cast<std::uint32_t>(scene_.meshes.size())).first;
         scene_.meshes.push_back(std::move(read));
         primitives_.push_back({known->first, std::move(elements)});

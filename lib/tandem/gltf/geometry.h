@@ -51,8 +51,8 @@ class GeometryReader {
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);
     /// A textured mesh needs texture coordinates.
-    void complete_texcoords(Mesh& mesh, const std::vector<std::uint32_t>& sets, const std::string& path);
-    /// Notes how the backs of single-sided faces are rendered.
+    void complete_texcoords(Mesh& mesh, const Material& material, const std::string& path);
+    /// Notes what becomes of the backs of single-sided faces.
     void note_sides(const Geometry& geometry, const std::string& path);
     std::optional<Shape> read_implicit_geometry(const Json& geometry, const std::string& path);
     std::optional<Shape> read_implicit_shape(const Json& reference, const std::string& path);

@@ -9,6 +9,7 @@ namespace tandem::gltf {
 namespace {
 
 constexpr const char* unlit_name = "KHR_materials_unlit";
+constexpr const char* anisotropy_name = "KHR_materials_anisotropy";
 
 /// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % at normal
 /// incidence: approximates the opaque part of dielectrics, and microfacets that are not simulated.
@@ -49,6 +50,22 @@ void read_metallic_roughness(const Json* pbr, const std::string& path, Material&
     report.add(Treatment::rendered, "metallic-roughness material", path, "reflection from GGX microfacets");
 }
 
+/// `material`: with the rest of what is read of it.
+void read_anisotropy(const Json& read, const std::string& path, Material& material, ImportReport& report) {
+    const Json* anisotropy = find_extension(read, anisotropy_name);
+    if (anisotropy == nullptr) return;
+    const std::string where = fmt::format("{}.extensions.{}", path, anisotropy_name);
+    if (!material.microfacets) {
+        report.add(Treatment::ignored, anisotropy_name, where, "the material has no microfacets");
+        return;
+    }
+    material.microfacets->anisotropy = anisotropy->value("anisotropyStrength", 0.0F);
+    material.microfacets->rotation = anisotropy->value("anisotropyRotation", 0.0F);
+    report.add(Treatment::rendered, anisotropy_name, where,
+               is_anisotropic(material) ? "the tangent is where u of the texture coordinates grows"
+                                        : "its strength is 0, so the reflection is as without it");
+}
+
 }  // namespace
 
 Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent) {
@@ -86,7 +103,8 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         } else {
             read_metallic_roughness(pbr, path, material, report);
         }
-        // the far side of a dielectric must be visible, and Phong's model has ambient light for backs
+        read_anisotropy(read, path, material, report);
+        // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
         if (material.unlit) {
             report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),

@@ -89,7 +89,22 @@ class TextureReader {
                             "the emissiveFactor that multiplies it is 0");
             }
         }
+        read_anisotropy(read, path, material);
         read_alpha(read, path, material);
+    }
+
+    void read_anisotropy(const Json& read, const std::string& path, Material& material) {
+        const Json* anisotropy = find_extension(read, "KHR_materials_anisotropy");
+        const Json* info = anisotropy == nullptr ? nullptr : find(*anisotropy, "anisotropyTexture");
+        if (info == nullptr) return;
+        const std::string where = path + ".extensions.KHR_materials_anisotropy.anisotropyTexture";
+        if (is_anisotropic(material)) {
+            material.anisotropy_texture =
+                read_use(*info, where, "anisotropy texture",
+                         "linear; red and green are the direction, blue multiplies the strength");
+        } else {
+            report_.add(Treatment::ignored, "anisotropy texture", where, "the material is not anisotropic");
+        }
     }
 
     void read_alpha(const Json& read, const std::string& path, Material& material) {

@@ -186,9 +186,9 @@ const char* why_ignored_attribute(const std::string& name, const std::vector<std
     const auto is_used = [&](std::uint32_t set) { return name == fmt::format("TEXCOORD_{}", set); };
     if (std::any_of(sets.begin(), sets.end(), is_used)) return nullptr;
     if (name.starts_with("TEXCOORD_")) return "no texture that Tandem renders uses it";
-    if (name.starts_with("COLOR_")) return "glTF defines COLOR_0 only";
-    if (name == "TANGENT") return "the tangent frame is derived from the texture coordinates";
-    return "Tandem does not support it";
+    if (name.starts_with("COLOR_")) return "glTF gives a meaning to COLOR_0 only";
+    if (name == "TANGENT") return "the tangents of normal maps and of anisotropy come from the texture coordinates";
+    return "Tandem does not know it";
 }
 
 }  // namespace

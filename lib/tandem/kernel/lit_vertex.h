@@ -75,7 +75,7 @@ template <class Effects, class Real, class Density>
 TANDEM_HD_STAGE Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVertex<Real>& at, const Vec3<Real>& light,
                                             const Vec3<Double<Real>>& to_light, const Density& pdf) {
     using D = Double<Real>;
-    const LocalView<Real> view = local_view(at.surface, at.point, at.to_viewer);
+    const LocalView<Real> view = local_view<Effects>(at.surface, at.point, at.to_viewer);
     const Vec3<D> wi = to_frame(view.frame, to_light);
     LobeSum<Vec3<Real>> f(black<Real>());
     for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
@@ -141,7 +141,7 @@ TANDEM_HD Vec3<Real> diffuse_reflectance(const LitVertex<Real>& at, const Vec3<D
         } else if constexpr (ReflectsInWorld<L, Real>) {
             sum.add(lobe.albedo(to_light));  // the direction does not matter
         } else if (any(lobe.scatters())) {
-            const LocalView<Real> view = local_view(at.surface, at.point, at.to_viewer);
+            const LocalView<Real> view = local_view<Effects>(at.surface, at.point, at.to_viewer);
             sum.add(lobe.f(view.wo, to_frame(view.frame, to_light)) * constant<Real>(pi));
         }
     });

@@ -39,7 +39,7 @@ TANDEM_HD void weigh_local_lobes(const SceneView& scene, const Surface<Real>& su
                                             }
                                         });
         if (!any(any_scatters)) return;
-        const LocalView<Real> view = local_view(surface, point, shading.to_viewer);
+        const LocalView<Real> view = local_view<Effects>(surface, point, shading.to_viewer);
         for_each_followed_lobe<Effects>(
             surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
                 using Lobe = std::decay_t<decltype(lobe)>;

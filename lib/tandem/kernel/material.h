@@ -13,6 +13,7 @@ struct MaterialTexels {
     Rgba<Real> base_colour = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
     Rgba<Real> metallic_roughness = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
     Vec3<Real> emission = {Real(1.0F), Real(1.0F), Real(1.0F)};
+    Real anisotropy = Real(1.0F);
 };
 
 /// How a surface reflects: its BSDF, and the reflectance of ambient light, ka of Phong's model.
@@ -45,8 +46,10 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
         const Microfacets& facets = scene.microfacets[number];
         const Real metallic = Real(facets.metallic) * texels.metallic_roughness.b;
         const Real roughness = Real(facets.roughness) * texels.metallic_roughness.g;
+        Real anisotropy(0.0F);
+        if (Effects::has(Effect::anisotropy)) anisotropy = Real(facets.anisotropy) * texels.anisotropy;
         const MetallicRoughnessLobes<Real> both =
-            lobes_of<Real>({lobes.diffuse.reflectance, metallic, roughness, Real(optics.ior)});
+            lobes_of<Real>({lobes.diffuse.reflectance, metallic, roughness, Real(optics.ior), anisotropy});
         result.ambient = result.ambient * (Real(1.0F) - metallic);
         lobes.microfacets = both.specular;
         lobes.coated = both.diffuse;

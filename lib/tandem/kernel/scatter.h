@@ -43,11 +43,11 @@ TANDEM_HD LobeSample<Real> sample_in_world(const Lobe& lobe, const ShadingFrame<
                                            const Vec3<Double<Real>>& u) {
     return lobe.sample_about(shading.normals, shading.to_viewer, u);
 }
-template <class Lobe, class Real>
+template <class Effects, class Lobe, class Real>
 TANDEM_HD_STAGE LobeSample<Real> sample_in_frame(const Lobe& lobe, const Surface<Real>& surface,
                                                  const SurfacePoint<Real>& point, const ShadingFrame<Real>& shading,
                                                  const Vec3<Double<Real>>& u) {
-    const LocalView<Real> view = local_view(surface, point, shading.to_viewer);
+    const LocalView<Real> view = local_view<Effects>(surface, point, shading.to_viewer);
     LobeSample<Real> drawn = lobe.sample(view.wo, u);
     drawn.wi = from_frame(view.frame, drawn.wi.x, drawn.wi.y, drawn.wi.z);
     return drawn;
@@ -121,7 +121,7 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
         } else if constexpr (SampledInWorld<Lobe, Real>) {
             drawn = scatter_detail::sample_in_world(lobe, shading, u);
         } else {
-            drawn = scatter_detail::sample_in_frame(lobe, surface, point, shading, u);
+            drawn = scatter_detail::sample_in_frame<Effects>(lobe, surface, point, shading, u);
         }
         direction = select(takes, drawn.wi, direction);
         const Real chance = weight / total;

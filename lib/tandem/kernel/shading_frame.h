@@ -35,14 +35,21 @@ struct LocalView {
     Mask<Real> hidden;      ///< on the back of a single-sided surface, which is black
 };
 
+/// Where microfacets are anisotropic, x is the direction in which they are rougher; elsewhere it does not matter.
+///
 /// Where interpolation or a normal map turns the shading normal away from a viewer who is in front of the surface, the
 /// surface looks as from the same angle before it: else silhouettes would have black borders.
-template <class Real>
+template <class Effects, class Real>
 TANDEM_HD LocalView<Real> local_view(const Surface<Real>& surface, const SurfacePoint<Real>& point,
                                      const Vec3<Double<Real>>& to_viewer) {
     using D = Double<Real>;
     LocalView<Real> view;
     view.frame = frame_around(surface.normal);
+    if (Effects::has(Effect::anisotropy) && any(surface.anisotropic)) {
+        const Vec3<D> bitangent = cross(surface.normal, surface.tangent);
+        view.frame.tangent = select(surface.anisotropic, surface.tangent, view.frame.tangent);
+        view.frame.bitangent = select(surface.anisotropic, bitangent, view.frame.bitangent);
+    }
     view.wo = to_frame(view.frame, to_viewer);
     view.hidden = view.wo.z < D(0.0F) && point.from_inside;
     view.wo.z = greater(absolute(view.wo.z), D(0x1p-30F));

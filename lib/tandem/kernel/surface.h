@@ -24,6 +24,8 @@ struct Surface {
     Vec3<Real> emission;  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
+    Vec3<Double<Real>> tangent = normal;   ///< where `anisotropic`: x of the lobes' frame, unit, world space
+    Mask<Real> anisotropic = Mask<Real>(false);
 };
 
 /// How many alpha-masked hits a ray passes before it counts as blocked.
@@ -80,6 +82,14 @@ TANDEM_HD_STAGE Vec3<Double<Real>> bent_normal(const SceneView& scene, const Mat
     const auto front = select(turned, -normal, normal);
     const auto bent = mapped_normal<Real>(tangent_frame(front, at.dp_du, at.dp_dv), texel, textures.normal_scale);
     return select(turned, -bent, bent);
+}
+
+/// The tangent along which microfacets are rougher. `normal`: the one for shading, unit; on both sides of a face the
+/// grooves are the same lines. Without usable coordinates the direction is that of frame_around().
+template <class Real>
+TANDEM_HD_STAGE Vec3<Double<Real>> brushed_tangent(const Anisotropy& anisotropy, const Parametrisation<Real>& at,
+                                                   const Vec3<Double<Real>>& normal, const Rgba<Real>& texel) {
+    return rough_tangent<Real>(anisotropy, tangent_frame(normal, at.dp_du, at.dp_dv), texel);
 }
 
 /// Is the surface opaque at `hit`, or masked out, in the lanes of `found`?
@@ -184,6 +194,21 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                     textures.metallic_roughness.texture != no_texture) {
                     texels.metallic_roughness = values.texture(textures.metallic_roughness);
                 }
+            }
+
+            // Brushed surfaces
+            if (Effects::has(Effect::microfacets) && Effects::has(Effect::anisotropy) && scene.anisotropy_count > 0 &&
+                scene.microfacets[number].anisotropy > 0.0F) {
+                const Anisotropy& anisotropy = scene.anisotropies[number];
+                CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+                Rgba<Real> texel = default_anisotropy_texel<Real>();
+                if (Effects::has(Effect::textures) && anisotropy.texture.texture != no_texture) {
+                    texel = values.texture(anisotropy.texture);
+                    texels.anisotropy = texel.b;
+                }
+                const auto tangent = brushed_tangent<Real>(anisotropy, values.in(anisotropy.slot), normal, texel);
+                surface.tangent = select(here, tangent, surface.tangent);
+                surface.anisotropic = surface.anisotropic || here;
             }
 
             // Reflectance and emission

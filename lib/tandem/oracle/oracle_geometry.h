@@ -19,6 +19,9 @@ inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a
 inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vector operator*(const Vector& a, Real s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Real inner(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 [[nodiscard]] Vector unit(const Vector& a);
 
 inline Vector times(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }

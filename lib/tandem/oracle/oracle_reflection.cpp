@@ -22,7 +22,10 @@ Reflectances facets_at(const SceneView& scene, const Vertex& vertex) {
     const Real ior = scene.optics[vertex.material].ior;
     facets.border = std::pow((1 - ior) / (1 + ior), 2);
     facets.f0 = base * vertex.metal + Vector{1, 1, 1} * (facets.border * dielectric);
-    facets.alpha = std::clamp<Real>(vertex.roughness * vertex.roughness, Real(0x1p-13), 1);
+    const Real alpha = vertex.roughness * vertex.roughness, share = vertex.anisotropy * vertex.anisotropy;
+    facets.alpha = std::clamp<Real>(alpha, Real(0x1p-13), 1);
+    facets.alpha_along = std::clamp<Real>(alpha * (1 - share) + share, Real(0x1p-13), 1);
+    facets.along = vertex.along;
     return facets;
 }
 
@@ -31,10 +34,22 @@ Real grazing(const Reflectances& material, const Vector& l) {
     return std::pow(std::max<Real>(0, 1 - inner(unit(l + material.to_viewer), l)), 5);
 }
 
-/// Smith's Lambda of GGX: the ratio of masked to visible facets for a direction with this cosine.
-Real hidden(Real alpha, Real cosine) {
+/// The angle of w around the normal n, from the direction in which the facets are rougher.
+Real azimuth(const Reflectances& material, const Vector& n, const Vector& w) {
+    return std::atan2(inner(cross(n, material.along), w), inner(material.along, w));
+}
+
+/// Smith's Lambda of GGX: facets that are hidden for each that is seen, from the direction w.
+Real hidden(const Reflectances& material, const Vector& n, const Vector& w) {
+    const Real cosine = inner(n, w), phi = azimuth(material, n, w);
     const Real tangent = std::sqrt(std::max<Real>(0, (1 - cosine) * (1 + cosine))) / cosine;
+    const Real alpha = std::hypot(material.alpha_along * std::cos(phi), material.alpha * std::sin(phi));
     return (std::hypot(Real(1), alpha * tangent) - 1) / 2;
+}
+
+/// The share of facets that are seen from both the light and the viewer.
+Real seen_from_both(const Reflectances& material, const Vector& n, const Vector& l) {
+    return 1 / (1 + hidden(material, n, l) + hidden(material, n, material.to_viewer));
 }
 
 }  // namespace
@@ -62,12 +77,14 @@ Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& 
     const Vector n = vertex.normal, v = material.to_viewer;
     const Real to_light = inner(n, l), to_viewer = inner(n, v);
     if (!material.has_facets || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
-    const Real a2 = material.alpha * material.alpha;
     const Real cosine = std::min<Real>(1, inner(n, unit(l + v)));
     const Vector sine = unit(l + v) - n * cosine;
-    const Real tangent2 = inner(sine, sine) / (cosine * cosine);
-    const Real density = a2 / (pi * std::pow(cosine, 4) * std::pow(a2 + tangent2, 2));
-    const Real seen = 1 / (1 + hidden(material.alpha, to_light) + hidden(material.alpha, to_viewer));
+    const Real tangent2 = inner(sine, sine) / (cosine * cosine), phi = azimuth(material, n, sine);
+    const Real slopes =
+        tangent2 * (std::pow(std::cos(phi) / material.alpha_along, 2) + std::pow(std::sin(phi) / material.alpha, 2));
+    const Real density =
+        1 / (pi * material.alpha_along * material.alpha * std::pow(cosine, 4) * std::pow(1 + slopes, 2));
+    const Real seen = seen_from_both(material, n, l);
     const Vector f = material.f0 + (Vector{1, 1, 1} - material.f0) * grazing(material, l);
     return f * (pi * density * seen / (4 * to_viewer));
 }
@@ -91,16 +108,18 @@ Vector reflected(const Reflectances& material, const Vertex& vertex, const Vecto
 Vector reflect_at_facet(const Reflectances& material, const Vertex& vertex, Vector& onward, Chance& chance) {
     const Vector n = vertex.normal, v = material.to_viewer;
     const Vector side = std::abs(n.x) < Real(0.5) ? Vector{1, 0, 0} : Vector{0, 1, 0};
-    const Vector t = unit(side - n * inner(side, n));
-    const Vector b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
+    const bool brushed = inner(material.along, material.along) > 0;
+    const Vector t = brushed ? material.along : unit(side - n * inner(side, n));
+    const Vector b = cross(n, t);
     const Real u = chance(), angle = 2 * pi * chance();
-    const Real tangent = material.alpha * std::sqrt(u / (1 - u));
-    const Vector h = unit(t * (tangent * std::cos(angle)) + b * (tangent * std::sin(angle)) + n);
+    const Real slope = std::sqrt(u / (1 - u));
+    const Vector h =
+        unit(t * (material.alpha_along * slope * std::cos(angle)) + b * (material.alpha * slope * std::sin(angle)) + n);
     onward = unit(h * (2 * inner(v, h)) - v);
     const Real to_light = inner(n, onward), to_viewer = inner(n, v);
     if (!(inner(v, h) > 0) || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
     const Vector f = material.f0 + (Vector{1, 1, 1} - material.f0) * grazing(material, onward);
-    const Real seen = 1 / (1 + hidden(material.alpha, to_light) + hidden(material.alpha, to_viewer));
+    const Real seen = seen_from_both(material, n, onward);
     return f * (seen * inner(v, h) / (to_viewer * inner(n, h)));
 }
 

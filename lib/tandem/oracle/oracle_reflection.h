@@ -15,10 +15,12 @@ struct Reflectances {
     Vector ambient, diffuse, specular;
     Real shininess;
     bool has_facets = false;
-    Vector f0{0, 0, 0};  ///< of microfacets: reflectance at normal incidence
-    Real border = 0;     ///< the same for the interface above the diffuse base
-    Real alpha = 0;      ///< of GGX
-    Vector to_viewer{};  ///< on the side of the shading normal
+    Vector f0{0, 0, 0};    ///< of microfacets: reflectance head-on
+    Real border = 0;       ///< the same of what covers the diffuse base
+    Real alpha = 0;        ///< of GGX: the least of all directions
+    Real alpha_along = 0;  ///< the most, in the direction `along`, which is 0 where both are equal
+    Vector along{0, 0, 0};
+    Vector to_viewer{};  ///< on the side of the normal for shading
 };
 
 /// The reflectances at a vertex, on the visible side.

@@ -10,11 +10,7 @@ namespace {
 
 constexpr Real pi = std::numbers::pi_v<Real>;
 
-Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-/// `p`: relative to the centre of the sphere.
+/// `p`: from the centre of a globe.
 TexturePoint on_globe(const Vector& p) {
     const Real around = std::hypot(p.x, p.z);
     const Real longitude = around > 0 ? std::atan2(p.x, p.z) : 0;

@@ -1,6 +1,43 @@
 #include "tandem/oracle/oracle_vertex.h"
 
+#include <cmath>
+
 namespace tandem::oracle {
+
+namespace {
+
+/// Where a surface has no coordinates: the x axis, carried along by the shortest turn from the nearer end of the z axis
+/// to the normal.
+Vector any_tangent(const Vector& n) {
+    const Vector axis = {0, 0, n.z < 0 ? Real(-1) : Real(1)};
+    return Vector{1, 0, 0} - (n + axis) * (n.x / (1 + std::abs(n.z)));
+}
+
+/// The direction of anisotropy by its angle, and its strength. `at`: the texture coordinates of a slot.
+template <class At>
+void brush(const SceneView& scene, const At& at, Vertex& vertex) {
+    if (scene.anisotropy_count == 0) return;
+    vertex.anisotropy = scene.microfacets[vertex.material].anisotropy;
+    const Anisotropy& anisotropy = scene.anisotropies[vertex.material];
+    Real angle = std::atan2(Real{anisotropy.y}, Real{anisotropy.x});
+    if (anisotropy.texture.texture != no_texture) {
+        const Texel texel = sample_texture(scene, anisotropy.texture, at(anisotropy.texture.slot));
+        vertex.anisotropy *= texel.b;
+        const Real x = 2 * texel.r - 1, y = 2 * texel.g - 1;
+        if (std::hypot(x, y) > Real(0x1p-20)) angle += std::atan2(y, x);
+    }
+    if (!(vertex.anisotropy > 0)) return;
+    const TexturePoint point = at(anisotropy.slot);
+    const Vector n = vertex.normal;
+    const Vector flat = point.along_u - n * inner(point.along_u, n);
+    const bool usable = inner(flat, flat) > Real(0x1p-30) * inner(point.along_u, point.along_u);
+    const Vector t = usable ? unit(flat) : any_tangent(n);
+    Vector b = cross(n, t);
+    if (inner(b, point.along_v) > 0) b = b * -1;
+    vertex.along = unit(t * std::cos(angle) + b * std::sin(angle));
+}
+
+}  // namespace
 
 NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source, std::uint32_t except,
                                const Passed* passed) {
@@ -42,11 +79,14 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
         vertex.roughness = scene.microfacets[vertex.material].roughness;
         vertex.metal = scene.microfacets[vertex.material].metallic;
     }
-    if (!has_textures(scene.textures)) return vertex;
-    const MaterialTextures& textures = scene.textures.materials[vertex.material];
     const auto at = [&](std::uint32_t slot) {
         return texture_point(scene, nearest.primitive, vertex.point, nearest.surface, slot);
     };
+    if (!has_textures(scene.textures)) {
+        brush(scene, at, vertex);
+        return vertex;
+    }
+    const MaterialTextures& textures = scene.textures.materials[vertex.material];
     vertex.picture = base_colour_at(scene, nearest.primitive, vertex.point, nearest.surface);
     vertex.is_masked_out = product_of_alphas(textures.alpha, vertex.picture.a) < Real{textures.alpha_cutoff};
     const Texel facets = sample_texture(scene, textures.metallic_roughness, at(textures.metallic_roughness.slot));
@@ -61,13 +101,14 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
         const bool turned = double_sided && vertex.from_inside;
         const Vector n = vertex.normal * (turned ? -1 : 1);
         const Vector t = unit(point.along_u - n * inner(point.along_u, n));
-        Vector b = {n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x};
+        Vector b = cross(n, t);
         if (inner(b, point.along_v) > 0) b = b * -1;
         const Real scale = textures.normal_scale;
         const Vector bent =
             unit(t * ((2 * texel.r - 1) * scale) + b * ((2 * texel.g - 1) * scale) + n * (2 * texel.b - 1));
         vertex.normal = bent * (turned ? -1 : 1);
     }
+    brush(scene, at, vertex);
     return vertex;
 }
 

@@ -37,6 +37,8 @@ struct Vertex {
     bool is_masked_out = false;
     Vector emission{0, 0, 0};
     Real roughness = 0, metal = 0;  ///< of microfacets
+    Real anisotropy = 0;            ///< of microfacets: its strength
+    Vector along{0, 0, 0};          ///< where that is above 0: unit, the direction in which they are rougher
 };
 
 /// The vertex at a hit of the line.

@@ -10,8 +10,8 @@
 
 namespace tandem {
 
-/// The slots of a material's faces (FaceAttributes): one for each set of texture coordinates that it uses, in order,
-/// then two for colours, if any mesh under the material has them.
+/// The slots of a material's faces (FaceAttributes): one for each set of texture coordinates that it uses
+/// (corner_sets()), in order, then two for colours, if any mesh under the material has them.
 struct CornerSlots {
     std::vector<std::uint32_t> texcoords;  ///< numbers of the sets, ascending
     bool has_colours = false;
@@ -28,7 +28,14 @@ struct CornerSlots {
 /// The sets of texture coordinates that a material's textures use, ascending.
 [[nodiscard]] std::vector<std::uint32_t> texcoord_sets(const Material& material);
 
-/// The slots of all materials.
+/// The set whose u grows along the tangent of an anisotropic material: that of its normal texture, else of its
+/// anisotropy texture, else the first. A mesh need not have it.
+[[nodiscard]] std::uint32_t tangent_set(const Material& material);
+
+/// All sets that a material uses, ascending: those of its textures, and of its tangent if it is anisotropic.
+[[nodiscard]] std::vector<std::uint32_t> corner_sets(const Material& material);
+
+/// Of all materials.
 [[nodiscard]] std::vector<CornerSlots> corner_slots(const Scene& scene);
 
 }  // namespace tandem

@@ -123,6 +123,8 @@ class Problems {
         const auto is_part = [](float a) { return a >= 0 && a <= 1; };
         require(is_part(material.microfacets->metallic), where, "has a metalness outside [0, 1]");
         require(is_part(material.microfacets->roughness), where, "has a roughness outside [0, 1]");
+        require(is_part(material.microfacets->anisotropy), where, "has an anisotropy outside [0, 1]");
+        require(std::isfinite(material.microfacets->rotation), where, "has an anisotropy whose rotation is not finite");
         require(optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0}, where,
                 "has microfacets and is also a dielectric or a mirror; use one or the other");
     }

@@ -131,14 +131,21 @@ struct Material {
     std::optional<Microfacets> microfacets{};
     /// Linear: green multiplies the roughness, blue the metalness.
     std::optional<TextureReference> metallic_roughness_texture{};
-    /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives nor emits
-    /// light (KHR_materials_unlit).
+    /// Linear: red and green are the direction in which microfacets are rougher, blue multiplies the anisotropy.
+    std::optional<TextureReference> anisotropy_texture{};
+    /// The diffuse reflectance, with its texture, is the radiance that is seen. The surface neither receives nor
+    /// emits light (KHR_materials_unlit).
     bool unlit = false;
     float normal_scale = 1;  ///< multiplies the tangential components of the normal map
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha = 1;            ///< multiplies the alpha of the diffuse texture; from 0 to 1
     float alpha_cutoff = 0.5F;  ///< for AlphaMode::mask
 };
+
+/// Are its microfacets rougher in one direction than in others?
+[[nodiscard]] inline bool is_anisotropic(const Material& material) {
+    return material.microfacets && material.microfacets->anisotropy > 0 && !material.unlit;
+}
 
 /// parent: index of the parent node, or no_parent. A node may carry several things. All members have initialisers, so
 /// that Node{.name = ..., .light = ...} compiles without warnings.
@@ -177,7 +184,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
-    bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
+    bool indirect_light = false;                          ///< diffuse surfaces receive light from other surfaces
     std::optional<EnvironmentImage> environment_image{};  ///< replaces the gradient
     Display display{};                                    ///< for 8-bit images; does not affect the film
     double frames_per_second = 24;

@@ -15,12 +15,9 @@ namespace tandem {
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> mapped_normal(const Frame<Double<Real>>& frame, const Rgba<Real>& texel, float scale) {
     using D = Double<Real>;
-    const auto coordinate = [](const Real& level) TANDEM_INLINE_LAMBDA {
-        const D wide = widen(level);
-        return (wide + wide) - D(1.0F);
-    };
-    const Vec3<D> sum = frame.tangent * (coordinate(texel.r) * D(scale)) +
-                        frame.bitangent * (coordinate(texel.g) * D(scale)) + frame.normal * coordinate(texel.b);
+    const Vec3<D> sum = frame.tangent * (signed_level<Real>(texel.r) * D(scale)) +
+                        frame.bitangent * (signed_level<Real>(texel.g) * D(scale)) +
+                        frame.normal * signed_level<Real>(texel.b);
     const Mask<Real> enough = dot(sum, sum) > D(0x1p-40F);
     const Vec3<D> unit = normalize(sum);
     return {select(enough, unit.x, frame.normal.x), select(enough, unit.y, frame.normal.y),

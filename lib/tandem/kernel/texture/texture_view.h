@@ -20,6 +20,13 @@ struct Rgba {
     Real r, g, b, a;
 };
 
+/// The coordinate from -1 to 1 that a level from 0 to 1 stands for, in a texture of directions.
+template <class Real>
+TANDEM_HD Double<Real> signed_level(const Real& level) {
+    const Double<Real> wide = widen(level);
+    return (wide + wide) - Double<Real>(1.0F);
+}
+
 namespace texture_detail {
 
 /// A T whose lane i is make(i).

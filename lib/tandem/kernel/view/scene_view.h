@@ -11,6 +11,7 @@
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/quad.h"
+#include "tandem/kernel/texture/anisotropy.h"
 #include "tandem/kernel/texture/texture_set.h"
 
 namespace tandem {
@@ -30,11 +31,11 @@ struct SceneView {
 #include "tandem/kernel/view/scene_arrays.def"
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
-    std::uint32_t several_slots;  ///< 0: materials read no colours of corners, and texture coordinates of slot 0 alone
-    std::uint32_t cutout_kinds;   ///< PrimitiveKinds of those that are cut out by their alpha, or culled
+    std::uint32_t several_slots;   ///< 0: materials read no colours of corners, and texture coordinates of slot 0 alone
+    std::uint32_t cutout_kinds;    ///< PrimitiveKinds of those that are cut out by their alpha, or culled
     std::uint32_t indirect_light;  ///< 1: diffuse surfaces receive light from other surfaces
-    std::uint32_t roulette_from;  ///< vertex of a path from which Russian roulette is played
-    std::uint32_t media_overlap;  ///< 0: bodies of glass lie apart, from each other and from everything else
+    std::uint32_t roulette_from;   ///< vertex of a path from which Russian roulette is played
+    std::uint32_t media_overlap;   ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
     Environment environment;
     EnvironmentPicture environment_picture;
