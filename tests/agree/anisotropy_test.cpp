@@ -143,7 +143,8 @@ TEST_P(Anisotropic, HighlightsAreLongInTheDirectionOfTheTangent) {
 TEST_P(Anisotropic, OfStrengthZeroIsNone) {
     const auto ball = [](float strength) {
         Scene scene = under_light(brushed(0.4F, strength, 1), SphereShape{0.5}, 0.5);
-        scene.environment = {{0.2F, 0.3F, 0.4F}, {0.9F, 0.8F, 0.7F}, {0, 0}, 1, 1};
+        scene.environment = {{0.2F, 0.3F, 0.4F}, {0.9F, 0.8F, 0.7F}, {0, 0, 0}, 1};
+        scene.indirect_light = true;
         return scene;
     };
     const Scene none = ball(0);
