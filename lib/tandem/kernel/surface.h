@@ -200,7 +200,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             if (Effects::has(Effect::microfacets) && Effects::has(Effect::anisotropy) && scene.anisotropy_count > 0 &&
                 scene.microfacets[number].anisotropy > 0.0F) {
                 const Anisotropy& anisotropy = scene.anisotropies[number];
-                CornerValues<kinds, Real> values(scene, primitive, ray, hit.t, here, exits);
+                CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
                 Rgba<Real> texel = default_anisotropy_texel<Real>();
                 if (Effects::has(Effect::textures) && anisotropy.texture.texture != no_texture) {
                     texel = values.texture(anisotropy.texture);
