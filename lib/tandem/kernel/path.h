@@ -71,7 +71,7 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     path.alive = Mask<Real>(false);
     if (any(missed)) see_background(scene, missed, path, radiance);
     if (!any(found)) return;
-    Vertex<Real> vertex;
+    Vertex<Real> vertex{};
     if constexpr (can_leave_surfaces<Effects>()) {
         step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
     } else {
