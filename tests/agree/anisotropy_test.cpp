@@ -75,6 +75,11 @@ class Anisotropic : public test::ExactBackend {
         return backend_->render(load(prepare(scene)), job).film;
     }
 
+    void expect_level(const Scene& scene, double expected) {
+        const Film film = film_of(scene);
+        for (const Vec3d& pixel : film.sums()) EXPECT_NEAR(pixel.x, expected, 1e-5 * expected);
+    }
+
     /// The extent of what is bright, along x over along y.
     [[nodiscard]] double elongation(const Scene& scene) {
         constexpr int size = 40;
@@ -103,7 +108,7 @@ TEST_P(Anisotropic, AFaceReflectsAsTheFormulaSays) {
                 scene.meshes = {sheet(texcoords)};
                 const Vec3d tangent = right * std::cos(rotation) + up * std::sin(rotation);
                 const double expected = reflected(0.5F, 0.7F, tangent, to_light);
-                for (const Vec3d& pixel : film_of(scene).sums()) EXPECT_NEAR(pixel.x, expected, 1e-5 * expected);
+                expect_level(scene, expected);
             }
         }
     }
@@ -124,7 +129,7 @@ TEST_P(Anisotropic, APictureTurnsAndWeakensIt) {
         scene.textures = {{0, Wrap::repeat, Wrap::repeat, Filter::nearest}};
         scene.materials[0].anisotropy_texture = TextureReference{.offset = {-0.25F, 0}};
         EXPECT_EQ(prepare(scene).effects.has(Effect::textures), other != texel);
-        for (const Vec3d& pixel : film_of(scene).sums()) EXPECT_NEAR(pixel.x, expected, 1e-5 * expected);
+        expect_level(scene, expected);
     }
 }
 
@@ -163,7 +168,7 @@ TEST_P(Anisotropic, WithoutUsableCoordinatesTheDirectionIsThatOfTheFrame) {
         Scene scene = under_light(brushed(0.5F, 0.7F, 0), MeshShape{0}, 0.01, to_light);
         scene.meshes = {sheet(texcoords)};
         const double expected = reflected(0.5F, 0.7F, {1, 0, 0}, to_light);
-        for (const Vec3d& pixel : film_of(scene).sums()) EXPECT_NEAR(pixel.x, expected, 1e-5 * expected);
+        expect_level(scene, expected);
     }
 }
 

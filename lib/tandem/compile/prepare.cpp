@@ -151,7 +151,7 @@ class Preparer {
         move_to_origin();
         join_kinds();
         result_.copies = find_copies(result_);
-        find_what_glows_and_refracts();
+        find_area_lights_and_media();
         result_.area_light_shadows = settings_.area_light_shadows;
         for (const MaterialTextures& material : result_.textures.materials) {
             result_.several_slots = result_.several_slots || reads_several_slots(material);
@@ -178,7 +178,7 @@ class Preparer {
     }
 
     /// Without copies, which are neither lights nor visible to rays.
-    void find_what_glows_and_refracts() {
+    void find_area_lights_and_media() {
         const auto find = [this](PreparedScene& scene) {
             find_media(scene);
             if (settings_.area_lights) find_area_lights(scene);

@@ -82,7 +82,7 @@ std::vector<double> radiance_of_materials(const Scene& scene) {
 }
 
 /// The mean radiance over all surfaces.
-double mean_glow(const Scene& scene) {
+double mean_emission(const Scene& scene) {
     const std::vector<double> radiance = radiance_of_materials(scene);
     if (std::none_of(radiance.begin(), radiance.end(), [](double r) { return r > 0; })) return 0;
     double total = 0, area = 0;
@@ -108,7 +108,7 @@ bool needs_light(const Scene& scene) {
 bool has_light(const Scene& scene) {
     const auto shines = [](const Node& node) { return node.light && is_lit(*node.light); };
     return !needs_light(scene) || std::any_of(scene.nodes.begin(), scene.nodes.end(), shines) ||
-           mean_glow(scene) > enough_emission;
+           mean_emission(scene) > enough_emission;
 }
 
 void add_default_light(Scene& scene, std::size_t camera) {
