@@ -48,7 +48,8 @@ const StoredScene stored_scenes[] = {
     {"soft-shadows", emissive},
     {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
     {"motion", Effect::shadows | Effect::motion_blur},
-    {"whitted", all_effects - (Effect::motion_blur | Effect::microfacets | Effect::environment_picture)},
+    {"whitted",
+     all_effects - (Effect::motion_blur | Effect::microfacets | Effect::environment_picture | Effect::anisotropy)},
     {"metals", emissive | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
                    Effect::indirect | Effect::roulette},
 };
