@@ -22,8 +22,9 @@ struct IncidentLight {
 };
 
 /// Whether a direction is in front of the surface: of the shading normal, and on the viewer's side. Lights that cast
-/// shadows must be there. Otherwise a highlight would pass through an opaque face, since Phong's formula does not require
-/// L . N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as behind it.
+/// shadows must be there. Otherwise a highlight would pass through an opaque face, since Phong's formula does not
+/// require L . N > 0 and the shadow ray starts on the light's side. A light exactly in the plane of a face counts as
+/// behind it.
 template <class Real>
 TANDEM_HD Mask<Real> is_in_front(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light) {
     const Double<Real> zero(0.0);
