@@ -4,6 +4,8 @@ option(TANDEM_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(TANDEM_INSTALL "Install the library, its headers and its CMake package" ${PROJECT_IS_TOP_LEVEL})
 option(BUILD_SHARED_LIBS "Build a shared library" OFF)
 option(TANDEM_WERROR "Treat warnings in Tandem's own code as errors" OFF)
+set(TANDEM_EXACT_VARIANT "" CACHE STRING
+    "Effects for which to compile a further CPU variant, e.g. shadows;reflection, to measure the price of carried effects")
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 
 # TANDEM_CUDA: by default ON if there is an nvcc that works with this C++ compiler. Only ON is cached, so that an nvcc

@@ -50,9 +50,12 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU").
+/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
+#if defined(TANDEM_EXACT_EFFECTS)
+    {"exact", EffectMask() | TANDEM_EXACT_EFFECTS},
+#endif
     {"direct", all_effects - bouncing_effects},
     {"full", all_effects},
 };
