@@ -77,19 +77,19 @@ namespace embree_detail {
 
 /// The primitive that is number `index` of one of Embree's geometries.
 template <class Word>
-TANDEM_HD Word primitive_of(const CpuSceneView& view, const Word& geometry, const Word& index) {
+TANDEM_HD_INLINE Word primitive_of(const CpuSceneView& view, const Word& geometry, const Word& index) {
     return index + select(geometry == Word(embree_triangles), Word(view.first_id[embree_triangles]),
                           Word(view.first_id[embree_quads]));
 }
 
 /// The lanes of `valid` in which primitive `id` is a culled face that the ray hits from behind at `t`.
 template <class Real>
-TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, const Double<Real>& t,
-                               const UInt<Real>& id, const Mask<Real>& valid) {
+TANDEM_HD_INLINE Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, const Double<Real>& t,
+                                      const UInt<Real>& id, const Mask<Real>& valid) {
     Mask<Real> culled(false);
     if ((scene.cutout_kinds & PrimitiveKinds::faces) == 0) return culled;
-    for_each_unique_lane(id, valid, [&](std::uint32_t number, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        visit_primitive<PrimitiveKinds::faces>(scene, number, [&](const auto& face) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(id, valid, [&](std::uint32_t number, const Mask<Real>& here) {
+        visit_primitive<PrimitiveKinds::faces>(scene, number, [&](const auto& face) {
             if (face.attributes.sides != FaceSides::culled) return;
             culled =
                 culled ||
@@ -101,8 +101,8 @@ TANDEM_HD Mask<Real> is_culled(const SceneView& scene, const Ray<Real>& ray, con
 
 /// Which of Embree's hits on its own faces to ignore. `s`: their parameter, `id`: their primitive.
 template <Search search, class Real>
-TANDEM_HD Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real>& query, const Float<Real>& s,
-                                 const UInt<Real>& id, const Mask<Real>& valid) {
+TANDEM_HD_INLINE Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real>& query, const Float<Real>& s,
+                                        const UInt<Real>& id, const Mask<Real>& valid) {
     const QuerySource<Real>& source = *query.source;
     if constexpr (search == Search::nearest) {
         const Double<Real> t = query.proposal.parameter(s);
@@ -114,7 +114,7 @@ TANDEM_HD Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real
 }
 
 template <class T>
-TANDEM_HD T load(const void* field) {
+TANDEM_HD_INLINE T load(const void* field) {
     T result;
     std::memcpy(&result, field, sizeof(result));
     return result;
@@ -156,8 +156,8 @@ struct EmbreeTracer {
 
     /// As LoopTracer::closest().
     template <class Real>
-    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
-                                                  bool active) const {
+    [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
+                                                         bool active) const {
         QueryContext<Real> query;
         query.best = no_hit<Real>();
         query.source = &source;
@@ -178,9 +178,9 @@ struct EmbreeTracer {
     }
 
     template <class T, class Isa>
-    [[nodiscard]] TANDEM_HD Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray,
-                                                           const QuerySource<Lanes<T, Isa>>& source,
-                                                           const LaneMask<Isa>& active) const {
+    [[nodiscard]] TANDEM_HD_INLINE Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray,
+                                                                  const QuerySource<Lanes<T, Isa>>& source,
+                                                                  const LaneMask<Isa>& active) const {
         using Real = Lanes<T, Isa>;
         QueryContext<Real> query;
         query.best = no_hit<Real>();
@@ -204,8 +204,8 @@ struct EmbreeTracer {
 
     /// As LoopTracer::occluded().
     template <class Real>
-    [[nodiscard]] TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                          const QuerySource<Real>& source, bool active) const {
+    [[nodiscard]] TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                 const QuerySource<Real>& source, bool active) const {
         QueryContext<Real> query;
         query.best = closest_starting_at<Real>(t_max);
         query.source = &source;
@@ -218,9 +218,10 @@ struct EmbreeTracer {
     }
 
     template <class T, class Isa>
-    [[nodiscard]] TANDEM_HD LaneMask<Isa> occluded(const Ray<Lanes<T, Isa>>& ray, const Double<Lanes<T, Isa>>& t_max,
-                                                   const QuerySource<Lanes<T, Isa>>& source,
-                                                   const LaneMask<Isa>& active) const {
+    [[nodiscard]] TANDEM_HD_INLINE LaneMask<Isa> occluded(const Ray<Lanes<T, Isa>>& ray,
+                                                          const Double<Lanes<T, Isa>>& t_max,
+                                                          const QuerySource<Lanes<T, Isa>>& source,
+                                                          const LaneMask<Isa>& active) const {
         using Real = Lanes<T, Isa>;
         using F = Float<Real>;
         QueryContext<Real> query;
@@ -240,8 +241,8 @@ struct EmbreeTracer {
   private:
     /// Fills the common part of all queries; false if no lane can hit anything.
     template <class Real>
-    TANDEM_HD bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,
-                         bool coherent) const {
+    TANDEM_HD_INLINE bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,
+                                bool coherent) const {
         query.proposal = propose(ray, view.frame, active);
         if (!any(query.proposal.active)) return false;
         query.filter = make_filter_ray(ray);
@@ -250,15 +251,15 @@ struct EmbreeTracer {
     }
 
     template <class Real>
-    TANDEM_HD static RTCRay single_ray(const QueryContext<Real>& query, float tnear, float tfar) {
+    TANDEM_HD_INLINE static RTCRay single_ray(const QueryContext<Real>& query, float tnear, float tfar) {
         const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
         return {p.origin.x, p.origin.y, p.origin.z, tnear, p.direction.x, p.direction.y, p.direction.z, 0,
                 tfar,       0xFFFFFFFF, 0,          0};
     }
 
     template <class PacketRay, class Real>
-    TANDEM_HD static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Float<Real>& tnear,
-                                     const Float<Real>& tfar) {
+    TANDEM_HD_INLINE static void set_packet(PacketRay& ray, const QueryContext<Real>& query, const Float<Real>& tnear,
+                                            const Float<Real>& tfar) {
         using F = Float<Real>;
         const auto set = [](auto* field, const auto& value) { std::memcpy(field, &value, sizeof(value)); };
         const Ray<F>& p = query.proposal.ray;

@@ -41,7 +41,7 @@ struct TileStats {
     std::uint64_t rays = 0;  ///< only if the path loop counts them (counted_ray_effects)
 
     template <class Real>
-    TANDEM_HD void add(const PathTally<Real>& tally) {
+    TANDEM_HD_INLINE void add(const PathTally<Real>& tally) {
         for (int i = 0; i < Real::size; ++i) {
             counters.lost_media += tally.lost_media[i];
             rays += tally.rays[i];
@@ -50,7 +50,8 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable TANDEM_EXACT_VARIANT).
+/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable
+/// TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
 #if defined(TANDEM_EXACT_EFFECTS)

@@ -20,10 +20,10 @@ struct LanePlaces {
 
     /// Gathers the numbers at these places. `first`: the member of the first packet.
     template <class T>
-    [[nodiscard]] TANDEM_HD Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
+    [[nodiscard]] TANDEM_HD_INLINE Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
         return Lanes<T, Isa>::gather(&first, packet + (lane << (sizeof(T) == 8 ? 3 : 2)));
     }
-    [[nodiscard]] TANDEM_HD LaneMask<Isa> gather(const LaneMask<Isa>& first) const {
+    [[nodiscard]] TANDEM_HD_INLINE LaneMask<Isa> gather(const LaneMask<Isa>& first) const {
         return gather_mask(&first, packet, lane);
     }
 };
@@ -37,7 +37,7 @@ class PathSorter {
   public:
     /// Fills lanes without a pixel: take(free, x, y) sets x and y in lanes of `free` and returns the lanes that it set.
     template <class Take>
-    TANDEM_HD void take(const PixelJob& job, Take take) {
+    TANDEM_HD_INLINE void take(const PixelJob& job, Take take) {
         UInt<Real> x(0U), y(0U);
         for (int i = 0; i < packet_count; ++i) {
             Walk& walk = now_[i].walk;
@@ -51,8 +51,8 @@ class PathSorter {
     /// Advances all paths by one vertex, and adds the radiance of those that end to `sums`, by pixel. False if there
     /// was no path.
     template <class Tracer>
-    TANDEM_HD bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
-                        TileStats& stats) {
+    TANDEM_HD_INLINE bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
+                               TileStats& stats) {
         Mask<Real> working(false), leaves_surface(false);
         for (int i = 0; i < packet_count; ++i) {
             working = working || now_[i].walk.working();
@@ -91,7 +91,7 @@ class PathSorter {
         Walk walk;
         Closest<Real> hit = no_hit<Real>();
 
-        TANDEM_HD auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
+        TANDEM_HD_INLINE auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
     };
 
     // Sorts by primitive or, if there are many, by material; paths that hit nothing and lanes without a path come last.
@@ -99,7 +99,7 @@ class PathSorter {
     static constexpr std::uint32_t no_path = bucket_count - 1;
     static constexpr std::uint32_t nothing = bucket_count - 2;
 
-    TANDEM_HD static Word buckets_of(const SceneView& scene, const Packet& packet) {
+    TANDEM_HD_INLINE static Word buckets_of(const SceneView& scene, const Packet& packet) {
         const Mask<Real> working = packet.walk.working();
         const Word primitive = packet.hit.primitive;
         const Mask<Real> missed = primitive == Word(no_primitive);
@@ -112,7 +112,7 @@ class PathSorter {
         return select(working, select(missed, Word(nothing), bucket), Word(no_path));
     }
 
-    TANDEM_HD void sort(const SceneView& scene) {
+    TANDEM_HD_INLINE void sort(const SceneView& scene) {
         alignas(64) std::uint32_t bucket[path_count];
         std::uint32_t first[bucket_count + 1] = {};
         for (int i = 0; i < packet_count; ++i) {
@@ -148,15 +148,15 @@ class PathSorter {
 
     /// `to`, `from`: references to values of the packet and of the first one.
     template <class Values>
-    TANDEM_HD static void fetch(const LanePlaces<Isa>& places, Values to, Values from) {
-        [&]<std::size_t... i>(std::index_sequence<i...>) TANDEM_INLINE_LAMBDA {
+    TANDEM_HD_INLINE static void fetch(const LanePlaces<Isa>& places, Values to, Values from) {
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
             ((std::get<i>(to) = places.gather(std::get<i>(from))), ...);
         }
         (std::make_index_sequence<std::tuple_size_v<Values>>());
     }
 
-    TANDEM_HD static void add(const Vec3<Real>& radiance, const Word& pixel, const Mask<Real>& ended, Vec3d* sums,
-                              TileStats& stats) {
+    TANDEM_HD_INLINE static void add(const Vec3<Real>& radiance, const Word& pixel, const Mask<Real>& ended,
+                                     Vec3d* sums, TileStats& stats) {
         const Mask<Real> valid = is_finite(radiance);
         const Vec3<Wide<Real>> wide = to_wide(radiance);
         for (unsigned int rest = (ended && valid).bits(); rest != 0; rest &= rest - 1) {

@@ -12,11 +12,12 @@ struct QuerySource : PathSource<Real> {
     UInt<Real> light = UInt<Real>(no_primitive);
     bool culls = false;
 
-    TANDEM_HD QuerySource() = default;
-    TANDEM_HD explicit QuerySource(const NoSource&) {}
-    TANDEM_HD explicit QuerySource(const Source<Real>& source) : PathSource<Real>{source} {}
-    TANDEM_HD explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source), culls(true) {}
-    TANDEM_HD explicit QuerySource(const ShadowSource<Real>& source) : PathSource<Real>{source}, light(source.light) {}
+    TANDEM_HD_INLINE QuerySource() = default;
+    TANDEM_HD_INLINE explicit QuerySource(const NoSource&) {}
+    TANDEM_HD_INLINE explicit QuerySource(const Source<Real>& source) : PathSource<Real>{source} {}
+    TANDEM_HD_INLINE explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source), culls(true) {}
+    TANDEM_HD_INLINE explicit QuerySource(const ShadowSource<Real>& source)
+        : PathSource<Real>{source}, light(source.light) {}
 };
 
 namespace query_detail {

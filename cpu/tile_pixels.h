@@ -11,10 +11,10 @@ namespace tandem {
 template <class Real>
 class TilePixels {
   public:
-    TANDEM_HD explicit TilePixels(const Tile& tile) : tile_(tile), x_(tile.x0), y_(tile.y0) {}
+    TANDEM_HD_INLINE explicit TilePixels(const Tile& tile) : tile_(tile), x_(tile.x0), y_(tile.y0) {}
 
     /// Assigns the next pixels to the lanes of `free`; returns the lanes that got one.
-    TANDEM_HD Mask<Real> next(const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
+    TANDEM_HD_INLINE Mask<Real> next(const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
         UInt<Real> got(0U);
         for (int i = 0; i < Real::size; ++i) {
             if (!free[i] || !find()) continue;
@@ -30,7 +30,7 @@ class TilePixels {
     static constexpr std::uint32_t width = Real::size == 4 ? 2 : 4;
 
     /// Advances to the next pixel within the tile; false if there is none.
-    TANDEM_HD bool find() {
+    TANDEM_HD_INLINE bool find() {
         while (true) {
             if (at_ == static_cast<std::uint32_t>(Real::size)) {
                 at_ = 0;

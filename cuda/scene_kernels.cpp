@@ -7,6 +7,7 @@
 #include "cuda/block_shape.h"
 #include "cuda/specialise.h"
 #include "tandem/base/seconds.h"
+#include "tandem/kernel/surface_lobes.h"
 
 namespace tandem::cuda {
 
@@ -86,8 +87,7 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
     }
     facts.lights = scene.light_count <= most_linked_lights ? scene.light_count : LinkedFacts::any;
     const bool glass = effects.has(Effect::refraction);
-    if (effects.has_any(Effect::reflection | Effect::refraction | Effect::microfacets))
-        facts.reflection = limits.reflection;
+    if (effects.has_any(effects_of_reflections)) facts.reflection = limits.reflection;
     if (glass) facts.refraction = limits.refraction;
     if (effects.has(Effect::indirect)) facts.diffuse = limits.diffuse;
     return facts;

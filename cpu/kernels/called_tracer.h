@@ -22,13 +22,14 @@ struct CalledTracer {
     const CpuSceneView& view;
 
     template <class Real, class From>
-    [[nodiscard]] TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source,
-                                                  const Mask<Real>& active) const {
+    [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source,
+                                                         const Mask<Real>& active) const {
         return closest_hit<Isa, Real>(view, ray, QuerySource<Real>(source), active);
     }
     template <class Real>
-    [[nodiscard]] TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                const ShadowSource<Real>& source, const Mask<Real>& active) const {
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                       const ShadowSource<Real>& source,
+                                                       const Mask<Real>& active) const {
         return any_hit<Isa, Real>(view, ray, t_max, QuerySource<Real>(source), active);
     }
 };

@@ -38,7 +38,7 @@ TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const Pixel
     TilePixels<Real> pixels(tile);
     PathSorter<Effects, Real> pool;
     do {
-        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) TANDEM_INLINE_LAMBDA {
+        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
             const Mask<Real> taken = pixels.next(free, x, y);
             for (int i = 0; i < Real::size; ++i) {
                 if (taken[i]) sums[y[i] * job.width + x[i]] = {0.0, 0.0, 0.0};

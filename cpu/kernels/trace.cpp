@@ -20,7 +20,7 @@ TANDEM_HD bool is_coherent(const Ray<Real>& rays) {
 template <class Lane, class Component>
 TANDEM_HD Lane gather(std::size_t used, Component component) {
     using Scalar = typename RealTraits<Lane>::Scalar;
-    return Lane::from([&](int lane) TANDEM_INLINE_LAMBDA {
+    return Lane::from([&](int lane) {
         const auto i = static_cast<std::size_t>(lane);
         return static_cast<Scalar>(component(i < used ? i : 0));
     });
@@ -30,8 +30,8 @@ TANDEM_HD Lane gather(std::size_t used, Component component) {
 template <class Packet>
 TANDEM_HD Ray<Packet> gather_rays(const TraceJob& job, std::size_t first, std::size_t used) {
     const Ray<float>* rays = job.rays.data() + first;
-    const auto load = [&](auto component) TANDEM_INLINE_LAMBDA {
-        return gather<Packet>(used, [&](std::size_t i) TANDEM_INLINE_LAMBDA { return component(rays[i]); });
+    const auto load = [&](auto component) {
+        return gather<Packet>(used, [&](std::size_t i) { return component(rays[i]); });
     };
     return {{load([](const Ray<float>& r) { return r.origin.x; }), load([](const Ray<float>& r) { return r.origin.y; }),
              load([](const Ray<float>& r) { return r.origin.z; })},

@@ -45,7 +45,7 @@ def main():
         for line in run(nm, "--defined-only", str(path)).splitlines():
             kind, symbol = line.split()[-2:]
             if kind in "WVuwv" and not ISA_TAG.search(symbol) and not symbol.startswith("DW.ref."):
-                report.add(name, f"weak symbol {symbol} without the name of an instruction set: make it force-inlined, or "
+                report.add(name, f"weak symbol {symbol} without the name of an instruction set: mark it TANDEM_HD or "
                                  "give it internal linkage")
     report.finish(f"{len(objects)} objects")
 

@@ -1,6 +1,6 @@
 /// Every operation of real.h, lanes.h and exact_math.h as a function on arrays of bits, to run for one lane and for
 /// packets and compare. This interface is all that the files compiled for an instruction set share with others: what
-/// else they use is in lane_operations_body.h, in an unnamed namespace or inlined by force.
+/// else they use is in lane_operations_body.h, in an unnamed namespace, inlined by force, or named after the set.
 #pragma once
 
 #include <cstdint>

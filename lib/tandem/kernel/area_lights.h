@@ -16,17 +16,18 @@ inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
 // A light as seen from a point. `halves_overlap`: as AreaLight has it; the density does not depend on it.
 template <class Real>
-TANDEM_HD SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point, bool) {
+TANDEM_HD_INLINE SphereLightView<Real> view_light(const Sphere& sphere, const Vec3<Double<Real>>& point, bool) {
     using D = Double<Real>;
     return view_sphere_light<Real>(point, broadcast<D>(sphere.centre), D(sphere.radius));
 }
 template <class Real>
-TANDEM_HD TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point, bool) {
+TANDEM_HD_INLINE TriangleLightView<Real> view_light(const Triangle& face, const Vec3<Double<Real>>& point, bool) {
     using D = Double<Real>;
     return view_triangle_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2));
 }
 template <class Real>
-TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point, bool halves_overlap) {
+TANDEM_HD_INLINE QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Real>>& point,
+                                                bool halves_overlap) {
     using D = Double<Real>;
     return view_quad_light<Real>(point, broadcast<D>(face.v0), broadcast<D>(face.v1), broadcast<D>(face.v2),
                                  broadcast<D>(face.v3), {face.attributes.sides, halves_overlap});
@@ -36,18 +37,19 @@ TANDEM_HD QuadLightView<Real> view_light(const Quad& face, const Vec3<Double<Rea
 /// outward, a face from its front, or from both sides if it is double-sided. For quads, view_quad_light() decides by
 /// half.
 template <class Real>
-TANDEM_HD Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
+TANDEM_HD_INLINE Mask<Real> shines(const Sphere& sphere, const Vec3<Double<Real>>& point, const Vec3<Double<Real>>&) {
     using D = Double<Real>;
     const Vec3<D> offset = point - broadcast<D>(sphere.centre);
     return dot(offset, offset) > D(sphere.radius) * D(sphere.radius);
 }
 template <class Real>
-TANDEM_HD Mask<Real> shines(const Triangle& face, const Vec3<Double<Real>>&, const Vec3<Double<Real>>& direction) {
+TANDEM_HD_INLINE Mask<Real> shines(const Triangle& face, const Vec3<Double<Real>>&,
+                                   const Vec3<Double<Real>>& direction) {
     if (is_double_sided(face.attributes)) return Mask<Real>(true);
     return dot(direction, geometric_normal<Real>(face.v0, face.v1, face.v2)) < Double<Real>(0.0);
 }
 template <class Real>
-TANDEM_HD Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<Double<Real>>&) {
+TANDEM_HD_INLINE Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const Vec3<Double<Real>>&) {
     return Mask<Real>(true);
 }
 
@@ -137,12 +139,12 @@ TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<R
 
 struct AreaLights {
     template <class Effects>
-    TANDEM_HD static std::uint32_t count(const SceneView& scene) {
+    TANDEM_HD_INLINE static std::uint32_t count(const SceneView& scene) {
         return known_area_lights() != KnownAreaLights::unknown || scene.area_light_count > 0 ? 1 : 0;
     }
     template <class Effects, class Real>
-    TANDEM_HD static IncidentLight<Real> sample(const SceneView& scene, std::uint32_t, const LitVertex<Real>& at,
-                                                const Mask<Real>& active) {
+    TANDEM_HD_INLINE static IncidentLight<Real> sample(const SceneView& scene, std::uint32_t, const LitVertex<Real>& at,
+                                                       const Mask<Real>& active) {
         return sample_area_light<Effects>(scene, at, active);
     }
 };

@@ -12,7 +12,7 @@ TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, 
                                                         HitRecord<Real> record, Ray<Real> ray, Double<Real> t,
                                                         Mask<Real> here) {
     Parametrisation<Real> at{};
-    visit_primitive<kinds>(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
+    visit_primitive<kinds>(scene, id, [&](const auto& body) {
         using Body = std::decay_t<decltype(body)>;
         const std::uint32_t first = slot * corner_count<Body>;
         at = parametrisation(body, record, scene.texcoords + first, ray, t, here);
@@ -47,7 +47,7 @@ class CornerValues {
     /// Interpolated red, green, blue and alpha of a face's corners (MaterialTextures::colour_slot).
     [[nodiscard]] TANDEM_HD Rgba<Real> colour(std::uint32_t slot) {
         // rounding may make the sum of the corners' weights differ from 1
-        const auto share = [](const Double<Real>& a) TANDEM_INLINE_LAMBDA {
+        const auto share = [](const Double<Real>& a) {
             return to_real<Real>(parametrisation_detail::clamp_to_one<Real>(a));
         };
         const Real r = share(in(slot).u);

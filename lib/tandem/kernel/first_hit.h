@@ -8,9 +8,8 @@
 namespace tandem {
 
 /// The effects that change camera rays, what they pass through, or the surface that they hit.
-using FirstHitEffects = EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps |
-                                   Effect::reflection | Effect::refraction | Effect::microfacets)
-                                      .bits()>;
+using FirstHitEffects =
+    EffectSet<(Effect::lens | Effect::cutouts | Effect::textures | Effect::normal_maps | effects_of_lobes).bits()>;
 
 /// The planes that this pass fills.
 inline constexpr PlaneMask first_hit_planes =
@@ -32,8 +31,7 @@ struct FirstHits {
 template <class Real>
 TANDEM_HD Vec3<Real> albedo_of(const Surface<Real>& surface) {
     LobeSum<Vec3<Real>> sum(black<Real>());
-    for_each_lobe<FirstHitEffects>(surface.reflectance.lobes,
-                                   [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA { sum.add(lobe.colour()); });
+    for_each_lobe<FirstHitEffects>(surface.reflectance.lobes, [&](const auto& lobe, auto) { sum.add(lobe.colour()); });
     const Real one(1.0F);
     return {lesser(sum.value().x, one), lesser(sum.value().y, one), lesser(sum.value().z, one)};
 }
@@ -82,9 +80,7 @@ TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView&
 /// Writes the values of lane i to the requested planes, at a pixel.
 template <class Real>
 TANDEM_HD void keep(const FirstHits<Real>& hits, int i, std::size_t pixel, const FilmPlanes& planes) {
-    const auto of_lane = [i](const auto& sum) TANDEM_INLINE_LAMBDA {
-        return Vec3d{lane(sum.x, i), lane(sum.y, i), lane(sum.z, i)};
-    };
+    const auto of_lane = [i](const auto& sum) { return Vec3d{lane(sum.x, i), lane(sum.y, i), lane(sum.z, i)}; };
     if (planes.albedo != nullptr) planes.albedo[pixel] = of_lane(hits.albedo);
     if (planes.normal != nullptr) planes.normal[pixel] = of_lane(hits.normal);
     if (planes.depth != nullptr) planes.depth[pixel] = to_plain(lane(hits.depth, i));

@@ -50,8 +50,9 @@ class LightReservoir {
   private:
     /// Whether the last light, of `weight`, replaces the chosen one, at random.
     TANDEM_HD Mask<Real> is_taken(const D& weight, const Mask<Real>& draws) {
-        const auto number = [&](const Mask<Real>& takes)
-                                TANDEM_INLINE_LAMBDA { return widen(to_unit_interval<Real>(numbers_.next(takes))); };
+        const auto number = [&](const Mask<Real>& takes) {
+            return widen(to_unit_interval<Real>(numbers_.next(takes)));
+        };
         const D step = total_ * constant<D>(0x1p-24);
         const D from = number(draws) * total_;  // the bits that are still missing add less than a step
         Mask<Real> taken = from + step <= weight;

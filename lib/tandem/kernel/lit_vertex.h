@@ -78,12 +78,11 @@ TANDEM_HD_STAGE Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVer
     const LocalView<Real> view = local_view<Effects>(at.surface, at.point, at.to_viewer);
     const Vec3<D> wi = to_frame(view.frame, to_light);
     LobeSum<Vec3<Real>> f(black<Real>());
-    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto place) {
         using L = std::decay_t<decltype(lobe)>;
         if constexpr (is_local<L, Real>) {
             const Real share = share_of_sample<Effects, decltype(place)::value>(
-                scene, at.followed, lobe, pdf,
-                [&](const auto& of) TANDEM_INLINE_LAMBDA { return of.pdf(view.wo, wi); });
+                scene, at.followed, lobe, pdf, [&](const auto& of) { return of.pdf(view.wo, wi); });
             f.add(lobe.f(view.wo, wi) * share);
         }
     });
@@ -106,7 +105,7 @@ TANDEM_HD Vec3<Real> reflect_light(const SceneView& scene, const LitVertex<Real>
                                    const Vec3<Double<Real>>& to_light, const Density& pdf) {
     LobeSum<Vec3<Real>> sum(black<Real>());
     Mask<Real> in_frame(false);
-    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto place) {
         using L = std::decay_t<decltype(lobe)>;
         constexpr int number = decltype(place)::value;
         if constexpr (has(L::flags, LobeFlags::specular) ||
@@ -115,7 +114,7 @@ TANDEM_HD Vec3<Real> reflect_light(const SceneView& scene, const LitVertex<Real>
         } else if constexpr (ReflectsInWorld<L, Real>) {
             const Real share = lit_vertex_detail::share_of_sample<Effects, number>(
                 scene, at.followed, lobe, pdf,
-                [&](const auto& of) TANDEM_INLINE_LAMBDA { return of.pdf_about(at.surface.normal, to_light); });
+                [&](const auto& of) { return of.pdf_about(at.surface.normal, to_light); });
             sum.add(lobe.reflected_about(share, at.surface.normal, to_light, at.to_viewer));
         } else {
             in_frame = in_frame || lobe.scatters();
@@ -134,7 +133,7 @@ TANDEM_HD Vec3<Real> reflect_light(const SceneView& scene, const LitVertex<Real>
 template <class Effects, class Real>
 TANDEM_HD Vec3<Real> diffuse_reflectance(const LitVertex<Real>& at, const Vec3<Double<Real>>& to_light) {
     LobeSum<Vec3<Real>> sum(black<Real>());
-    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(at.surface.reflectance.lobes, [&](const auto& lobe, auto) {
         using L = std::decay_t<decltype(lobe)>;
         if constexpr (!has(L::flags, LobeFlags::diffuse)) {
             return;

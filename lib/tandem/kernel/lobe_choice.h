@@ -31,25 +31,23 @@ TANDEM_HD void weigh_local_lobes(const SceneView& scene, const Surface<Real>& su
     if constexpr (Effects::most.has_any(effects_of_local_lobes)) {
         const Real zero(0.0F);
         Mask<Real> any_scatters(false);
-        for_each_followed_lobe<Effects>(surface.reflectance.lobes,
-                                        [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
-                                            if constexpr (is_local<std::decay_t<decltype(lobe)>, Real>) {
-                                                weights.of[decltype(place)::value] = zero;
-                                                any_scatters = any_scatters || (active && lobe.scatters());
-                                            }
-                                        });
+        for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
+            if constexpr (is_local<std::decay_t<decltype(lobe)>, Real>) {
+                weights.of[decltype(place)::value] = zero;
+                any_scatters = any_scatters || (active && lobe.scatters());
+            }
+        });
         if (!any(any_scatters)) return;
         const LocalView<Real> view = local_view<Effects>(surface, point, shading.to_viewer);
-        for_each_followed_lobe<Effects>(
-            surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
-                using Lobe = std::decay_t<decltype(lobe)>;
-                if constexpr (is_local<Lobe, Real>) {
-                    constexpr bool is_diffuse = has(Lobe::flags, LobeFlags::diffuse);
-                    if (is_diffuse && !has_indirect_light<Effects>(scene)) return;
-                    const Mask<Real> shows = is_diffuse ? shading.is_front : !view.hidden;
-                    weights.of[decltype(place)::value] = select(shows, largest(lobe.albedo(view.wo)), zero);
-                }
-            });
+        for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
+            using Lobe = std::decay_t<decltype(lobe)>;
+            if constexpr (is_local<Lobe, Real>) {
+                constexpr bool is_diffuse = has(Lobe::flags, LobeFlags::diffuse);
+                if (is_diffuse && !has_indirect_light<Effects>(scene)) return;
+                const Mask<Real> shows = is_diffuse ? shading.is_front : !view.hidden;
+                weights.of[decltype(place)::value] = select(shows, largest(lobe.albedo(view.wo)), zero);
+            }
+        });
     }
 }
 
@@ -59,7 +57,7 @@ TANDEM_HD void weigh_other_lobes(const SceneView& scene, const Surface<Real>& su
                                  const ShadingFrame<Real>& shading, LobeWeights<Real>& weights) {
     using lobe_choice_detail::largest;
     const Real zero(0.0F);
-    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
         using Lobe = std::decay_t<decltype(lobe)>;
         if constexpr (!is_local<Lobe, Real>) {
             Real& weight = weights.of[decltype(place)::value];
@@ -77,9 +75,8 @@ TANDEM_HD void weigh_other_lobes(const SceneView& scene, const Surface<Real>& su
 template <class Effects, class Real>
 TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real>& weights) {
     LobeSum<Real> sum(Real(0.0F));
-    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto&, auto place) TANDEM_INLINE_LAMBDA {
-        sum.add(weights.of[decltype(place)::value]);
-    });
+    for_each_followed_lobe<Effects>(surface.reflectance.lobes,
+                                    [&](const auto&, auto place) { sum.add(weights.of[decltype(place)::value]); });
     return sum.value();
 }
 
@@ -87,8 +84,7 @@ TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real
 template <class Effects, class Real>
 TANDEM_HD bool has_choice(const Surface<Real>& surface) {
     int count = 0;
-    for_each_followed_lobe<Effects>(surface.reflectance.lobes,
-                                    [&](const auto&, auto) TANDEM_INLINE_LAMBDA { ++count; });
+    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto&, auto) { ++count; });
     return count > 1;
 }
 
@@ -106,14 +102,13 @@ TANDEM_HD FollowedLobes<Real> followed_lobes(const SceneView& scene, const PathL
         followed.glossy = reflections < UInt<Real>(limits.reflection);
         weigh_other_lobes<Effects>(scene, surface, shading, weights);
         const Real total = total_weight<Effects>(surface, weights);
-        for_each_followed_lobe<Effects>(
-            surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
-                constexpr int at = decltype(place)::value;
-                if constexpr (has(std::decay_t<decltype(lobe)>::flags, LobeFlags::glossy)) {
-                    const Real& weight = weights.of[at];
-                    followed.chance[glossy_number<at>] = select(weight > Real(0.0F), weight / total, Real(1.0F));
-                }
-            });
+        for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
+            constexpr int at = decltype(place)::value;
+            if constexpr (has(std::decay_t<decltype(lobe)>::flags, LobeFlags::glossy)) {
+                const Real& weight = weights.of[at];
+                followed.chance[glossy_number<at>] = select(weight > Real(0.0F), weight / total, Real(1.0F));
+            }
+        });
     }
     return followed;
 }

@@ -96,7 +96,7 @@ TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& lim
     Mask<Real> chosen(false);
     Mask<Real> goes_through(false);
     Vec3<D> direction = -shading.to_viewer;
-    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
         using Lobe = std::decay_t<decltype(lobe)>;
         constexpr int at = decltype(place)::value;
         const Real& weight = weights.of[at];

@@ -70,7 +70,7 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Box& box, const HitRecord<Real>
     point.normal = face_normal(record);
     point.from_inside = record.from_inside;
     const auto near = to_real<Real>(spawn_detail::along<Real>(widen(ray.origin), widen(ray.direction), t));
-    const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) TANDEM_INLINE_LAMBDA {
+    const auto coordinate = [](const Real& x, float lower, float upper, const D& normal) {
         const Real lo(lower);
         const Real hi(upper);
         const Real within = select(x < lo, lo, select(x > hi, hi, x));
@@ -162,7 +162,7 @@ TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, con
     Mask<Real> far = leaves_inward<Real>(source, id);
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
         if (has_no_cutouts(scene) || !any(source.last_masked.t > Double<Real>(0.0))) return far;
-        visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+        visit_primitive<kinds>(scene, id, [&](const auto& primitive) {
             // rays pass the near side only of solids with an alpha mask
             if (!may_be_cut_out(kind_of<std::decay_t<decltype(primitive)>>)) return;
             far = is_far_side<Real>(source, primitive, id, ray, t, here);
@@ -179,7 +179,7 @@ TANDEM_HD SurfacePoint<Real> surface_point_of(const SceneView& scene, std::uint3
                                               const Mask<Real>& here = Mask<Real>(true)) {
     const Mask<Real> exits = hits_far_side<kinds>(scene, id, ray, source, t, here);
     SurfacePoint<Real> point;
-    visit_primitive<kinds>(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA {
+    visit_primitive<kinds>(scene, id, [&](const auto& primitive) {
         point = surface_point(primitive, record_hit(primitive, ray, t, exits, here), ray, t);
     });
     point.primitive = UInt<Real>(id);
@@ -201,7 +201,7 @@ template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STAGE SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                                  const Closest<Real>& hit, const Mask<Real>& found) {
     SurfacePoint<Real> result = {ray.origin, widen(ray.direction)};
-    for_each_unique_lane(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) {
         keep(here, surface_point_of<kinds>(scene, id, ray, source, hit.t, here), result);
     });
     return result;

@@ -97,28 +97,28 @@ template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
 TANDEM_HD_STAGE Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
                                         const Closest<Real>& hit, const Mask<Real>& found) {
     Mask<Real> opaque(true);
-    for_each_unique_lane(hit.primitive, found,
-                         [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-                             if (!has_textures(scene.textures)) return;
-                             const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
-                             if (!(textures.alpha_cutoff > 0.0F)) return;
-                             bool on_face = false;
-                             const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
-                             HitRecord<Real> record;
-                             visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-                                 on_face = is_face<std::decay_t<decltype(body)>>;
-                                 record = record_hit(body, ray, hit.t, exits, here);
-                             });
-                             CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
-                             const Real alpha = base_colour(textures, on_face, values).a;
-                             opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
-                         });
+    for_each_unique_lane(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
+        if (!has_textures(scene.textures)) return;
+        const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
+        if (!(textures.alpha_cutoff > 0.0F)) return;
+        bool on_face = false;
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
+        HitRecord<Real> record;
+        visit_primitive<kinds>(scene, primitive, [&](const auto& body) {
+            on_face = is_face<std::decay_t<decltype(body)>>;
+            record = record_hit(body, ray, hit.t, exits, here);
+        });
+        CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
+        const Real alpha = base_colour(textures, on_face, values).a;
+        opaque = opaque && (!here || is_opaque<Real>(textures, alpha));
+    });
     return opaque;
 }
 
-/// Where a vertex must be known more accurately than as a point of its ray.
-inline constexpr EffectMask effects_on_surfaces = bouncing_effects | Effect::shadows | Effect::area_lights |
-                                                  Effect::emission | Effect::environment_light | Effect::normal_maps;
+/// Where a vertex must be known more accurately than as a point of its ray, or with the side that it is seen from.
+inline constexpr EffectMask effects_on_surfaces = bouncing_effects | effects_of_local_lobes | Effect::shadows |
+                                                  Effect::area_lights | Effect::emission | Effect::environment_light |
+                                                  Effect::normal_maps;
 template <class Effects>
 TANDEM_HD constexpr bool can_leave_surfaces() {
     return Effects::most.has_any(effects_on_surfaces);
@@ -137,93 +137,91 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     Mask<Real> on_sphere(false);
     Surface<Real> surface{};
     surface.normal.z = D(1.0);
-    for_each_unique_lane(
-        hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-            // Normals
-            Vec3<D> normal = surface.normal;
-            const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
-            bool on_face = false;
-            FaceSides sides = FaceSides::single_sided;
-            SurfacePoint<Real> own;
-            HitRecord<Real> record;
-            visit_primitive<kinds>(scene, primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-                using Body = std::decay_t<decltype(body)>;
-                record = record_hit(body, ray, hit.t, exits, here);
-                if (needs_point) own = surface_point(body, record, ray, hit.t);
-                if (needs_point && !is_face<Body>) {
-                    normal = own.normal;
-                } else {
-                    normal = normal_at<Real>(scene, body, record, ray, hit.t, here);
-                    if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
-                }
-                if constexpr (is_face<Body>) {
-                    on_face = true;
-                    sides = body.attributes.sides;
-                }
-            });
-            if (needs_point) {
-                own.primitive = UInt<Real>(primitive);
-                keep(here, own, point);
+    for_each_unique_lane(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
+        // Normals
+        Vec3<D> normal = surface.normal;
+        const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
+        bool on_face = false;
+        FaceSides sides = FaceSides::single_sided;
+        SurfacePoint<Real> own;
+        HitRecord<Real> record;
+        visit_primitive<kinds>(scene, primitive, [&](const auto& body) {
+            using Body = std::decay_t<decltype(body)>;
+            record = record_hit(body, ray, hit.t, exits, here);
+            if (needs_point) own = surface_point(body, record, ray, hit.t);
+            if (needs_point && !is_face<Body>) {
+                normal = own.normal;
+            } else {
+                normal = normal_at<Real>(scene, body, record, ray, hit.t, here);
+                if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
             }
-
-            // Textures
-            const std::uint32_t number = scene.material_of[primitive];
-            const Optics& optics = scene.optics[number];
-            const bool both_sides = sides == FaceSides::double_sided;
-            MaterialTexels<Real> texels;
-            if (has_pictures<Effects>() && has_textures(scene.textures)) {
-                const MaterialTextures& textures = scene.textures.materials[number];
-                CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
-                if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
-                    texels.base_colour = base_colour(textures, on_face, values);
-                }
-                if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
-                    const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
-                    normal =
-                        bent_normal<Real>(scene, textures, values.in(textures.normal.slot), normalize(normal), turned);
-                }
-                if (Effects::has(Effect::emission) && Effects::has(Effect::textures)) {
-                    const bool lit = textures.emission.texture != no_texture;
-                    const Rgba<Real> at = lit ? values.texture(textures.emission) : texels.base_colour;
-                    if (lit || optics.unlit != 0) texels.emission = {at.r, at.g, at.b};
-                }
-                if (Effects::has(Effect::cutouts)) {
-                    surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, texels.base_colour.a));
-                }
-                if (Effects::has(Effect::microfacets) && Effects::has(Effect::textures) &&
-                    textures.metallic_roughness.texture != no_texture) {
-                    texels.metallic_roughness = values.texture(textures.metallic_roughness);
-                }
-            }
-
-            // Brushed surfaces
-            if (Effects::has(Effect::microfacets) && Effects::has(Effect::anisotropy) && scene.anisotropy_count > 0 &&
-                scene.microfacets[number].anisotropy > 0.0F) {
-                const Anisotropy& anisotropy = scene.anisotropies[number];
-                CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
-                Rgba<Real> texel = default_anisotropy_texel<Real>();
-                if (Effects::has(Effect::textures) && anisotropy.texture.texture != no_texture) {
-                    texel = values.texture(anisotropy.texture);
-                    texels.anisotropy = texel.b;
-                }
-                const auto tangent = brushed_tangent<Real>(anisotropy, values.in(anisotropy.slot), normal, texel);
-                surface.tangent = select(here, tangent, surface.tangent);
-                surface.anisotropic = surface.anisotropic || here;
-            }
-
-            // Reflectance and emission
-            surface.normal = select(here, normal, surface.normal);
-            const auto reflectance = reflectance_of<Effects>(scene, number, texels, own.from_inside);
-            surface.reflectance.ambient = select(here, reflectance.ambient, surface.reflectance.ambient);
-            keep<Effects>(here, reflectance.lobes, surface.reflectance.lobes);
-            if (has_bounces<Effects>()) surface.material = select(here, UInt<Real>(number), surface.material);
-            if (Effects::has(Effect::emission) && norm1(optics.emission) > 0.0F) {
-                const bool unlit = optics.unlit != 0;
-                const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
-                surface.emission = select(shines, broadcast<Real>(optics.emission) * texels.emission, surface.emission);
-                surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
+            if constexpr (is_face<Body>) {
+                on_face = true;
+                sides = body.attributes.sides;
             }
         });
+        if (needs_point) {
+            own.primitive = UInt<Real>(primitive);
+            keep(here, own, point);
+        }
+
+        // Textures
+        const std::uint32_t number = scene.material_of[primitive];
+        const Optics& optics = scene.optics[number];
+        const bool both_sides = sides == FaceSides::double_sided;
+        MaterialTexels<Real> texels;
+        if (has_pictures<Effects>() && has_textures(scene.textures)) {
+            const MaterialTextures& textures = scene.textures.materials[number];
+            CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
+            if (Effects::has(Effect::textures) || Effects::has(Effect::cutouts)) {
+                texels.base_colour = base_colour(textures, on_face, values);
+            }
+            if (Effects::has(Effect::normal_maps) && textures.normal.texture != no_texture) {
+                const Mask<Real> turned = Mask<Real>(both_sides) && own.from_inside;
+                normal = bent_normal<Real>(scene, textures, values.in(textures.normal.slot), normalize(normal), turned);
+            }
+            if (Effects::has(Effect::emission) && Effects::has(Effect::textures)) {
+                const bool lit = textures.emission.texture != no_texture;
+                const Rgba<Real> at = lit ? values.texture(textures.emission) : texels.base_colour;
+                if (lit || optics.unlit != 0) texels.emission = {at.r, at.g, at.b};
+            }
+            if (Effects::has(Effect::cutouts)) {
+                surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, texels.base_colour.a));
+            }
+            if (Effects::has(Effect::microfacets) && Effects::has(Effect::textures) &&
+                textures.metallic_roughness.texture != no_texture) {
+                texels.metallic_roughness = values.texture(textures.metallic_roughness);
+            }
+        }
+
+        // Brushed surfaces
+        if (Effects::has(Effect::microfacets) && Effects::has(Effect::anisotropy) && scene.anisotropy_count > 0 &&
+            scene.microfacets[number].anisotropy > 0.0F) {
+            const Anisotropy& anisotropy = scene.anisotropies[number];
+            CornerValues<kinds, Real> values(scene, primitive, record, ray, hit.t, here);
+            Rgba<Real> texel = default_anisotropy_texel<Real>();
+            if (Effects::has(Effect::textures) && anisotropy.texture.texture != no_texture) {
+                texel = values.texture(anisotropy.texture);
+                texels.anisotropy = texel.b;
+            }
+            const auto tangent = brushed_tangent<Real>(anisotropy, values.in(anisotropy.slot), normal, texel);
+            surface.tangent = select(here, tangent, surface.tangent);
+            surface.anisotropic = surface.anisotropic || here;
+        }
+
+        // Reflectance and emission
+        surface.normal = select(here, normal, surface.normal);
+        const auto reflectance = reflectance_of<Effects>(scene, number, texels, own.from_inside);
+        surface.reflectance.ambient = select(here, reflectance.ambient, surface.reflectance.ambient);
+        keep<Effects>(here, reflectance.lobes, surface.reflectance.lobes);
+        if (has_bounces<Effects>()) surface.material = select(here, UInt<Real>(number), surface.material);
+        if (Effects::has(Effect::emission) && norm1(optics.emission) > 0.0F) {
+            const bool unlit = optics.unlit != 0;
+            const Mask<Real> shines = here && (Mask<Real>(both_sides || unlit) || !own.from_inside);
+            surface.emission = select(shines, broadcast<Real>(optics.emission) * texels.emission, surface.emission);
+            surface.unlit = surface.unlit || (shines && Mask<Real>(unlit));
+        }
+    });
     // once for all lanes: the rays of a packet hit up to as many spheres as it has lanes
     if (any(on_sphere)) surface.normal = select(on_sphere, normalize(surface.normal), surface.normal);
     return surface;

@@ -54,11 +54,12 @@ struct LobeKind {
     bool local;
 };
 
-/// The union of one column of lobes.def over the lobes for which `is_meant`.
+/// The union of one column of lobes.def over the lobes for which `is_meant`, without `always`.
 constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(LobeKind)) {
     EffectMask mask;
 #define TANDEM_LOBE(Type, name, needs, follows, is)                                           \
-    if (is_meant({Type<float>::flags, Type<float>::numbers, is_local<Type<float>, float>})) { \
+    if ((use_of<LobePlace::name>.*column).bits() != always.bits() &&                          \
+        is_meant({Type<float>::flags, Type<float>::numbers, is_local<Type<float>, float>})) { \
         mask |= use_of<LobePlace::name>.*column;                                              \
     }
 #include "tandem/kernel/bsdf/lobes.def"
@@ -68,9 +69,18 @@ constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(Lo
 
 }  // namespace lobes_detail
 
-/// The effects that need lobes in the local frame.
+/// The effects that need lobes, and those that need lobes in the local frame.
+inline constexpr EffectMask effects_of_lobes =
+    lobes_detail::effects_of(&lobes_detail::LobeUse::needs, [](lobes_detail::LobeKind) { return true; });
 inline constexpr EffectMask effects_of_local_lobes =
     lobes_detail::effects_of(&lobes_detail::LobeUse::needs, [](lobes_detail::LobeKind kind) { return kind.local; });
+
+/// The effects for which paths follow lobes that count as reflections (PathLimits).
+inline constexpr EffectMask effects_of_reflections = lobes_detail::effects_of(
+    &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return !has(kind.flags, LobeFlags::diffuse); });
+static_assert(bouncing_effects.covers(lobes_detail::effects_of(&lobes_detail::LobeUse::follows,
+                                                               [](lobes_detail::LobeKind) { return true; })),
+              "paths follow a lobe for an effect that is none of bouncing_effects (effects/effects.h)");
 
 // The effects for which paths follow glossy lobes, lobes that are not specular, and specular lobes that need random
 // numbers.
@@ -127,7 +137,7 @@ TANDEM_HD constexpr bool can_follow() {
 /// The same for each lobe along which paths continue.
 template <class Effects, class Lobes, class Visit>
 TANDEM_HD void for_each_followed_lobe(Lobes& lobes, Visit visit) {
-    for_each_lobe<Effects>(lobes, [&](auto& lobe, auto place) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(lobes, [&](auto& lobe, auto place) {
         constexpr int at = decltype(place)::value;
         if constexpr (can_follow<Effects, at>()) {
             if (simulates<Effects>(lobes_detail::use_of<at>.follows)) visit(lobe, place);
@@ -171,7 +181,7 @@ TANDEM_HD void keep(const Mask<Real>& mask, const SurfaceLobes<Real>& lobes, Sur
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> transmits(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);
-    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) {
         if constexpr (has(std::decay_t<decltype(lobe)>::flags, LobeFlags::transmission)) {
             result = result || lobe.scatters();
         }
@@ -183,7 +193,7 @@ TANDEM_HD Mask<Real> transmits(const SurfaceLobes<Real>& lobes) {
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> scatters(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);
-    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) {
         if constexpr (!has(std::decay_t<decltype(lobe)>::flags, LobeFlags::specular)) {
             result = result || lobe.scatters();
         }
@@ -195,7 +205,7 @@ TANDEM_HD Mask<Real> scatters(const SurfaceLobes<Real>& lobes) {
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> scatters_locally(const SurfaceLobes<Real>& lobes) {
     Mask<Real> result(false);
-    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) TANDEM_INLINE_LAMBDA {
+    for_each_lobe<Effects>(lobes, [&](const auto& lobe, auto) {
         if constexpr (is_local<std::decay_t<decltype(lobe)>, Real>) result = result || lobe.scatters();
     });
     return result;

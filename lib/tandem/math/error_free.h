@@ -16,14 +16,14 @@ struct Pair {
 
 /// a + b exactly; needs |a| >= |b| or a = 0.
 template <class D>
-TANDEM_HD Pair<D> fast_two_sum(const D& a, const D& b) {
+TANDEM_HD_INLINE Pair<D> fast_two_sum(const D& a, const D& b) {
     const D sum = a + b;
     return {sum, b - (sum - a)};
 }
 
 /// a + b exactly.
 template <class D>
-TANDEM_HD Pair<D> two_sum(const D& a, const D& b) {
+TANDEM_HD_INLINE Pair<D> two_sum(const D& a, const D& b) {
     const D sum = a + b;
     const D from_b = sum - a;
     return {sum, (a - (sum - from_b)) + (b - from_b)};
@@ -31,7 +31,7 @@ TANDEM_HD Pair<D> two_sum(const D& a, const D& b) {
 
 /// a * b exactly.
 template <class D>
-TANDEM_HD Pair<D> two_product(const D& a, const D& b) {
+TANDEM_HD_INLINE Pair<D> two_product(const D& a, const D& b) {
     const D product = a * b;
     return {product, multiply_add(a, b, -product)};
 }
@@ -40,7 +40,7 @@ TANDEM_HD Pair<D> two_product(const D& a, const D& b) {
 /// Source: W. Kahan; error bound by C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of Kahan's algorithm
 /// for the accurate computation of 2x2 determinants", Math. Comp. 82, 2013.
 template <class D>
-TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& d) {
+TANDEM_HD_INLINE D difference_of_products(const D& a, const D& b, const D& c, const D& d) {
     const D cd = c * d;
     const D error = multiply_add(c, d, -cd);
     return multiply_add(a, b, -cd) - error;
@@ -51,36 +51,36 @@ TANDEM_HD D difference_of_products(const D& a, const D& b, const D& c, const D& 
 // double-word arithmetic", ACM TOMS 44(2), 2017: AccurateDWPlusDW, DWTimesDW2.
 
 template <class D>
-TANDEM_HD Pair<D> operator+(const Pair<D>& a, const Pair<D>& b) {
+TANDEM_HD_INLINE Pair<D> operator+(const Pair<D>& a, const Pair<D>& b) {
     const Pair<D> high = two_sum(a.high, b.high);
     const Pair<D> low = two_sum(a.low, b.low);
     const Pair<D> sum = fast_two_sum(high.high, high.low + low.high);
     return fast_two_sum(sum.high, sum.low + low.low);
 }
 template <class D>
-TANDEM_HD Pair<D> operator*(const Pair<D>& a, const Pair<D>& b) {
+TANDEM_HD_INLINE Pair<D> operator*(const Pair<D>& a, const Pair<D>& b) {
     const Pair<D> product = two_product(a.high, b.high);
     return fast_two_sum(product.high, multiply_add(a.high, b.low, multiply_add(a.low, b.high, product.low)));
 }
 
 template <class D>
-TANDEM_HD Pair<D> operator-(const Pair<D>& a) {
+TANDEM_HD_INLINE Pair<D> operator-(const Pair<D>& a) {
     return {-a.high, -a.low};
 }
 template <class D>
-TANDEM_HD Pair<D> operator-(const Pair<D>& a, const Pair<D>& b) {
+TANDEM_HD_INLINE Pair<D> operator-(const Pair<D>& a, const Pair<D>& b) {
     return a + -b;
 }
 /// a / n for an integer n.
 template <class D>
-TANDEM_HD Pair<D> divide(const Pair<D>& a, double n) {
+TANDEM_HD_INLINE Pair<D> divide(const Pair<D>& a, double n) {
     const D high = a.high / D(n);
     return fast_two_sum(high, (multiply_add(-high, D(n), a.high) + a.low) / D(n));
 }
 
 /// a / b for b != 0, rounded to the nearest double unless the quotient is within 2^-48 ulp of the midpoint between two.
 template <class D>
-TANDEM_HD D quotient(const Pair<D>& a, const Pair<D>& b) {
+TANDEM_HD_INLINE D quotient(const Pair<D>& a, const Pair<D>& b) {
     const D inverse = D(1.0) / b.high;
     const D first = a.high * inverse;
     const D rest = multiply_add(-first, b.high, a.high) + multiply_add(-first, b.low, a.low);
@@ -95,7 +95,7 @@ TANDEM_HD D quotient(const Pair<D>& a, const Pair<D>& b) {
 /// never such a midpoint. Source: S. Boldo, G. Melquiond, "Emulation of FMA and correctly rounded sums: proved
 /// algorithms using rounding to odd", IEEE Trans. Comput. 57(4), 2008.
 template <class Real>
-TANDEM_HD Float<Real> round_once(const Double<Real>& high, const Double<Real>& low) {
+TANDEM_HD_INLINE Float<Real> round_once(const Double<Real>& high, const Double<Real>& low) {
     using D = Double<Real>;
     using I = UInt64<Real>;
     const Pair<D> sum = fast_two_sum(high, low);

@@ -28,22 +28,22 @@ inline constexpr double to_low_bits = 0x1.8p52;
 
 /// c[0] + c[1] x + c[2] x^2 + ...
 template <class D>
-TANDEM_HD D horner(const D&, double c) {
+TANDEM_HD_INLINE D horner(const D&, double c) {
     return D(c);
 }
 template <class D, class... More>
-TANDEM_HD D horner(const D& x, double c, More... more) {
+TANDEM_HD_INLINE D horner(const D& x, double c, More... more) {
     return multiply_add(x, horner(x, more...), D(c));
 }
 
 template <class Real>
-TANDEM_HD Float<Real> quiet_nan() {
+TANDEM_HD_INLINE Float<Real> quiet_nan() {
     return Float<Real>(float_of(0x7FC00000U));
 }
 
 /// x = (1 + f) 2^exponent with 1 + f in [sqrt(1/2), sqrt(2)), x a positive normal double; f is exact.
 template <class Real>
-TANDEM_HD void reduce_log(const Double<Real>& x, Double<Real>& f, Double<Real>& exponent) {
+TANDEM_HD_INLINE void reduce_log(const Double<Real>& x, Double<Real>& f, Double<Real>& exponent) {
     using D = Double<Real>;
     using I = UInt64<Real>;
     const I sqrt_half(0x3FE6A09E667F3BCD);
@@ -54,7 +54,7 @@ TANDEM_HD void reduce_log(const Double<Real>& x, Double<Real>& f, Double<Real>& 
 
 /// log(1 + f) = f - f^2/2 + this, within 2^-57: with s = f / (2 + f) it is s (f^2/2 + 2 atanh(s)/s - 2).
 template <class D>
-TANDEM_HD D log_tail(const D& f, const D& half_square) {
+TANDEM_HD_INLINE D log_tail(const D& f, const D& half_square) {
     const D s = f / (D(2.0) + f);
     const D z = s * s;
     const D w = z * z;
@@ -66,7 +66,7 @@ TANDEM_HD D log_tail(const D& f, const D& half_square) {
 /// x = k ln 2 + r + r_low with |r| <= ln(2)/2, and scale = 2^k. For float x, r + r_low is exact to 2^-100.
 /// Needs |x| <= 700 or NaN, which makes r NaN.
 template <class Real>
-TANDEM_HD void reduce_exp(const Double<Real>& x, Double<Real>& r, Double<Real>& r_low, Double<Real>& scale) {
+TANDEM_HD_INLINE void reduce_exp(const Double<Real>& x, Double<Real>& r, Double<Real>& r_low, Double<Real>& scale) {
     using D = Double<Real>;
     const D shift(to_low_bits + 1023);
     const D biased = multiply_add(x, D(log2_e), shift);
@@ -79,12 +79,12 @@ TANDEM_HD void reduce_exp(const Double<Real>& x, Double<Real>& r, Double<Real>& 
 
 // e^r = 1 + r + z/2 + z (z even_tail(z) + r odd_tail(z)), z = r^2: the rest of cosh and of sinh, within 2^-63 e^r.
 template <class D>
-TANDEM_HD D exp_even_tail(const D& z) {
+TANDEM_HD_INLINE D exp_even_tail(const D& z) {
     return horner(z, 0x1.5555555555558p-5, 0x1.6c16c16c14ffap-10, 0x1.a01a01ad81059p-16, 0x1.27e4cc08ffd29p-22,
                   0x1.1f8bef3e8ae32p-29);
 }
 template <class D>
-TANDEM_HD D exp_odd_tail(const D& z) {
+TANDEM_HD_INLINE D exp_odd_tail(const D& z) {
     return horner(z, 0x1.555555555555cp-3, 0x1.111111110e969p-7, 0x1.a01a01b49fd74p-13, 0x1.71dded5035d80p-19,
                   0x1.af70d0a72f6fbp-26);
 }
@@ -95,7 +95,7 @@ TANDEM_HD D exp_odd_tail(const D& z) {
 /// x 2/pi is formed modulo 4 from slices of 2/pi: 24 by 29 bits make an exact product, and slices that give multiples
 /// of 4 vanish, so that no table is indexed by x (M. Payne, R. Hanek, 1983, without the indexing); error below 2^-90.
 template <class Real>
-TANDEM_HD void reduce_trig(const Double<Real>& x, UInt64<Real>& quadrant, Double<Real>& r, Double<Real>& r_low) {
+TANDEM_HD_INLINE void reduce_trig(const Double<Real>& x, UInt64<Real>& quadrant, Double<Real>& r, Double<Real>& r_low) {
     using D = Double<Real>;
     const D shift(to_low_bits);
     const D near = multiply_add(x, D(two_over_pi), shift);
@@ -129,7 +129,7 @@ TANDEM_HD void reduce_trig(const Double<Real>& x, UInt64<Real>& quadrant, Double
 
 /// sin(r + r_low), for |r| <= pi/4.
 template <class D>
-TANDEM_HD Pair<D> sine(const D& r, const D& r_low) {
+TANDEM_HD_INLINE Pair<D> sine(const D& r, const D& r_low) {
     const D z = r * r;
     const D tail = horner(z, -0x1.5555555555555p-3, 0x1.1111111111067p-7, -0x1.a01a019ffdba6p-13, 0x1.71de3a32aa3f0p-19,
                           -0x1.ae642acdfddaap-26, 0x1.6108a372a8db1p-33, -0x1.9f61e6f4de8a1p-41);
@@ -138,7 +138,7 @@ TANDEM_HD Pair<D> sine(const D& r, const D& r_low) {
 
 /// cos(r + r_low), for |r| <= pi/4.
 template <class D>
-TANDEM_HD Pair<D> cosine(const D& r, const D& r_low) {
+TANDEM_HD_INLINE Pair<D> cosine(const D& r, const D& r_low) {
     const Pair<D> square = two_product(r, r);
     const D z = square.high;
     const D tail = horner(z, 0x1.5555555555555p-5, -0x1.6c16c16c16b2ap-10, 0x1.a01a019ffb54bp-16,
@@ -150,7 +150,7 @@ TANDEM_HD Pair<D> cosine(const D& r, const D& r_low) {
 
 /// sin(x + turns pi/2); infinity gives NaN.
 template <class Real>
-TANDEM_HD Real sine_of_turned(const Real& x, const UInt64<Real>& sign_of_x, std::uint64_t turns) {
+TANDEM_HD_INLINE Real sine_of_turned(const Real& x, const UInt64<Real>& sign_of_x, std::uint64_t turns) {
     using D = Double<Real>;
     using I = UInt64<Real>;
     D r, r_low;
@@ -169,7 +169,7 @@ TANDEM_HD Real sine_of_turned(const Real& x, const UInt64<Real>& sign_of_x, std:
 
 /// log(x) for a positive float, widened, to 2^-102 relative: 2 atanh(s) by its series.
 template <class Real>
-TANDEM_HD Pair<Double<Real>> log_pair(const Double<Real>& x) {
+TANDEM_HD_INLINE Pair<Double<Real>> log_pair(const Double<Real>& x) {
     using D = Double<Real>;
     D f, exponent;
     reduce_log<Real>(x, f, exponent);
@@ -186,7 +186,7 @@ TANDEM_HD Pair<Double<Real>> log_pair(const Double<Real>& x) {
 
 /// exp(x) for |x| <= 700 to 2^-102 + 2^-103 |x| relative, divided by `scale`, a power of two.
 template <class Real>
-TANDEM_HD Pair<Double<Real>> exp_pair(const Pair<Double<Real>>& x, Double<Real>& scale) {
+TANDEM_HD_INLINE Pair<Double<Real>> exp_pair(const Pair<Double<Real>>& x, Double<Real>& scale) {
     using D = Double<Real>;
     D first, first_low;
     reduce_exp<Real>(x.high, first, first_low, scale);
@@ -204,7 +204,7 @@ TANDEM_HD Pair<Double<Real>> exp_pair(const Pair<Double<Real>>& x, Double<Real>&
 
 /// log(x) for x in (0, inf), normal. Relative error below 2^-52, also next to 1.
 template <class Real>
-TANDEM_HD Double<Real> log_wide(const Double<Real>& x) {
+TANDEM_HD_INLINE Double<Real> log_wide(const Double<Real>& x) {
     using D = Double<Real>;
     D f, exponent;
     exact_detail::reduce_log<Real>(x, f, exponent);
@@ -215,7 +215,7 @@ TANDEM_HD Double<Real> log_wide(const Double<Real>& x) {
 
 /// exp(x), x clamped to [-700, 700], where float has long under- or overflowed. Relative error below 2^-52.
 template <class Real>
-TANDEM_HD Double<Real> exp_wide(const Double<Real>& x) {
+TANDEM_HD_INLINE Double<Real> exp_wide(const Double<Real>& x) {
     using D = Double<Real>;
     D r, r_low, scale;
     exact_detail::reduce_exp<Real>(greater(lesser(x, D(700.0)), D(-700.0)), r, r_low, scale);
@@ -227,12 +227,12 @@ TANDEM_HD Double<Real> exp_wide(const Double<Real>& x) {
 
 /// e^x in the Real's type of decisions, x clamped as in exp_wide().
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD Double<Real> exponential(const Double<Real>& x) { return exp_wide<Real>(x); }
+requires(!is_fast<Real>) TANDEM_HD_INLINE Double<Real> exponential(const Double<Real>& x) { return exp_wide<Real>(x); }
 
 /// x^y for x in [0, inf), normal or zero, and y >= 0. Relative error below 2^-52 (1 + |y log x|): y multiplies the
 /// error of the logarithm. 0^0 = 1.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD Double<Real> power(const Double<Real>& x, const Double<Real>& y) {
+requires(!is_fast<Real>) TANDEM_HD_INLINE Double<Real> power(const Double<Real>& x, const Double<Real>& y) {
     using D = Double<Real>;
     const D result = exp_wide<Real>(y * log_wide<Real>(x));
     return select(x > D(0.0), result, select(y == D(0.0), D(1.0), x));  // the last x: zero or NaN
@@ -240,7 +240,7 @@ requires(!is_fast<Real>) TANDEM_HD Double<Real> power(const Double<Real>& x, con
 
 /// e^x for every float.
 template <class Real>
-TANDEM_HD Real exact_exp(const Real& x) {
+TANDEM_HD_INLINE Real exact_exp(const Real& x) {
     using D = Double<Real>;
     // beyond these the result is 0 or infinity
     const D clamped = widen(greater(lesser(x, Real(100.0F)), Real(-110.0F)));
@@ -259,7 +259,7 @@ TANDEM_HD Real exact_exp(const Real& x) {
 
 /// log(x) for every float: -inf at zero, NaN below.
 template <class Real>
-TANDEM_HD Real exact_log(const Real& x) {
+TANDEM_HD_INLINE Real exact_log(const Real& x) {
     using D = Double<Real>;
     const D infinity(exact_detail::infinity);
     D f, exponent;
@@ -277,14 +277,14 @@ TANDEM_HD Real exact_log(const Real& x) {
 
 /// sin(x) for every float; NaN for infinities.
 template <class Real>
-TANDEM_HD Real exact_sin(const Real& x) {
+TANDEM_HD_INLINE Real exact_sin(const Real& x) {
     using I = UInt64<Real>;
     return exact_detail::sine_of_turned(x, bits_of(widen(x)) & (I(1) << 63), 0);
 }
 
 /// cos(x) for every float; NaN for infinities.
 template <class Real>
-TANDEM_HD Real exact_cos(const Real& x) {
+TANDEM_HD_INLINE Real exact_cos(const Real& x) {
     return exact_detail::sine_of_turned(x, UInt64<Real>(0), 1);
 }
 
@@ -296,7 +296,7 @@ TANDEM_HD Real exact_cos(const Real& x) {
 /// known whose result comes so near; among the 2^62 pairs with a finite result one would be expected with a probability
 /// of a few per cent, and it would be rounded wrongly with a probability of one half.
 template <class Real>
-TANDEM_HD Real exact_pow(const Real& x, const Real& y) {
+TANDEM_HD_INLINE Real exact_pow(const Real& x, const Real& y) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const D infinity(exact_detail::infinity);

@@ -23,7 +23,7 @@ namespace exact_sum_detail {
 
 /// `words`: two's complement, least significant first.
 template <int word_count>
-TANDEM_HD bool is_negative(const std::uint32_t (&words)[word_count]) {
+TANDEM_HD_INLINE bool is_negative(const std::uint32_t (&words)[word_count]) {
     return (words[word_count - 1] >> 31) != 0;
 }
 
@@ -64,7 +64,7 @@ template <class T>
 class ExactSum {
   public:
     /// Adds or subtracts a * b * c.
-    TANDEM_HD void add(const T& a, const T& b, const T& c, bool take_away = false) {
+    TANDEM_HD_INLINE void add(const T& a, const T& b, const T& c, bool take_away = false) {
         const Decoded factors[3] = {decode(a), decode(b), decode(c)};
         std::uint32_t product[3 * limbs] = {1};
         int used = 1;
@@ -80,7 +80,7 @@ class ExactSum {
     }
 
     /// -1, 0 or 1.
-    [[nodiscard]] TANDEM_HD int sign() const {
+    [[nodiscard]] TANDEM_HD_INLINE int sign() const {
         if (is_negative()) return -1;
         TANDEM_KEEP_LOOP
         for (const std::uint32_t word : words_) {
@@ -90,7 +90,7 @@ class ExactSum {
     }
 
     /// The sum, within 2^-100 of itself.
-    [[nodiscard]] TANDEM_HD ScaledPair leading() const { return exact_sum_detail::leading(words_, 3 * least); }
+    [[nodiscard]] TANDEM_HD_INLINE ScaledPair leading() const { return exact_sum_detail::leading(words_, 3 * least); }
 
   private:
     static constexpr int digits = std::numeric_limits<T>::digits;
@@ -105,7 +105,7 @@ class ExactSum {
         bool negative;
     };
 
-    TANDEM_HD static Decoded decode(const T& value) {
+    TANDEM_HD_INLINE static Decoded decode(const T& value) {
         const auto bits = bits_of(value);
         const auto fraction = bits & ((decltype(bits){1} << (digits - 1)) - 1);
         const auto biased = static_cast<int>((bits >> (digits - 1)) & ((1U << (8 * sizeof(T) - digits)) - 1U));
@@ -115,7 +115,7 @@ class ExactSum {
     }
 
     /// product *= factor; returns the number of words in use.
-    TANDEM_HD static int multiply(std::uint32_t (&product)[3 * limbs], int used, const Decoded& factor) {
+    TANDEM_HD_INLINE static int multiply(std::uint32_t (&product)[3 * limbs], int used, const Decoded& factor) {
         std::uint32_t result[3 * limbs] = {};
         for (int j = 0; j < limbs; ++j) {
             const std::uint64_t limb = (factor.mantissa >> (32 * j)) & 0xFFFFFFFFU;
@@ -131,7 +131,7 @@ class ExactSum {
         return used + limbs < 3 * limbs ? used + limbs : 3 * limbs;
     }
 
-    TANDEM_HD void add_shifted(const std::uint32_t (&product)[3 * limbs], int used, int shift, bool negative) {
+    TANDEM_HD_INLINE void add_shifted(const std::uint32_t (&product)[3 * limbs], int used, int shift, bool negative) {
         const int bits = shift % 32;
         std::uint64_t carry = negative ? 1 : 0;  // -x is ~x + 1
         std::uint32_t below = 0;
@@ -148,7 +148,7 @@ class ExactSum {
         }
     }
 
-    [[nodiscard]] TANDEM_HD bool is_negative() const { return exact_sum_detail::is_negative(words_); }
+    [[nodiscard]] TANDEM_HD_INLINE bool is_negative() const { return exact_sum_detail::is_negative(words_); }
 
     std::uint32_t words_[word_count] = {};  ///< two's complement, least significant first
 };
@@ -168,7 +168,7 @@ TANDEM_HD_CALL void add_determinant(ExactSum<T>& sum, Vec3<T> a, Vec3<T> b, Vec3
 }
 
 /// a / b, rounded to nearest as quotient() does; b is not 0.
-TANDEM_HD double quotient(const ScaledPair& a, const ScaledPair& b) {
+TANDEM_HD_INLINE double quotient(const ScaledPair& a, const ScaledPair& b) {
     const auto power_of_two = [](int exponent) {
         const int within = exponent < -1022 ? -1022 : exponent > 1023 ? 1023 : exponent;
         return double_of(static_cast<std::uint64_t>(within + 1023) << 52);

@@ -17,7 +17,7 @@ struct Frame {
 /// angles by no more than the normal's own error and 4 ulp. Source: T. Duff et al., "Building an Orthonormal Basis,
 /// Revisited", JCGT 6(1), 2017, whose form has no singularity at -z. Tested by tests/math/frame_test.cpp.
 template <class D>
-TANDEM_HD Frame<D> frame_around(const Vec3<D>& normal) {
+TANDEM_HD_INLINE Frame<D> frame_around(const Vec3<D>& normal) {
     const D one(1.0);
     const D sign = select(normal.z < D(0.0), -one, one);
     const D a = -one / (sign + normal.z);
@@ -29,13 +29,13 @@ TANDEM_HD Frame<D> frame_around(const Vec3<D>& normal) {
 
 /// The vector with coordinates (x, y, z) along tangent, bitangent and normal.
 template <class D>
-TANDEM_HD Vec3<D> from_frame(const Frame<D>& frame, const D& x, const D& y, const D& z) {
+TANDEM_HD_INLINE Vec3<D> from_frame(const Frame<D>& frame, const D& x, const D& y, const D& z) {
     return frame.tangent * x + frame.bitangent * y + frame.normal * z;
 }
 
 /// The coordinates of a vector along tangent, bitangent and normal.
 template <class D>
-TANDEM_HD Vec3<D> to_frame(const Frame<D>& frame, const Vec3<D>& v) {
+TANDEM_HD_INLINE Vec3<D> to_frame(const Frame<D>& frame, const Vec3<D>& v) {
     return {dot(frame.tangent, v), dot(frame.bitangent, v), dot(frame.normal, v)};
 }
 

@@ -11,7 +11,7 @@ namespace tandem {
 /// which squares the relative error: 1.8e-3, 4.7e-6, 3.3e-11, below 2^-53. Tested by
 /// tests/math/inverse_square_root_test.cpp.
 template <class D>
-TANDEM_HD D inverse_square_root(const D& x) {
+TANDEM_HD_INLINE D inverse_square_root(const D& x) {
     using I = UInt64<D>;
     const D half = D(0.5) * x;
     D y = double_of(I(0x5FE6EB50C7B537A9) - (bits_of(x) >> 1));

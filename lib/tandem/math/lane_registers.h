@@ -44,7 +44,7 @@ struct Native {
 
 /// First (part 0) or second (part 1) half of a vector of 32-bit elements.
 template <int part, class V>
-TANDEM_HD auto half(V v) {
+TANDEM_HD_INLINE auto half(V v) {
     constexpr int n = sizeof(V) / 8;
     constexpr int s = part * n;
     if constexpr (n == 2) {
@@ -57,7 +57,7 @@ TANDEM_HD auto half(V v) {
 }
 
 template <class H>
-TANDEM_HD auto join(H a, H b) {
+TANDEM_HD_INLINE auto join(H a, H b) {
     constexpr int n = sizeof(H) / 4;
     if constexpr (n == 2) {
         return __builtin_shufflevector(a, b, 0, 1, 2, 3);
@@ -70,7 +70,7 @@ TANDEM_HD auto join(H a, H b) {
 
 /// The even 32-bit elements of a, then those of b: narrows two 64-bit masks to one 32-bit mask.
 template <class V>
-TANDEM_HD V even_elements(V a, V b) {
+TANDEM_HD_INLINE V even_elements(V a, V b) {
     constexpr int n = sizeof(V) / 4;
     if constexpr (n == 4) {
         return __builtin_shufflevector(a, b, 0, 2, 4, 6);
@@ -83,7 +83,7 @@ TANDEM_HD V even_elements(V a, V b) {
 
 // The operations that the compilers' vector extension lacks, per register width.
 template <class V, class Scalar>
-TANDEM_HD V per_element(V a, Scalar scalar) {
+TANDEM_HD_INLINE V per_element(V a, Scalar scalar) {
     for (unsigned i = 0; i < sizeof(V) / sizeof(a[0]); ++i) a[i] = scalar(a[i]);
     return a;
 }
@@ -91,9 +91,9 @@ TANDEM_HD V per_element(V a, Scalar scalar) {
 using F16 = Native<float, 16>::type;
 using D16 = Native<double, 16>::type;
 using U16 = Native<std::uint32_t, 16>::type;
-TANDEM_HD F16 square_root(F16 a) { return reinterpret_cast<F16>(_mm_sqrt_ps(reinterpret_cast<__m128>(a))); }
-TANDEM_HD D16 square_root(D16 a) { return reinterpret_cast<D16>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a))); }
-TANDEM_HD D16 multiply_add(D16 a, D16 b, D16 c) {
+TANDEM_HD_INLINE F16 square_root(F16 a) { return reinterpret_cast<F16>(_mm_sqrt_ps(reinterpret_cast<__m128>(a))); }
+TANDEM_HD_INLINE D16 square_root(D16 a) { return reinterpret_cast<D16>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a))); }
+TANDEM_HD_INLINE D16 multiply_add(D16 a, D16 b, D16 c) {
 #if defined(__FMA__)
     return reinterpret_cast<D16>(
         _mm_fmadd_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b), reinterpret_cast<__m128d>(c)));
@@ -101,7 +101,7 @@ TANDEM_HD D16 multiply_add(D16 a, D16 b, D16 c) {
     return D16{::fma(a[0], b[0], c[0]), ::fma(a[1], b[1], c[1])};
 #endif
 }
-TANDEM_HD F16 loose_multiply_add(F16 a, F16 b, F16 c) {
+TANDEM_HD_INLINE F16 loose_multiply_add(F16 a, F16 b, F16 c) {
 #if defined(__FMA__)
     return reinterpret_cast<F16>(
         _mm_fmadd_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b), reinterpret_cast<__m128>(c)));
@@ -109,7 +109,7 @@ TANDEM_HD F16 loose_multiply_add(F16 a, F16 b, F16 c) {
     return a * b + c;
 #endif
 }
-TANDEM_HD D16 round_to_int(D16 a) {
+TANDEM_HD_INLINE D16 round_to_int(D16 a) {
 #if defined(__SSE4_1__)
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
     return reinterpret_cast<D16>(_mm_round_pd(reinterpret_cast<__m128d>(a), nearest));
@@ -118,31 +118,31 @@ TANDEM_HD D16 round_to_int(D16 a) {
 #endif
 }
 /// Exactly a < b ? a : b and a > b ? a : b: the instructions are defined so, for NaN and zeros too.
-TANDEM_HD F16 minimum(F16 a, F16 b) {
+TANDEM_HD_INLINE F16 minimum(F16 a, F16 b) {
     return reinterpret_cast<F16>(_mm_min_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
 }
-TANDEM_HD D16 minimum(D16 a, D16 b) {
+TANDEM_HD_INLINE D16 minimum(D16 a, D16 b) {
     return reinterpret_cast<D16>(_mm_min_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
 }
-TANDEM_HD F16 maximum(F16 a, F16 b) {
+TANDEM_HD_INLINE F16 maximum(F16 a, F16 b) {
     return reinterpret_cast<F16>(_mm_max_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
 }
-TANDEM_HD D16 maximum(D16 a, D16 b) {
+TANDEM_HD_INLINE D16 maximum(D16 a, D16 b) {
     return reinterpret_cast<D16>(_mm_max_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
 }
 #if defined(__SSE4_1__)
 /// a where the sign bit of the mask is set, else b.
-TANDEM_HD F16 blend(F16 mask, F16 a, F16 b) {
+TANDEM_HD_INLINE F16 blend(F16 mask, F16 a, F16 b) {
     return reinterpret_cast<F16>(
         _mm_blendv_ps(reinterpret_cast<__m128>(b), reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(mask)));
 }
-TANDEM_HD D16 blend(D16 mask, D16 a, D16 b) {
+TANDEM_HD_INLINE D16 blend(D16 mask, D16 a, D16 b) {
     return reinterpret_cast<D16>(
         _mm_blendv_pd(reinterpret_cast<__m128d>(b), reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(mask)));
 }
 #endif
 /// 64-bit products of the even 32-bit elements.
-TANDEM_HD U16 multiply_even(U16 a, U16 b) {
+TANDEM_HD_INLINE U16 multiply_even(U16 a, U16 b) {
     return reinterpret_cast<U16>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
 }
 
@@ -150,41 +150,41 @@ TANDEM_HD U16 multiply_even(U16 a, U16 b) {
 using F32 = Native<float, 32>::type;
 using D32 = Native<double, 32>::type;
 using U32 = Native<std::uint32_t, 32>::type;
-TANDEM_HD F32 square_root(F32 a) { return reinterpret_cast<F32>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a))); }
-TANDEM_HD D32 square_root(D32 a) { return reinterpret_cast<D32>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a))); }
-TANDEM_HD D32 multiply_add(D32 a, D32 b, D32 c) {
+TANDEM_HD_INLINE F32 square_root(F32 a) { return reinterpret_cast<F32>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a))); }
+TANDEM_HD_INLINE D32 square_root(D32 a) { return reinterpret_cast<D32>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a))); }
+TANDEM_HD_INLINE D32 multiply_add(D32 a, D32 b, D32 c) {
     return reinterpret_cast<D32>(
         _mm256_fmadd_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b), reinterpret_cast<__m256d>(c)));
 }
-TANDEM_HD F32 loose_multiply_add(F32 a, F32 b, F32 c) {
+TANDEM_HD_INLINE F32 loose_multiply_add(F32 a, F32 b, F32 c) {
     return reinterpret_cast<F32>(
         _mm256_fmadd_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(c)));
 }
-TANDEM_HD D32 round_to_int(D32 a) {
+TANDEM_HD_INLINE D32 round_to_int(D32 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
     return reinterpret_cast<D32>(_mm256_round_pd(reinterpret_cast<__m256d>(a), nearest));
 }
-TANDEM_HD F32 minimum(F32 a, F32 b) {
+TANDEM_HD_INLINE F32 minimum(F32 a, F32 b) {
     return reinterpret_cast<F32>(_mm256_min_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
 }
-TANDEM_HD D32 minimum(D32 a, D32 b) {
+TANDEM_HD_INLINE D32 minimum(D32 a, D32 b) {
     return reinterpret_cast<D32>(_mm256_min_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b)));
 }
-TANDEM_HD F32 maximum(F32 a, F32 b) {
+TANDEM_HD_INLINE F32 maximum(F32 a, F32 b) {
     return reinterpret_cast<F32>(_mm256_max_ps(reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(b)));
 }
-TANDEM_HD D32 maximum(D32 a, D32 b) {
+TANDEM_HD_INLINE D32 maximum(D32 a, D32 b) {
     return reinterpret_cast<D32>(_mm256_max_pd(reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(b)));
 }
-TANDEM_HD F32 blend(F32 mask, F32 a, F32 b) {
+TANDEM_HD_INLINE F32 blend(F32 mask, F32 a, F32 b) {
     return reinterpret_cast<F32>(
         _mm256_blendv_ps(reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(a), reinterpret_cast<__m256>(mask)));
 }
-TANDEM_HD D32 blend(D32 mask, D32 a, D32 b) {
+TANDEM_HD_INLINE D32 blend(D32 mask, D32 a, D32 b) {
     return reinterpret_cast<D32>(
         _mm256_blendv_pd(reinterpret_cast<__m256d>(b), reinterpret_cast<__m256d>(a), reinterpret_cast<__m256d>(mask)));
 }
-TANDEM_HD U32 multiply_even(U32 a, U32 b) {
+TANDEM_HD_INLINE U32 multiply_even(U32 a, U32 b) {
     return reinterpret_cast<U32>(_mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
 }
 #endif
@@ -194,37 +194,37 @@ TANDEM_HD U32 multiply_even(U32 a, U32 b) {
 using F64 = Native<float, 64>::type;
 using D64 = Native<double, 64>::type;
 using U64 = Native<std::uint32_t, 64>::type;
-TANDEM_HD F64 square_root(F64 a) {
+TANDEM_HD_INLINE F64 square_root(F64 a) {
     return reinterpret_cast<F64>(_mm512_maskz_sqrt_ps(0xFFFF, reinterpret_cast<__m512>(a)));
 }
-TANDEM_HD D64 square_root(D64 a) {
+TANDEM_HD_INLINE D64 square_root(D64 a) {
     return reinterpret_cast<D64>(_mm512_maskz_sqrt_pd(0xFF, reinterpret_cast<__m512d>(a)));
 }
-TANDEM_HD D64 multiply_add(D64 a, D64 b, D64 c) {
+TANDEM_HD_INLINE D64 multiply_add(D64 a, D64 b, D64 c) {
     return reinterpret_cast<D64>(
         _mm512_fmadd_pd(reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b), reinterpret_cast<__m512d>(c)));
 }
-TANDEM_HD F64 loose_multiply_add(F64 a, F64 b, F64 c) {
+TANDEM_HD_INLINE F64 loose_multiply_add(F64 a, F64 b, F64 c) {
     return reinterpret_cast<F64>(
         _mm512_fmadd_ps(reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b), reinterpret_cast<__m512>(c)));
 }
-TANDEM_HD D64 round_to_int(D64 a) {
+TANDEM_HD_INLINE D64 round_to_int(D64 a) {
     constexpr int nearest = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
     return reinterpret_cast<D64>(_mm512_maskz_roundscale_pd(0xFF, reinterpret_cast<__m512d>(a), nearest));
 }
-TANDEM_HD F64 minimum(F64 a, F64 b) {
+TANDEM_HD_INLINE F64 minimum(F64 a, F64 b) {
     return reinterpret_cast<F64>(_mm512_maskz_min_ps(0xFFFF, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
 }
-TANDEM_HD D64 minimum(D64 a, D64 b) {
+TANDEM_HD_INLINE D64 minimum(D64 a, D64 b) {
     return reinterpret_cast<D64>(_mm512_maskz_min_pd(0xFF, reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b)));
 }
-TANDEM_HD F64 maximum(F64 a, F64 b) {
+TANDEM_HD_INLINE F64 maximum(F64 a, F64 b) {
     return reinterpret_cast<F64>(_mm512_maskz_max_ps(0xFFFF, reinterpret_cast<__m512>(a), reinterpret_cast<__m512>(b)));
 }
-TANDEM_HD D64 maximum(D64 a, D64 b) {
+TANDEM_HD_INLINE D64 maximum(D64 a, D64 b) {
     return reinterpret_cast<D64>(_mm512_maskz_max_pd(0xFF, reinterpret_cast<__m512d>(a), reinterpret_cast<__m512d>(b)));
 }
-TANDEM_HD U64 multiply_even(U64 a, U64 b) {
+TANDEM_HD_INLINE U64 multiply_even(U64 a, U64 b) {
     return reinterpret_cast<U64>(
         _mm512_maskz_mul_epu32(0xFF, reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
 }
@@ -232,7 +232,7 @@ TANDEM_HD U64 multiply_even(U64 a, U64 b) {
 
 /// Gathers the elements at the given byte offsets from `base`. V has elements of 32 or 64 bits.
 template <class V, class Offsets>
-TANDEM_HD V gather(const void* base, Offsets offsets) {
+TANDEM_HD_INLINE V gather(const void* base, Offsets offsets) {
     constexpr bool words = sizeof(V) == sizeof(Offsets);
     static_assert(words || sizeof(V) == 2 * sizeof(Offsets));
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

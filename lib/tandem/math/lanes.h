@@ -21,19 +21,19 @@ struct Lanes {
     Vector part[parts];
 
     Lanes() = default;
-    TANDEM_HD Lanes(T value) {  // the same value in every lane
+    TANDEM_HD_INLINE Lanes(T value) {  // the same value in every lane
         for (int k = 0; k < parts; ++k) part[k] = Vector{} + value;
     }
     /// Lane i holds make(i).
     template <class Make>
-    TANDEM_HD static Lanes from(Make make) {
+    TANDEM_HD_INLINE static Lanes from(Make make) {
         Lanes result;
         for (int i = 0; i < size; ++i) result.set(i, make(i));
         return result;
     }
 
     /// Lane i holds the T at offsets[i] bytes from `base`.
-    TANDEM_HD static Lanes gather(const void* base, const Lanes<std::uint32_t, I>& offsets) {
+    TANDEM_HD_INLINE static Lanes gather(const void* base, const Lanes<std::uint32_t, I>& offsets) {
         Lanes result;
         if constexpr (parts == 1) {
             result.part[0] = lanes_detail::gather<Vector>(base, offsets.part[0]);
@@ -44,17 +44,17 @@ struct Lanes {
         return result;
     }
 
-    TANDEM_HD T operator[](int lane) const { return part[lane / (size / parts)][lane % (size / parts)]; }
-    TANDEM_HD void set(int lane, T value) { part[lane / (size / parts)][lane % (size / parts)] = value; }
+    TANDEM_HD_INLINE T operator[](int lane) const { return part[lane / (size / parts)][lane % (size / parts)]; }
+    TANDEM_HD_INLINE void set(int lane, T value) { part[lane / (size / parts)][lane % (size / parts)] = value; }
 
     template <class Op>
-    TANDEM_HD static Lanes zip(const Lanes& a, const Lanes& b, Op op) {
+    TANDEM_HD_INLINE static Lanes zip(const Lanes& a, const Lanes& b, Op op) {
         Lanes result;
         for (int k = 0; k < parts; ++k) result.part[k] = op(a.part[k], b.part[k]);
         return result;
     }
     template <lanes_detail::Comparison comparison>
-    TANDEM_HD static LaneMask<I> compare(const Lanes& a, const Lanes& b) {
+    TANDEM_HD_INLINE static LaneMask<I> compare(const Lanes& a, const Lanes& b) {
 #if TANDEM_MASK_REGISTERS
         if constexpr (I::bytes == 64) {
             using lanes_detail::compare_bits;
@@ -78,9 +78,9 @@ struct Lanes {
         }
     }
 
-#define TANDEM_LANES_OPERATOR(op)                                            \
-    TANDEM_HD friend Lanes operator op(const Lanes& a, const Lanes& b) {     \
-        return zip(a, b, [](Vector x, Vector y) { return Vector(x op y); }); \
+#define TANDEM_LANES_OPERATOR(op)                                               \
+    TANDEM_HD_INLINE friend Lanes operator op(const Lanes& a, const Lanes& b) { \
+        return zip(a, b, [](Vector x, Vector y) { return Vector(x op y); });    \
     }
     TANDEM_LANES_OPERATOR(+)
     TANDEM_LANES_OPERATOR(-)
@@ -90,9 +90,9 @@ struct Lanes {
     TANDEM_LANES_OPERATOR(|)
     TANDEM_LANES_OPERATOR(^)
 #undef TANDEM_LANES_OPERATOR
-#define TANDEM_LANES_COMPARISON(op, name)                                      \
-    TANDEM_HD friend LaneMask<I> operator op(const Lanes& a, const Lanes& b) { \
-        return compare<lanes_detail::Comparison::name>(a, b);                  \
+#define TANDEM_LANES_COMPARISON(op, name)                                             \
+    TANDEM_HD_INLINE friend LaneMask<I> operator op(const Lanes& a, const Lanes& b) { \
+        return compare<lanes_detail::Comparison::name>(a, b);                         \
     }
     TANDEM_LANES_COMPARISON(<, less)
     TANDEM_LANES_COMPARISON(<=, less_equal)
@@ -101,22 +101,22 @@ struct Lanes {
     TANDEM_LANES_COMPARISON(==, equal)
     TANDEM_LANES_COMPARISON(!=, not_equal)
 #undef TANDEM_LANES_COMPARISON
-    TANDEM_HD Lanes operator-() const {
+    TANDEM_HD_INLINE Lanes operator-() const {
         Lanes result;
         for (int k = 0; k < parts; ++k) result.part[k] = -part[k];
         return result;
     }
-    TANDEM_HD Lanes operator>>(int count) const {
+    TANDEM_HD_INLINE Lanes operator>>(int count) const {
         Lanes result;
         for (int k = 0; k < parts; ++k) result.part[k] = part[k] >> count;
         return result;
     }
-    TANDEM_HD Lanes operator<<(int count) const {
+    TANDEM_HD_INLINE Lanes operator<<(int count) const {
         Lanes result;
         for (int k = 0; k < parts; ++k) result.part[k] = part[k] << count;
         return result;
     }
-    TANDEM_HD Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+    TANDEM_HD_INLINE Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
 };
 
 template <class T, class I>
@@ -133,7 +133,7 @@ struct RealTraits<Lanes<T, I>> {
 };
 
 template <class T, class I>
-TANDEM_HD Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, const Lanes<T, I>& b) {
+TANDEM_HD_INLINE Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, const Lanes<T, I>& b) {
     Lanes<T, I> result;
 #if TANDEM_MASK_REGISTERS
     if constexpr (I::bytes == 64) {
@@ -160,16 +160,16 @@ TANDEM_HD Lanes<T, I> select(const LaneMask<I>& mask, const Lanes<T, I>& a, cons
 
 // The formulas of real.h, in one instruction.
 template <class T, class I>
-requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> lesser(const Lanes<T, I>& a, const Lanes<T, I>& b) {
+requires std::is_floating_point_v<T> TANDEM_HD_INLINE Lanes<T, I> lesser(const Lanes<T, I>& a, const Lanes<T, I>& b) {
     return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::minimum(x, y); });
 }
 template <class T, class I>
-requires std::is_floating_point_v<T> TANDEM_HD Lanes<T, I> greater(const Lanes<T, I>& a, const Lanes<T, I>& b) {
+requires std::is_floating_point_v<T> TANDEM_HD_INLINE Lanes<T, I> greater(const Lanes<T, I>& a, const Lanes<T, I>& b) {
     return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::maximum(x, y); });
 }
 
 template <class I>
-TANDEM_HD Lanes<double, I> to_wide(const Lanes<float, I>& a) {
+TANDEM_HD_INLINE Lanes<double, I> to_wide(const Lanes<float, I>& a) {
     using Vector = typename Lanes<double, I>::Vector;
     Lanes<double, I> result;
     result.part[0] = __builtin_convertvector(lanes_detail::half<0>(a.part[0]), Vector);
@@ -177,13 +177,13 @@ TANDEM_HD Lanes<double, I> to_wide(const Lanes<float, I>& a) {
     return result;
 }
 template <class I>
-TANDEM_HD Lanes<double, I> to_wide(const Lanes<double, I>& a) {
+TANDEM_HD_INLINE Lanes<double, I> to_wide(const Lanes<double, I>& a) {
     return a;
 }
 
 /// Values as the type of decisions.
 template <class T, class I>
-TANDEM_HD Double<Lanes<T, I>> widen(const Lanes<T, I>& a) {
+TANDEM_HD_INLINE Double<Lanes<T, I>> widen(const Lanes<T, I>& a) {
     if constexpr (is_fast_isa<I>) {
         return a;
     } else {
@@ -192,7 +192,7 @@ TANDEM_HD Double<Lanes<T, I>> widen(const Lanes<T, I>& a) {
 }
 
 template <class I>
-TANDEM_HD Lanes<float, I> narrow(const Lanes<double, I>& a) {
+TANDEM_HD_INLINE Lanes<float, I> narrow(const Lanes<double, I>& a) {
     using Half = typename lanes_detail::Native<float, I::bytes / 2>::type;
     Lanes<float, I> result;
     result.part[0] =
@@ -202,42 +202,42 @@ TANDEM_HD Lanes<float, I> narrow(const Lanes<double, I>& a) {
 }
 
 template <class I>
-TANDEM_HD Lanes<float, I> narrow(const Lanes<float, I>& a) {
+TANDEM_HD_INLINE Lanes<float, I> narrow(const Lanes<float, I>& a) {
     return a;
 }
 
 template <class T, class I>
-TANDEM_HD Lanes<T, I> square_root(const Lanes<T, I>& a) {
+TANDEM_HD_INLINE Lanes<T, I> square_root(const Lanes<T, I>& a) {
     Lanes<T, I> result;
     for (int k = 0; k < Lanes<T, I>::parts; ++k) result.part[k] = lanes_detail::square_root(a.part[k]);
     return result;
 }
 
 template <class I>
-TANDEM_HD Lanes<double, I> multiply_add(const Lanes<double, I>& a, const Lanes<double, I>& b,
-                                        const Lanes<double, I>& c) {
+TANDEM_HD_INLINE Lanes<double, I> multiply_add(const Lanes<double, I>& a, const Lanes<double, I>& b,
+                                               const Lanes<double, I>& c) {
     Lanes<double, I> result;
     for (int k = 0; k < 2; ++k) result.part[k] = lanes_detail::multiply_add(a.part[k], b.part[k], c.part[k]);
     return result;
 }
 
 template <class I>
-TANDEM_HD Lanes<float, I> loose_multiply_add(const Lanes<float, I>& a, const Lanes<float, I>& b,
-                                             const Lanes<float, I>& c) {
+TANDEM_HD_INLINE Lanes<float, I> loose_multiply_add(const Lanes<float, I>& a, const Lanes<float, I>& b,
+                                                    const Lanes<float, I>& c) {
     Lanes<float, I> result;
     result.part[0] = lanes_detail::loose_multiply_add(a.part[0], b.part[0], c.part[0]);
     return result;
 }
 
 template <class I>
-TANDEM_HD Lanes<double, I> round_to_int(const Lanes<double, I>& a) {
+TANDEM_HD_INLINE Lanes<double, I> round_to_int(const Lanes<double, I>& a) {
     Lanes<double, I> result;
     for (int k = 0; k < 2; ++k) result.part[k] = lanes_detail::round_to_int(a.part[k]);
     return result;
 }
 
 template <class To, class From, class I>
-TANDEM_HD Lanes<To, I> reinterpret_lanes(const Lanes<From, I>& a) {
+TANDEM_HD_INLINE Lanes<To, I> reinterpret_lanes(const Lanes<From, I>& a) {
     static_assert(sizeof(To) == sizeof(From));
     Lanes<To, I> result;
     for (int k = 0; k < Lanes<To, I>::parts; ++k) {
@@ -247,33 +247,33 @@ TANDEM_HD Lanes<To, I> reinterpret_lanes(const Lanes<From, I>& a) {
 }
 
 template <class I>
-TANDEM_HD Lanes<std::uint64_t, I> bits_of(const Lanes<double, I>& a) {
+TANDEM_HD_INLINE Lanes<std::uint64_t, I> bits_of(const Lanes<double, I>& a) {
     return reinterpret_lanes<std::uint64_t>(a);
 }
 template <class I>
-TANDEM_HD Lanes<double, I> double_of(const Lanes<std::uint64_t, I>& a) {
+TANDEM_HD_INLINE Lanes<double, I> double_of(const Lanes<std::uint64_t, I>& a) {
     return reinterpret_lanes<double>(a);
 }
 template <class I>
-TANDEM_HD Lanes<std::uint32_t, I> bits_of(const Lanes<float, I>& a) {
+TANDEM_HD_INLINE Lanes<std::uint32_t, I> bits_of(const Lanes<float, I>& a) {
     return reinterpret_lanes<std::uint32_t>(a);
 }
 template <class I>
-TANDEM_HD Lanes<float, I> float_of(const Lanes<std::uint32_t, I>& a) {
+TANDEM_HD_INLINE Lanes<float, I> float_of(const Lanes<std::uint32_t, I>& a) {
     return reinterpret_lanes<float>(a);
 }
 
 template <class I>
-TANDEM_HD Lanes<float, I> absolute(const Lanes<float, I>& a) {
+TANDEM_HD_INLINE Lanes<float, I> absolute(const Lanes<float, I>& a) {
     return float_of(bits_of(a) & Lanes<std::uint32_t, I>(0x7FFFFFFFU));
 }
 template <class I>
-TANDEM_HD Lanes<double, I> absolute(const Lanes<double, I>& a) {
+TANDEM_HD_INLINE Lanes<double, I> absolute(const Lanes<double, I>& a) {
     return double_of(bits_of(a) & Lanes<std::uint64_t, I>(0x7FFFFFFFFFFFFFFF));
 }
 
 template <class I>
-TANDEM_HD Lanes<float, I> to_float(const Lanes<std::uint32_t, I>& a) {
+TANDEM_HD_INLINE Lanes<float, I> to_float(const Lanes<std::uint32_t, I>& a) {
     Lanes<float, I> result;
     result.part[0] =
         __builtin_convertvector(reinterpret_lanes<std::int32_t>(a).part[0], typename Lanes<float, I>::Vector);
@@ -281,8 +281,8 @@ TANDEM_HD Lanes<float, I> to_float(const Lanes<std::uint32_t, I>& a) {
 }
 
 template <class I>
-TANDEM_HD void multiply_wide(const Lanes<std::uint32_t, I>& a, const Lanes<std::uint32_t, I>& b,
-                             Lanes<std::uint32_t, I>& high, Lanes<std::uint32_t, I>& low) {
+TANDEM_HD_INLINE void multiply_wide(const Lanes<std::uint32_t, I>& a, const Lanes<std::uint32_t, I>& b,
+                                    Lanes<std::uint32_t, I>& high, Lanes<std::uint32_t, I>& low) {
     using Wide = typename lanes_detail::Native<std::uint64_t, I::bytes>::type;
     using Narrow = typename Lanes<std::uint32_t, I>::Vector;
     const auto odd = [](const Lanes<std::uint32_t, I>& x) {
@@ -296,21 +296,21 @@ TANDEM_HD void multiply_wide(const Lanes<std::uint32_t, I>& a, const Lanes<std::
 }
 
 template <class T, class I>
-TANDEM_HD T lane(const Lanes<T, I>& value, int i) {
+TANDEM_HD_INLINE T lane(const Lanes<T, I>& value, int i) {
     return value[i];
 }
 template <class I>
-TANDEM_HD bool lane(const LaneMask<I>& mask, int i) {
+TANDEM_HD_INLINE bool lane(const LaneMask<I>& mask, int i) {
     return mask[i];
 }
 template <class T, class I>
-TANDEM_HD void set_lane(Lanes<T, I>& value, int i, T lane_value) {
+TANDEM_HD_INLINE void set_lane(Lanes<T, I>& value, int i, T lane_value) {
     value.set(i, lane_value);
 }
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class I, class F>
-TANDEM_HD void for_each_unique_lane(const Lanes<std::uint32_t, I>& values, LaneMask<I> active, F f) {
+TANDEM_HD_INLINE void for_each_unique_lane(const Lanes<std::uint32_t, I>& values, LaneMask<I> active, F f) {
     while (any(active)) {
         const std::uint32_t value = values[lowest_bit(active.bits())];
         const LaneMask<I> here = active && values == Lanes<std::uint32_t, I>(value);
@@ -321,7 +321,7 @@ TANDEM_HD void for_each_unique_lane(const Lanes<std::uint32_t, I>& values, LaneM
 
 /// Lane numbers 0, 1, 2, ...
 template <class I>
-TANDEM_HD Lanes<std::uint32_t, I> lane_index(const Lanes<std::uint32_t, I>&) {
+TANDEM_HD_INLINE Lanes<std::uint32_t, I> lane_index(const Lanes<std::uint32_t, I>&) {
     return Lanes<std::uint32_t, I>::from([](int lane) { return static_cast<std::uint32_t>(lane); });
 }
 

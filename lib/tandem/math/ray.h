@@ -15,7 +15,7 @@ struct Ray {
 
 /// A caller's ray in the precision of a tier's kernels; exact.
 template <class Real>
-TANDEM_HD Ray<Real> to_real(const Ray<float>& ray) {
+TANDEM_HD_INLINE Ray<Real> to_real(const Ray<float>& ray) {
     return {broadcast<Real>(ray.origin), broadcast<Real>(ray.direction)};
 }
 
@@ -25,7 +25,7 @@ inline constexpr float coordinate_limit = 1e18F;
 /// True for traceable rays: finite, coordinates within coordinate_limit, direction not zero. All others miss on every
 /// backend. (NaN fails every comparison.)
 template <class Real>
-TANDEM_HD Mask<Real> is_traceable(const Ray<Real>& ray) {
+TANDEM_HD_INLINE Mask<Real> is_traceable(const Ray<Real>& ray) {
     const auto within = [](const Real& a) { return absolute(a) <= Real(coordinate_limit); };
     return within(ray.origin.x) && within(ray.origin.y) && within(ray.origin.z) && within(ray.direction.x) &&
            within(ray.direction.y) && within(ray.direction.z) && norm1(ray.direction) > Real(0);

@@ -61,43 +61,43 @@ using UInt64 = typename RealTraits<Real>::UInt64;
 template <class Real>
 inline constexpr bool is_fast = RealTraits<Real>::fast;
 
-TANDEM_HD bool any(bool mask) { return mask; }
-TANDEM_HD bool all(bool mask) { return mask; }
+TANDEM_HD_INLINE bool any(bool mask) { return mask; }
+TANDEM_HD_INLINE bool all(bool mask) { return mask; }
 
 /// `mask ? a : b`, lane by lane.
 template <class T>
-TANDEM_HD T select(bool mask, T a, T b) {
+TANDEM_HD_INLINE T select(bool mask, T a, T b) {
     return mask ? a : b;
 }
 
 template <class T>
-TANDEM_HD T lesser(T a, T b) {
+TANDEM_HD_INLINE T lesser(T a, T b) {
     return select(b < a, b, a);
 }
 
 template <class T>
-TANDEM_HD T greater(T a, T b) {
+TANDEM_HD_INLINE T greater(T a, T b) {
     return select(a < b, b, a);
 }
 
-TANDEM_HD double widen(float a) { return static_cast<double>(a); }
-TANDEM_HD double widen(double a) { return a; }
+TANDEM_HD_INLINE double widen(float a) { return static_cast<double>(a); }
+TANDEM_HD_INLINE double widen(double a) { return a; }
 /// One rounding to nearest even.
-TANDEM_HD float narrow(double a) {
+TANDEM_HD_INLINE float narrow(double a) {
     auto rounded = static_cast<float>(a);
     TANDEM_KEEP_ROUNDING(rounded);
     return rounded;
 }
-TANDEM_HD float narrow(float a) { return a; }
-TANDEM_HD double to_wide(float a) { return static_cast<double>(a); }
-TANDEM_HD double to_wide(double a) { return a; }
+TANDEM_HD_INLINE float narrow(float a) { return a; }
+TANDEM_HD_INLINE double to_wide(float a) { return static_cast<double>(a); }
+TANDEM_HD_INLINE double to_wide(double a) { return a; }
 /// The number of a single ray, as callers see it.
-TANDEM_HD float to_plain(float a) { return a; }
-TANDEM_HD float to_plain(double a) { return narrow(a); }
+TANDEM_HD_INLINE float to_plain(float a) { return a; }
+TANDEM_HD_INLINE float to_plain(double a) { return narrow(a); }
 
 /// Converts from the type of decisions to Real: one rounding in strict, none in precise and fast.
 template <class Real>
-TANDEM_HD Real to_real(const Double<Real>& a) {
+TANDEM_HD_INLINE Real to_real(const Double<Real>& a) {
     if constexpr (std::is_same_v<Real, Double<Real>>) {
         return a;
     } else {
@@ -107,22 +107,22 @@ TANDEM_HD Real to_real(const Double<Real>& a) {
 
 /// A constant of the host, rounded once to the precision of Real.
 template <class Real>
-TANDEM_HD Real constant(double a) {
+TANDEM_HD_INLINE Real constant(double a) {
     return Real(static_cast<typename RealTraits<Real>::Scalar>(a));
 }
 
-TANDEM_HD float square_root(float a) { return sqrtf(a); }
-TANDEM_HD double square_root(double a) { return sqrt(a); }
-TANDEM_HD double multiply_add(double a, double b, double c) { return ::fma(a, b, c); }
+TANDEM_HD_INLINE float square_root(float a) { return sqrtf(a); }
+TANDEM_HD_INLINE double square_root(double a) { return sqrt(a); }
+TANDEM_HD_INLINE double multiply_add(double a, double b, double c) { return ::fma(a, b, c); }
 /// Nearest integer, ties to even.
-TANDEM_HD double round_to_int(double a) { return ::rint(a); }
-TANDEM_HD float absolute(float a) { return fabsf(a); }
-TANDEM_HD double absolute(double a) { return ::fabs(a); }
+TANDEM_HD_INLINE double round_to_int(double a) { return ::rint(a); }
+TANDEM_HD_INLINE float absolute(float a) { return fabsf(a); }
+TANDEM_HD_INLINE double absolute(double a) { return ::fabs(a); }
 
 /// a * b + c for decisions that only affect speed and need not be equal everywhere (reject filters, boxes of a BVH):
 /// one rounding if the processor fuses them, else two. With TANDEM_NO_LOOSE_FMA always two: tests/lint uses it to check
 /// that the compiler fuses nothing by itself.
-TANDEM_HD float loose_multiply_add(float a, float b, float c) {
+TANDEM_HD_INLINE float loose_multiply_add(float a, float b, float c) {
 #if (TANDEM_ON_DEVICE || defined(__FMA__)) && !defined(TANDEM_NO_LOOSE_FMA)
     return fmaf(a, b, c);
 #else
@@ -131,11 +131,11 @@ TANDEM_HD float loose_multiply_add(float a, float b, float c) {
 }
 
 /// Converts an integer to Real; exact below 2^31.
-TANDEM_HD float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
+TANDEM_HD_INLINE float to_float(std::uint32_t a) { return static_cast<float>(static_cast<std::int32_t>(a)); }
 
 /// The same for any Real.
 template <class Real>
-TANDEM_HD Real from_uint(const UInt<Real>& a) {
+TANDEM_HD_INLINE Real from_uint(const UInt<Real>& a) {
     if constexpr (RealTraits<Real>::lanes == 1) {
         return Real(to_float(a));
     } else if constexpr (sizeof(typename RealTraits<Real>::Scalar) == sizeof(float)) {
@@ -147,20 +147,20 @@ TANDEM_HD Real from_uint(const UInt<Real>& a) {
 
 /// The same bits as another type.
 template <class To, class From>
-TANDEM_HD To bit_cast(const From& from) {
+TANDEM_HD_INLINE To bit_cast(const From& from) {
     static_assert(sizeof(To) == sizeof(From));
     To to;
     std::memcpy(&to, &from, sizeof(To));
     return to;
 }
 
-TANDEM_HD std::uint64_t bits_of(double a) { return bit_cast<std::uint64_t>(a); }
-TANDEM_HD double double_of(std::uint64_t a) { return bit_cast<double>(a); }
-TANDEM_HD std::uint32_t bits_of(float a) { return bit_cast<std::uint32_t>(a); }
-TANDEM_HD float float_of(std::uint32_t a) { return bit_cast<float>(a); }
+TANDEM_HD_INLINE std::uint64_t bits_of(double a) { return bit_cast<std::uint64_t>(a); }
+TANDEM_HD_INLINE double double_of(std::uint64_t a) { return bit_cast<double>(a); }
+TANDEM_HD_INLINE std::uint32_t bits_of(float a) { return bit_cast<std::uint32_t>(a); }
+TANDEM_HD_INLINE float float_of(std::uint32_t a) { return bit_cast<float>(a); }
 
 /// The high and the low word of a 32 x 32 bit product.
-TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
+TANDEM_HD_INLINE void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
     const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
     high = static_cast<std::uint32_t>(product >> 32);
     low = static_cast<std::uint32_t>(product);
@@ -168,22 +168,22 @@ TANDEM_HD void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
 
 /// Reads or replaces the value of one lane. A scalar has one lane.
 template <class T>
-TANDEM_HD T lane(const T& value, int) {
+TANDEM_HD_INLINE T lane(const T& value, int) {
     return value;
 }
 template <class T>
-TANDEM_HD void set_lane(T& value, int, const T& lane_value) {
+TANDEM_HD_INLINE void set_lane(T& value, int, const T& lane_value) {
     value = lane_value;
 }
 
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class F>
-TANDEM_HD void for_each_unique_lane(std::uint32_t value, bool active, F f) {
+TANDEM_HD_INLINE void for_each_unique_lane(std::uint32_t value, bool active, F f) {
     if (active) f(value, true);
 }
 
 /// The position of the lowest set bit; `bits` is not 0.
-TANDEM_HD int lowest_bit(std::uint32_t bits) {
+TANDEM_HD_INLINE int lowest_bit(std::uint32_t bits) {
 #if TANDEM_ON_DEVICE
     return __ffs(static_cast<int>(bits)) - 1;
 #else
@@ -195,13 +195,13 @@ TANDEM_HD int lowest_bit(std::uint32_t bits) {
 inline constexpr float float_roundoff = 0x1p-24F;
 
 /// The largest float not above a finite `a`, and the smallest not below it.
-TANDEM_HD float round_down(double a) {
+TANDEM_HD_INLINE float round_down(double a) {
     const float nearest = static_cast<float>(a);
     if (static_cast<double>(nearest) <= a) return nearest;
     const std::uint32_t bits = bits_of(nearest);
     if (nearest == 0.0F) return float_of(0x80000001U);
     return float_of(nearest > 0.0F ? bits - 1 : bits + 1);
 }
-TANDEM_HD float round_up(double a) { return -round_down(-a); }
+TANDEM_HD_INLINE float round_up(double a) { return -round_down(-a); }
 
 }  // namespace tandem

@@ -20,7 +20,7 @@ namespace turns_detail {
 
 /// sin and cos of f quarters of a turn, |f| <= 1/2.
 template <class Real>
-TANDEM_HD SineCosine<Real> sine_cosine_of_quarter(const Double<Real>& f) {
+TANDEM_HD_INLINE SineCosine<Real> sine_cosine_of_quarter(const Double<Real>& f) {
     using D = Double<Real>;
     if constexpr (is_fast<Real>) {
         const D r = f * constant<D>(exact_detail::half_pi_high);
@@ -36,7 +36,7 @@ TANDEM_HD SineCosine<Real> sine_cosine_of_quarter(const Double<Real>& f) {
 
 /// atan(t) for |t| <= tan(pi/8), relative error below 2^-52; coefficients: tests/math/minimax.py.
 template <class D>
-TANDEM_HD D arctangent(const D& t) {
+TANDEM_HD_INLINE D arctangent(const D& t) {
     if constexpr (is_fast<D>) {
         return fast_detail::arctangent(t);
     } else {
@@ -56,7 +56,7 @@ TANDEM_HD D arctangent(const D& t) {
 /// Method: 4u is exact, and so is its distance from the nearest integer, which leaves at most an eighth of a turn.
 /// Tested by tests/math/turns_test.cpp.
 template <class Real>
-TANDEM_HD SineCosine<Real> sin_cos_turns(const Double<Real>& u) {
+TANDEM_HD_INLINE SineCosine<Real> sin_cos_turns(const Double<Real>& u) {
     using D = Double<Real>;
     using Word = std::conditional_t<is_fast<Real>, UInt<Real>, UInt64<Real>>;
     constexpr auto to_low_bits = static_cast<Scalar<D>>(is_fast<Real> ? 0x1.8p23 : exact_detail::to_low_bits);
@@ -77,7 +77,7 @@ TANDEM_HD SineCosine<Real> sin_cos_turns(const Double<Real>& u) {
 /// Method: reflections into the first octant, then a rotation by an eighth of a turn if the tangent is above tan(pi/8).
 /// Tested by tests/math/turns_test.cpp.
 template <class Real>
-TANDEM_HD Double<Real> atan2_turns(const Double<Real>& y, const Double<Real>& x) {
+TANDEM_HD_INLINE Double<Real> atan2_turns(const Double<Real>& y, const Double<Real>& x) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D width = absolute(x);

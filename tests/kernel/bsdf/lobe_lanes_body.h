@@ -36,15 +36,15 @@ TANDEM_HD LobeNumbers<Real> load(const LobeInput* in) {
     using D = Double<Real>;
     LobeNumbers<Real> result;
     for (int k = 0; k < 3; ++k) {
-        result.wo[k] = fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].wo[k]; });
-        result.wi[k] = fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].wi[k]; });
-        result.u[k] = fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].u[k]; });
-        result.colour[k] = to_real<Real>(fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].colour[k]; }));
+        result.wo[k] = fill<D>([=](int i) { return in[i].wo[k]; });
+        result.wi[k] = fill<D>([=](int i) { return in[i].wi[k]; });
+        result.u[k] = fill<D>([=](int i) { return in[i].u[k]; });
+        result.colour[k] = to_real<Real>(fill<D>([=](int i) { return in[i].colour[k]; }));
     }
     for (int k = 0; k < 2; ++k) {
-        result.roughness[k] = fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].roughness[k]; });
+        result.roughness[k] = fill<D>([=](int i) { return in[i].roughness[k]; });
     }
-    result.eta = fill<D>([=](int i) TANDEM_INLINE_LAMBDA { return in[i].eta; });
+    result.eta = fill<D>([=](int i) { return in[i].eta; });
     return result;
 }
 

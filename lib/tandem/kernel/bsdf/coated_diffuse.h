@@ -24,30 +24,33 @@ struct CoatedDiffuse {
     Lambert<Real> base;
     Real f0;  ///< reflectance of the interface at normal incidence, in [0, 1]
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return base.colour(); }
-    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return base.scatters(); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> colour() const { return base.colour(); }
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> scatters() const { return base.scatters(); }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return base.f(wo, wi) * enters(wo, wi);
     }
 
-    [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const { return base.pdf(wo, wi); }
+    [[nodiscard]] TANDEM_HD_INLINE D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const { return base.pdf(wo, wi); }
 
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
         LobeSample<Real> drawn = base.sample(wo, u);
         drawn.weight = drawn.weight * enters(wo, drawn.wi);
         return drawn;
     }
 
     /// Approximated without the increase of F at grazing angles.
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const { return base.albedo(wo) * (Real(1.0F) - f0); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> albedo(const Vec3<D>& wo) const {
+        return base.albedo(wo) * (Real(1.0F) - f0);
+    }
 
-    TANDEM_HD friend CoatedDiffuse select(const Mask<Real>& mask, const CoatedDiffuse& a, const CoatedDiffuse& b) {
+    TANDEM_HD_INLINE friend CoatedDiffuse select(const Mask<Real>& mask, const CoatedDiffuse& a,
+                                                 const CoatedDiffuse& b) {
         return {select(mask, a.base, b.base), select(mask, a.f0, b.f0)};
     }
 
   private:
-    [[nodiscard]] TANDEM_HD Real enters(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Real enters(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return schlick_transmittance(f0, schlick_weight_between<Real>(wo, wi));
     }
 };

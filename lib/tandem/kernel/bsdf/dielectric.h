@@ -18,20 +18,20 @@ struct Dielectric {
     Real share;  ///< of the light, in [0, 1]; the rest goes to the other lobes of the surface
     D eta;       ///< refractive index on the side of wo over that of the other side, > 0
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return {share, share, share}; }
-    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return share > Real(0.0F); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> colour() const { return {share, share, share}; }
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> scatters() const { return share > Real(0.0F); }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>&, const Vec3<D>&) const { return black<Real>(); }
-    [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>&, const Vec3<D>&) const { return D(0.0F); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> f(const Vec3<D>&, const Vec3<D>&) const { return black<Real>(); }
+    [[nodiscard]] TANDEM_HD_INLINE D pdf(const Vec3<D>&, const Vec3<D>&) const { return D(0.0F); }
 
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
         return sample_about({local_normal<Real>(), local_normal<Real>()}, wo, u).only_where(wo.z >= D(0.0F));
     }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const { return {share, share, share}; }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> albedo(const Vec3<D>&) const { return {share, share, share}; }
 
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample_about(const LobeNormals<Real>& normals, const Vec3<D>& wo,
-                                                          const Vec3<D>& u) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample<Real> sample_about(const LobeNormals<Real>& normals, const Vec3<D>& wo,
+                                                                 const Vec3<D>& u) const {
         const Refraction<Real> refraction = refracted<Real>(normals, wo, eta);
         const Mask<Real> transmits = !(u.x < fresnel_dielectric(refraction, eta));
         Vec3<D> wi = refraction.direction;
@@ -39,7 +39,7 @@ struct Dielectric {
         return {wi, constant<D>(infinite_density), {share, share, share}, Mask<Real>(true), transmits};
     }
 
-    TANDEM_HD friend Dielectric select(const Mask<Real>& mask, const Dielectric& a, const Dielectric& b) {
+    TANDEM_HD_INLINE friend Dielectric select(const Mask<Real>& mask, const Dielectric& a, const Dielectric& b) {
         return {select(mask, a.share, b.share), select(mask, a.eta, b.eta)};
     }
 };

@@ -12,7 +12,7 @@ namespace tandem {
 /// Source: A. Fresnel, 1823, as in M. Born, E. Wolf, "Principles of Optics", 1.5.2.
 /// Tested by tests/kernel/bsdf/fresnel_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
-TANDEM_HD Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, const Double<Real>& eta) {
+TANDEM_HD_INLINE Double<Real> fresnel_dielectric(const Refraction<Real>& refraction, const Double<Real>& eta) {
     using D = Double<Real>;
     const D zero(0.0);
     const D one(1.0);

@@ -25,10 +25,10 @@ struct Ggx {
 
     Ggx() = default;
     /// Clamps alphas to [least_ggx_alpha, 1]; NaN becomes the lower end.
-    TANDEM_HD Ggx(const D& x, const D& y) : alpha_x(in_range(x)), alpha_y(in_range(y)) {}
+    TANDEM_HD_INLINE Ggx(const D& x, const D& y) : alpha_x(in_range(x)), alpha_y(in_range(y)) {}
 
     /// D of the normal h / |h|, 1/sr. h need not be a unit vector; h.z >= 0.
-    [[nodiscard]] TANDEM_HD D density(const Vec3<D>& h) const {
+    [[nodiscard]] TANDEM_HD_INLINE D density(const Vec3<D>& h) const {
         const D x = h.x / alpha_x;
         const D y = h.y / alpha_y;
         // not 0 / 0 for h = 0
@@ -37,17 +37,17 @@ struct Ggx {
     }
 
     /// |(alpha_x x, alpha_y y, z)|: Smith's Lambda is (extent - z) / (2 z).
-    [[nodiscard]] TANDEM_HD D extent(const Vec3<D>& w) const {
+    [[nodiscard]] TANDEM_HD_INLINE D extent(const Vec3<D>& w) const {
         const D x = alpha_x * w.x;
         const D y = alpha_y * w.y;
         return square_root((x * x + y * y) + w.z * w.z);
     }
 
     /// The fraction of the microfacets facing w that are visible from w: G1 = 2 z / (z + extent).
-    [[nodiscard]] TANDEM_HD D seen(const Vec3<D>& w) const { return (w.z + w.z) / (w.z + extent(w)); }
+    [[nodiscard]] TANDEM_HD_INLINE D seen(const Vec3<D>& w) const { return (w.z + w.z) / (w.z + extent(w)); }
 
     /// wo.z extent(wi) + wi.z extent(wo): the fraction that is visible from both, G2, is 2 wo.z wi.z over this.
-    [[nodiscard]] TANDEM_HD D mutual_extent(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE D mutual_extent(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return wo.z * extent(wi) + wi.z * extent(wo);
     }
 
@@ -57,7 +57,7 @@ struct Ggx {
     ///         from the top or the bottom of the sphere, whichever does not cancel.
     /// Source: J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", CGF 42(8), 2023; E. Heitz,
     ///         "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018.
-    [[nodiscard]] TANDEM_HD Vec3<D> sample_seen(const Vec3<D>& w, const D& u, const D& v) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<D> sample_seen(const Vec3<D>& w, const D& u, const D& v) const {
         const D one(1.0F);
         const Vec3<D> stretched = normalize(Vec3<D>{alpha_x * w.x, alpha_y * w.y, w.z});
         const D height = one + stretched.z;
@@ -72,7 +72,7 @@ struct Ggx {
     }
 
   private:
-    TANDEM_HD static D in_range(const D& alpha) { return lesser(greater(D(least_ggx_alpha), alpha), D(1.0F)); }
+    TANDEM_HD_INLINE static D in_range(const D& alpha) { return lesser(greater(D(least_ggx_alpha), alpha), D(1.0F)); }
 };
 
 }  // namespace tandem

@@ -28,21 +28,21 @@ struct GgxReflection {
     Real f90;       ///< at grazing incidence: 1, or 0 for no lobe
     Ggx<Real> facets;
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return f0; }
-    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return f90 > Real(0.0F); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> colour() const { return f0; }
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> scatters() const { return f90 > Real(0.0F); }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D divisor = bounded_divisor<Real>(facets.mutual_extent(wo, wi));
         const Real value = to_real<Real>(D(0.5F) * facets.density(wo + wi) / divisor);
         return select(both_above<Real>(wo, wi), fresnel(wo, wi) * value, black<Real>());
     }
 
-    [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D value = D(0.5F) * facets.density(wo + wi) / (wo.z + facets.extent(wo));
         return select(both_above<Real>(wo, wi), value, D(0.0F));
     }
 
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
         const Vec3<D> wi = reflect(-wo, facets.sample_seen(wo, u.x, u.y));
         const D density = pdf(wo, wi);
         const Mask<Real> valid = both_above<Real>(wo, wi) && density > D(0.0F);
@@ -52,7 +52,7 @@ struct GgxReflection {
     }
 
     /// A fit for equal alphas: within 0.13 of the albedo, and 0.7 to 1.4 times the albedo for f0 >= 0.04.
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>& wo) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> albedo(const Vec3<D>& wo) const {
         const Real one(1.0F);
         const Real alpha2 = to_real<Real>(facets.alpha_x * facets.alpha_y);
         const Real lost =
@@ -62,7 +62,8 @@ struct GgxReflection {
         return f0 * (one - lost) + (Vec3<Real>{f90, f90, f90} - f0) * grazing;
     }
 
-    TANDEM_HD friend GgxReflection select(const Mask<Real>& mask, const GgxReflection& a, const GgxReflection& b) {
+    TANDEM_HD_INLINE friend GgxReflection select(const Mask<Real>& mask, const GgxReflection& a,
+                                                 const GgxReflection& b) {
         GgxReflection result = {select(mask, a.f0, b.f0), select(mask, a.f90, b.f90), a.facets};
         result.facets.alpha_x = select(mask, a.facets.alpha_x, b.facets.alpha_x);
         result.facets.alpha_y = select(mask, a.facets.alpha_y, b.facets.alpha_y);
@@ -70,7 +71,7 @@ struct GgxReflection {
     }
 
   private:
-    [[nodiscard]] TANDEM_HD Vec3<Real> fresnel(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> fresnel(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return schlick(f0, f90, schlick_weight_between<Real>(wo, wi));
     }
 };

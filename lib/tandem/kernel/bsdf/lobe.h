@@ -21,12 +21,12 @@ enum class LobeFlags : std::uint32_t {
     specular = 16,     ///< in single directions: f is a Dirac delta function
 };
 
-TANDEM_HD constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
+TANDEM_HD_INLINE constexpr LobeFlags operator|(LobeFlags a, LobeFlags b) {
     return static_cast<LobeFlags>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 
 /// Whether `lobe` has all of `flags`.
-TANDEM_HD constexpr bool has(LobeFlags lobe, LobeFlags flags) {
+TANDEM_HD_INLINE constexpr bool has(LobeFlags lobe, LobeFlags flags) {
     return (static_cast<std::uint32_t>(lobe) & static_cast<std::uint32_t>(flags)) == static_cast<std::uint32_t>(flags);
 }
 
@@ -40,7 +40,7 @@ struct LobeSample {
     Mask<Real> transmits;   ///< wi goes through the surface; the sign of wi.z may differ by rounding
 
     /// The sample, made invalid in the other lanes.
-    [[nodiscard]] TANDEM_HD LobeSample only_where(const Mask<Real>& mask) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample only_where(const Mask<Real>& mask) const {
         const Real none(0.0F);
         return {wi, select(mask, pdf, Double<Real>(0.0F)), select(mask, weight, Vec3<Real>{none, none, none}),
                 valid && mask, transmits && mask};
@@ -48,7 +48,7 @@ struct LobeSample {
 };
 
 /// Whether there is at least one side and exactly one of the other kinds.
-TANDEM_HD constexpr bool is_complete(LobeFlags flags) {
+TANDEM_HD_INLINE constexpr bool is_complete(LobeFlags flags) {
     const bool has_side = has(flags, LobeFlags::reflection) || has(flags, LobeFlags::transmission);
     const int kinds = has(flags, LobeFlags::diffuse) + has(flags, LobeFlags::glossy) + has(flags, LobeFlags::specular);
     return has_side && kinds == 1;
@@ -111,20 +111,20 @@ concept ReflectsInWorld = requires(const L& lobe, const Vec3<Double<Real>>& w, R
 
 /// Whether both directions are above the surface. Otherwise a lobe that only reflects, and is not specular, is black.
 template <class Real>
-TANDEM_HD Mask<Real> both_above(const Vec3<Double<Real>>& wo, const Vec3<Double<Real>>& wi) {
+TANDEM_HD_INLINE Mask<Real> both_above(const Vec3<Double<Real>>& wo, const Vec3<Double<Real>>& wi) {
     const Double<Real> zero(0.0F);
     return wo.z > zero && wi.z > zero;
 }
 
 /// No light.
 template <class Real>
-TANDEM_HD Vec3<Real> black() {
+TANDEM_HD_INLINE Vec3<Real> black() {
     return {Real(0.0F), Real(0.0F), Real(0.0F)};
 }
 
 /// All light.
 template <class Real>
-TANDEM_HD Vec3<Real> white() {
+TANDEM_HD_INLINE Vec3<Real> white() {
     return {Real(1.0F), Real(1.0F), Real(1.0F)};
 }
 
@@ -133,14 +133,14 @@ inline constexpr double infinite_density = __builtin_huge_val();
 
 /// The normal in its own frame.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> local_normal() {
+TANDEM_HD_INLINE Vec3<Double<Real>> local_normal() {
     using D = Double<Real>;
     return {D(0.0F), D(0.0F), D(1.0F)};
 }
 
 /// The least cosine that f is divided by, so that it stays finite.
 template <class Real>
-TANDEM_HD Double<Real> bounded_divisor(const Double<Real>& cosine) {
+TANDEM_HD_INLINE Double<Real> bounded_divisor(const Double<Real>& cosine) {
     return greater(cosine, Double<Real>(0x1p-60F));
 }
 

@@ -29,7 +29,7 @@ struct MetallicRoughnessLobes {
 /// mix of theirs: the sum is that of the appendix, and no approximation. The direction of KHR_materials_anisotropy is
 /// the frame's x. Held by tests/kernel/bsdf/metallic_roughness_test.cpp.
 template <class Real>
-TANDEM_HD MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<Real>& material) {
+TANDEM_HD_INLINE MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<Real>& material) {
     using D = Double<Real>;
     const Real one(1.0F);
     const Real dielectric = one - material.metallic;

@@ -31,20 +31,20 @@ struct PhongLobe {
     Vec3<Real> specular;  ///< RGB, each in [0, 1]
     Real shininess;       ///< >= 0
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> colour() const { return specular; }
-    [[nodiscard]] TANDEM_HD Mask<Real> scatters() const { return norm1(specular) > Real(0.0F); }
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> colour() const { return specular; }
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> scatters() const { return norm1(specular) > Real(0.0F); }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> f(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D divisor = bounded_divisor<Real>(wi.z) * constant<D>(pi);
         const Real value = to_real<Real>(widen(lobe(wo, wi)) / divisor);
         return select(both_above<Real>(wo, wi), specular * value, black<Real>());
     }
 
-    [[nodiscard]] TANDEM_HD D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE D pdf(const Vec3<D>& wo, const Vec3<D>& wi) const {
         return select(both_above<Real>(wo, wi), widen(lobe(wo, wi)) * density_at_peak(), D(0.0F));
     }
 
-    [[nodiscard]] TANDEM_HD LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
+    [[nodiscard]] TANDEM_HD_INLINE LobeSample<Real> sample(const Vec3<D>& wo, const Vec3<D>& u) const {
         const D one(1.0F);
         // 1 - u is never 0, so neither are the cosine and the density
         const D rest = one - u.x;
@@ -59,13 +59,13 @@ struct PhongLobe {
                 Mask<Real>(false)};
     }
 
-    [[nodiscard]] TANDEM_HD Vec3<Real> albedo(const Vec3<D>&) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> albedo(const Vec3<D>&) const {
         return specular * (Real(2.0F) / (shininess + Real(1.0F)));
     }
 
     /// Phong's highlight as in the paper: ks (R.V)^shininess, with R = 2 (L.N) N - L, wherever R.V > 0.
-    [[nodiscard]] TANDEM_HD Vec3<Real> reflected_about(const Real& share, const Vec3<D>& normal, const Vec3<D>& wi,
-                                                       const Vec3<D>& wo) const {
+    [[nodiscard]] TANDEM_HD_INLINE Vec3<Real> reflected_about(const Real& share, const Vec3<D>& normal,
+                                                              const Vec3<D>& wi, const Vec3<D>& wo) const {
         const D cosine = dot(wi, normal);
         const D twice = cosine + cosine;
         const Vec3<D> along = {twice * normal.x - wi.x, twice * normal.y - wi.y, twice * normal.z - wi.z};
@@ -78,20 +78,20 @@ struct PhongLobe {
         return specular * share * weight;
     }
 
-    TANDEM_HD friend PhongLobe select(const Mask<Real>& mask, const PhongLobe& a, const PhongLobe& b) {
+    TANDEM_HD_INLINE friend PhongLobe select(const Mask<Real>& mask, const PhongLobe& a, const PhongLobe& b) {
         return {select(mask, a.specular, b.specular), select(mask, a.shininess, b.shininess)};
     }
 
   private:
-    [[nodiscard]] TANDEM_HD static Vec3<D> mirrored(const Vec3<D>& wo) { return {-wo.x, -wo.y, wo.z}; }
+    [[nodiscard]] TANDEM_HD_INLINE static Vec3<D> mirrored(const Vec3<D>& wo) { return {-wo.x, -wo.y, wo.z}; }
 
-    [[nodiscard]] TANDEM_HD Real lobe(const Vec3<D>& wo, const Vec3<D>& wi) const {
+    [[nodiscard]] TANDEM_HD_INLINE Real lobe(const Vec3<D>& wo, const Vec3<D>& wi) const {
         const D cosine = dot(mirrored(wo), wi);
         const Mask<Real> counts = cosine > D(0.0F);
         return select(counts, specular_lobe<Real>(select(counts, cosine, D(1.0F)), shininess), Real(0.0F));
     }
 
-    [[nodiscard]] TANDEM_HD D density_at_peak() const {
+    [[nodiscard]] TANDEM_HD_INLINE D density_at_peak() const {
         return (widen(shininess) + D(1.0F)) * constant<D>(inverse_pi / 2);
     }
 };

@@ -12,7 +12,7 @@ namespace tandem {
 ///        lengths of the inputs do not accumulate.
 /// Tested by tests/kernel/bsdf/reflect_test.cpp and group F of the corpus (tests/hard).
 template <class D>
-TANDEM_HD Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {
+TANDEM_HD_INLINE Vec3<D> reflect(const Vec3<D>& direction, const Vec3<D>& normal) {
     const D along = dot(direction, normal);
     const D twice = along + along;
     return normalize(

@@ -25,8 +25,8 @@ struct Refraction {
 ///         limit and near normal incidence, where the cosine hardly determines the angle.
 /// Tested by tests/kernel/bsdf/refract_test.cpp and group F of the corpus (tests/hard).
 template <class Real>
-TANDEM_HD Refraction<Real> refract(const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& normal,
-                                   const Double<Real>& eta) {
+TANDEM_HD_INLINE Refraction<Real> refract(const Vec3<Double<Real>>& direction, const Vec3<Double<Real>>& normal,
+                                          const Double<Real>& eta) {
     using D = Double<Real>;
     const D zero(0.0);
     const D one(1.0);

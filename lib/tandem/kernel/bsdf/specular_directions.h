@@ -10,7 +10,7 @@ namespace tandem {
 /// `wo` mirrored at the shading normal; at the geometric normal where the direction would otherwise go through the
 /// surface.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> mirrored(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo) {
+TANDEM_HD_INLINE Vec3<Double<Real>> mirrored(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo) {
     const Vec3<Double<Real>> direction = reflect(-wo, normals.shading);
     const Mask<Real> through = !(dot(direction, normals.geometric) > Double<Real>(0.0));
     if (!any(through)) return direction;
@@ -20,8 +20,8 @@ TANDEM_HD Vec3<Double<Real>> mirrored(const LobeNormals<Real>& normals, const Ve
 /// refract() at the shading normal; at the geometric normal where the direction would otherwise not go through the
 /// surface. `eta`: the refractive index on the side of wo over that of the other side.
 template <class Real>
-TANDEM_HD Refraction<Real> refracted(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo,
-                                     const Double<Real>& eta) {
+TANDEM_HD_INLINE Refraction<Real> refracted(const LobeNormals<Real>& normals, const Vec3<Double<Real>>& wo,
+                                            const Double<Real>& eta) {
     Refraction<Real> result = refract<Real>(-wo, normals.shading, eta);
     const Mask<Real> back = result.transmits && !(dot(result.direction, normals.geometric) < Double<Real>(0.0));
     if (!any(back)) return result;

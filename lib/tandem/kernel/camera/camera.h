@@ -32,8 +32,8 @@ struct CameraView {
 /// so that it stays accurate on large films. Within 2 ulp of the largest component. (The tier precise adds the offset
 /// in double; fast computes the corner in float.)
 template <class Real>
-TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x, const Double<Real>& pixel_y,
-                               const Real& offset_x, const Real& offset_y) {
+TANDEM_HD_INLINE Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x,
+                                      const Double<Real>& pixel_y, const Real& offset_x, const Real& offset_y) {
     using D = Double<Real>;
     const auto at = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
         const auto corner =
@@ -54,7 +54,7 @@ TANDEM_HD Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pix
 /// plane, since the directions of camera rays have depth 1.
 /// Source: R. Cook, T. Porter, L. Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984, sec. 3.2: the thin lens.
 template <class Real>
-TANDEM_HD Ray<Real> through_lens(const CameraView& camera, const Ray<Real>& ray, const Real& u, const Real& v) {
+TANDEM_HD_INLINE Ray<Real> through_lens(const CameraView& camera, const Ray<Real>& ray, const Real& u, const Real& v) {
     using D = Double<Real>;
     const Vec2<D> point = sample_aperture<Real>(camera.blades, constant<D>(camera.rotation), widen(u), widen(v));
     const Vec3<D> offset = constant<D>(camera.lens_x) * point.x + constant<D>(camera.lens_y) * point.y;

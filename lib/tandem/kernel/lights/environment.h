@@ -17,7 +17,7 @@ struct Environment {
 
 /// Radiance along a direction, whose length is within [1e-15, 1e15]. Within 3 ulp of float.
 template <class Real>
-TANDEM_HD Vec3<Real> background(const Environment& environment, const Vec3<Real>& direction) {
+TANDEM_HD_INLINE Vec3<Real> background(const Environment& environment, const Vec3<Real>& direction) {
     const Real height = direction.y / square_root(dot(direction, direction));
     const Real m = (height + Real(1.0F)) * Real(0.5F);
     return broadcast<Real>(environment.bottom) * (Real(1.0F) - m) + broadcast<Real>(environment.top) * m;

@@ -68,7 +68,7 @@ struct CellPoint {
 };
 
 /// The first of `count` consecutive ranges of integers that contains `number`; the last one if none does.
-TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
+TANDEM_HD_INLINE std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
@@ -81,11 +81,11 @@ TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t coun
     return first;
 }
 /// The length of a range.
-TANDEM_HD std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
+TANDEM_HD_INLINE std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
     return ends[range] - (range > 0 ? ends[range - 1] : 0);
 }
 
-TANDEM_HD std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
+TANDEM_HD_INLINE std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
     return static_cast<std::size_t>(band) * picture.width;
 }
 
@@ -98,12 +98,12 @@ struct BandReach {
 };
 
 template <class Real>
-TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const UInt<Real>& band) {
+TANDEM_HD_INLINE BandReach<Real> band_reach(const EnvironmentPictureView& view, const UInt<Real>& band) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const Word middle(view.picture.height / 2);
-    const auto border = [&](std::uint32_t step) TANDEM_INLINE_LAMBDA {
-        return texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+    const auto border = [&](std::uint32_t step) {
+        return texture_detail::from_lanes<D>([&](int i) {
             const std::uint32_t here = lane(band, i);
             const std::uint32_t from_pole = here > view.picture.height / 2 ? view.picture.height - here : here;
             return static_cast<Scalar<D>>(view.borders[from_pole + step]);
@@ -115,7 +115,7 @@ TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const U
 
 /// The cell and place of a direction. Lanes whose direction is not finite get an arbitrary cell.
 template <class Real>
-TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD_INLINE CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -130,9 +130,9 @@ TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const
     // the order of arguments turns a NaN into `height`
     const D rows = lesser(height, atan2_turns<Real>(radius, direction.y) * (height + height) + D(0.5F));
     const D band = floor_of(rows);
-    const auto word_of = [](const D& a) TANDEM_INLINE_LAMBDA {
+    const auto word_of = [](const D& a) {
         return texture_detail::words_from_lanes<Real>(
-            [&](int i) TANDEM_INLINE_LAMBDA { return static_cast<std::uint32_t>(to_wide(lane(a, i))); });
+            [&](int i) { return static_cast<std::uint32_t>(to_wide(lane(a, i))); });
     };
     CellPoint<Real> point = {word_of(band), word_of(columns.first), columns.weight, zero};
 
@@ -149,7 +149,7 @@ TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const
 
 /// The direction of a place in a cell.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+TANDEM_HD_INLINE Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
     using D = Double<Real>;
     const D one(1.0F);
     const D half(0.5F);
@@ -172,13 +172,13 @@ struct CellColours {
 };
 
 template <class Real>
-TANDEM_HD CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+TANDEM_HD_INLINE CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
     CellColours<Real> result;
     for (int k = 0; k < 4; ++k) {
-        const auto channel = [&](auto of) TANDEM_INLINE_LAMBDA {
-            return widen(texture_detail::from_lanes<Float<Real>>([&](int i) TANDEM_INLINE_LAMBDA {
+        const auto channel = [&](auto of) {
+            return widen(texture_detail::from_lanes<Float<Real>>([&](int i) {
                 const std::uint32_t band = lane(point.band, i);
                 const std::uint32_t left = lane(point.column, i);
                 const std::uint32_t upper = band > 0 ? band - 1 : 0;
@@ -187,9 +187,9 @@ TANDEM_HD CellColours<Real> colours_of(const EnvironmentPictureView& view, const
                 return of(view.texels[static_cast<std::size_t>(row) * picture.width + (k % 2 == 0 ? left : right)]);
             }));
         };
-        result.corner[k] = Vec3<D>{channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.x; }),
-                                   channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.y; }),
-                                   channel([](const Vec3f& t) TANDEM_INLINE_LAMBDA { return t.z; })};
+        result.corner[k] =
+            Vec3<D>{channel([](const Vec3f& t) { return t.x; }), channel([](const Vec3f& t) { return t.y; }),
+                    channel([](const Vec3f& t) { return t.z; })};
     }
     return result;
 }
@@ -202,19 +202,19 @@ struct Corners {
 
 /// a at 0 and b at 1; exact where they are equal.
 template <class D>
-TANDEM_HD D between(const D& a, const D& b, const D& x) {
+TANDEM_HD_INLINE D between(const D& a, const D& b, const D& x) {
     return a + x * (b - a);
 }
 template <class D>
-TANDEM_HD D between(const Corners<D>& c, const D& x, const D& y) {
+TANDEM_HD_INLINE D between(const Corners<D>& c, const D& x, const D& y) {
     return between(between(c.value[0], c.value[1], x), between(c.value[2], c.value[3], x), y);
 }
 
 template <class Real>
-TANDEM_HD Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellColours<Real>& colours,
-                                 const CellPoint<Real>& point) {
+TANDEM_HD_INLINE Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellColours<Real>& colours,
+                                        const CellPoint<Real>& point) {
     using D = Double<Real>;
-    const auto channel = [&](int c) TANDEM_INLINE_LAMBDA {
+    const auto channel = [&](int c) {
         const Corners<D> corners = {
             {colours.corner[0][c], colours.corner[1][c], colours.corner[2][c], colours.corner[3][c]}};
         return to_real<Real>(between(corners, point.x, point.y) * D(picture.intensity));
@@ -224,19 +224,19 @@ TANDEM_HD Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellCo
 
 /// The brightness at the corners, which the density is proportional to.
 template <class Real>
-TANDEM_HD Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
-    const auto sum = [](const Vec3<Double<Real>>& a) TANDEM_INLINE_LAMBDA { return (a.x + a.y) + a.z; };
+TANDEM_HD_INLINE Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
+    const auto sum = [](const Vec3<Double<Real>>& a) { return (a.x + a.y) + a.z; };
     return {{sum(colours.corner[0]), sum(colours.corner[1]), sum(colours.corner[2]), sum(colours.corner[3])}};
 }
 
 /// The density at a place in a cell: the probability of the cell over its solid angle, times the brightness of the
 /// place relative to the mean of the cell.
 template <class Real>
-TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
-                                  const CellPoint<Real>& point) {
+TANDEM_HD_INLINE Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
+                                         const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
-    const D probability = texture_detail::from_lanes<D>([&](int i) TANDEM_INLINE_LAMBDA {
+    const D probability = texture_detail::from_lanes<D>([&](int i) {
         const std::uint32_t band = lane(point.band, i);
         const std::uint32_t of_band = range_length(view.band_ends, band);
         const std::uint32_t of_cell = range_length(view.cell_ends + first_cell(picture, band), lane(point.column, i));
@@ -255,7 +255,7 @@ TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corn
 /// are 0.
 /// Method: inverts the distribution function, in a form that does not cancel and divides by no difference.
 template <class D>
-TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
+TANDEM_HD_INLINE D sample_linear(const D& a, const D& b, const D& u) {
     const D zero(0.0F);
     const D one(1.0F);
     const D sum = a + b;
@@ -275,8 +275,8 @@ TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
 /// Method: finds the cell by the azimuth and the polar angle, and the place in it by
 ///         (1 - |y|) / 2 = r^2 / (2 l (l + |y|)), which does not cancel at the poles.
 template <class Real>
-TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
-                                                 const Vec3<Double<Real>>& direction) {
+TANDEM_HD_INLINE EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
+                                                        const Vec3<Double<Real>>& direction) {
     using namespace environment_detail;
     const CellPoint<Real> point = cell_towards<Real>(view, direction);
     const CellColours<Real> colours = colours_of<Real>(view, point);
@@ -286,13 +286,13 @@ TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& v
 
 /// Only its radiance.
 template <class Real>
-TANDEM_HD Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD_INLINE Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).radiance;
 }
 
 /// Only its density, 1/sr.
 template <class Real>
-TANDEM_HD Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD_INLINE Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).pdf;
 }
 
@@ -305,16 +305,15 @@ TANDEM_HD Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Dou
 /// Source: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, sec. 14.2.4, for the two
 ///         steps from marginal to conditional distribution.
 template <class Real>
-TANDEM_HD EnvironmentSample<Real> sample_environment(const EnvironmentPictureView& view,
-                                                     const PhiloxBlock<UInt<Real>>& random) {
+TANDEM_HD_INLINE EnvironmentSample<Real> sample_environment(const EnvironmentPictureView& view,
+                                                            const PhiloxBlock<UInt<Real>>& random) {
     using namespace environment_detail;
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
     CellPoint<Real> point;
-    point.band = texture_detail::words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
-        return find_range(view.band_ends, picture.height + 1, lane(random.word[0], i) >> 1);
-    });
-    point.column = texture_detail::words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
+    point.band = texture_detail::words_from_lanes<Real>(
+        [&](int i) { return find_range(view.band_ends, picture.height + 1, lane(random.word[0], i) >> 1); });
+    point.column = texture_detail::words_from_lanes<Real>([&](int i) {
         return find_range(view.cell_ends + first_cell(picture, lane(point.band, i)), picture.width,
                           lane(random.word[1], i) >> 1);
     });

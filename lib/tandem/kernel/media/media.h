@@ -11,12 +11,14 @@
 namespace tandem {
 
 template <class Real>
-TANDEM_HD Double<Real> refractive_index(const SceneView& scene, const UInt<Real>& medium, const Mask<Real>& active) {
+TANDEM_HD_INLINE Double<Real> refractive_index(const SceneView& scene, const UInt<Real>& medium,
+                                               const Mask<Real>& active) {
     using D = Double<Real>;
     D result(1.0);
     for_each_unique_lane(medium, active && medium != UInt<Real>(no_medium),
-                         [&](std::uint32_t material, const Mask<Real>& here)
-                             TANDEM_INLINE_LAMBDA { result = select(here, D(scene.optics[material].ior), result); });
+                         [&](std::uint32_t material, const Mask<Real>& here) {
+                             result = select(here, D(scene.optics[material].ior), result);
+                         });
     return result;
 }
 
@@ -29,15 +31,15 @@ TANDEM_HD_CALL Real attenuation(Double<Real> depth) {
 /// The transmittance of `distance` metres of a medium: exp(-absorption distance). Source: A. Beer, 1852. Tested by
 /// tests/agree/closed_forms_test.cpp, within 1e-7.
 template <class Real>
-TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& medium, const Double<Real>& distance,
-                                   const Mask<Real>& active) {
+TANDEM_HD_INLINE Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& medium,
+                                          const Double<Real>& distance, const Mask<Real>& active) {
     using D = Double<Real>;
     const Real one(1.0F);
     Vec3<Real> result = {one, one, one};
     for_each_unique_lane(medium, active && medium != UInt<Real>(no_medium),
-                         [&](std::uint32_t material, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+                         [&](std::uint32_t material, const Mask<Real>& here) {
                              const Vec3f& absorption = scene.optics[material].absorption;
-                             const auto channel = [&](float a, const Real& before) TANDEM_INLINE_LAMBDA {
+                             const auto channel = [&](float a, const Real& before) {
                                  if (!(a > 0.0F)) return before;  // also for an infinite distance
                                  return select(here, attenuation<Real>(D(a) * distance), before);
                              };
@@ -50,23 +52,25 @@ TANDEM_HD Vec3<Real> transmittance(const SceneView& scene, const UInt<Real>& med
 /// Replaces the stack where dielectric solids are disjoint: there a ray inside a solid hits only this solid.
 template <class Real>
 struct NoMediumStack {
-    TANDEM_HD std::tuple<> per_lane() { return {}; }
-    TANDEM_HD friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) { return a; }
+    TANDEM_HD_INLINE std::tuple<> per_lane() { return {}; }
+    TANDEM_HD_INLINE friend NoMediumStack select(const Mask<Real>&, const NoMediumStack& a, const NoMediumStack&) {
+        return a;
+    }
 };
 
 /// Whether media may be nested, so that paths track them with the stack.
 template <class Effects>
-TANDEM_HD bool has_stack(const SceneView& scene) {
+TANDEM_HD_INLINE bool has_stack(const SceneView& scene) {
     return Effects::has(Effect::nested_media) && scene.media_overlap != 0;
 }
 
 /// The media at the camera.
 template <class Effects, class Real>
-TANDEM_HD NoMediumStack<Real> media_at_camera(const SceneView&, const NoMediumStack<Real>&) {
+TANDEM_HD_INLINE NoMediumStack<Real> media_at_camera(const SceneView&, const NoMediumStack<Real>&) {
     return {};
 }
 template <class Effects, class Real>
-TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const MediumStack<Real>&) {
+TANDEM_HD_INLINE MediumStack<Real> media_at_camera(const SceneView& scene, const MediumStack<Real>&) {
     MediumStack<Real> stack;
     if (!has_stack<Effects>(scene)) return stack;
     for (std::uint32_t i = 0; i < scene.camera_media.count; ++i) {
@@ -78,11 +82,12 @@ TANDEM_HD MediumStack<Real> media_at_camera(const SceneView& scene, const Medium
 
 /// The medium that a path is in. `own`: the medium if solids are disjoint.
 template <class Effects, class Real>
-TANDEM_HD UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
+TANDEM_HD_INLINE UInt<Real> current_medium(const SceneView&, const NoMediumStack<Real>&, const UInt<Real>& own) {
     return own;
 }
 template <class Effects, class Real>
-TANDEM_HD UInt<Real> current_medium(const SceneView& scene, const MediumStack<Real>& stack, const UInt<Real>& own) {
+TANDEM_HD_INLINE UInt<Real> current_medium(const SceneView& scene, const MediumStack<Real>& stack,
+                                           const UInt<Real>& own) {
     return has_stack<Effects>(scene) ? stack.current() : own;
 }
 
@@ -96,14 +101,15 @@ struct Interface {
 // The interface of a solid of `material`, hit from inside or outside, in the lanes of `active`. Updates `stack` to the
 // state behind the interface.
 template <class Effects, class Real>
-TANDEM_HD Interface<Real> cross_interface(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
-                                          const Mask<Real>& from_inside, const Mask<Real>&) {
+TANDEM_HD_INLINE Interface<Real> cross_interface(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
+                                                 const Mask<Real>& from_inside, const Mask<Real>&) {
     const UInt<Real> none(no_medium);
     return {select(from_inside, material, none), select(from_inside, none, material)};
 }
 template <class Effects, class Real>
-TANDEM_HD Interface<Real> cross_interface(const SceneView& scene, MediumStack<Real>& stack, const UInt<Real>& material,
-                                          const Mask<Real>& from_inside, const Mask<Real>& active) {
+TANDEM_HD_INLINE Interface<Real> cross_interface(const SceneView& scene, MediumStack<Real>& stack,
+                                                 const UInt<Real>& material, const Mask<Real>& from_inside,
+                                                 const Mask<Real>& active) {
     using Word = UInt<Real>;
     if (!has_stack<Effects>(scene)) {
         NoMediumStack<Real> none;
@@ -112,7 +118,7 @@ TANDEM_HD Interface<Real> cross_interface(const SceneView& scene, MediumStack<Re
     Interface<Real> interface;
     interface.before = stack.current();
     Word priority(0U);
-    for_each_unique_lane(material, active, [&](std::uint32_t value, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
+    for_each_unique_lane(material, active, [&](std::uint32_t value, const Mask<Real>& here) {
         priority = select(here, Word(scene.optics[value].priority), priority);
     });
     const Mask<Real> no_room = stack.enter(material, priority, active && !from_inside);

@@ -28,12 +28,12 @@ class MediumStack {
     using Word = UInt<Real>;
     static constexpr int capacity = 8;
 
-    TANDEM_HD MediumStack() {
+    TANDEM_HD_INLINE MediumStack() {
         for (Word& entry : entries_) entry = Word(empty);
     }
 
     /// Returns the lanes of `active` whose stack is full; they stay unchanged.
-    TANDEM_HD Mask<Real> enter(const Word& medium, const Word& priority, const Mask<Real>& active) {
+    TANDEM_HD_INLINE Mask<Real> enter(const Word& medium, const Word& priority, const Mask<Real>& active) {
         const Word entry = (priority << medium_bits) | medium;
         Mask<Real> waiting = active;
         for (Word& place : entries_) {
@@ -46,7 +46,7 @@ class MediumStack {
 
     /// Removes the last entry of the medium. Returns the lanes of `active` that were not in this medium; they stay
     /// unchanged.
-    TANDEM_HD Mask<Real> leave(const Word& medium, const Mask<Real>& active) {
+    TANDEM_HD_INLINE Mask<Real> leave(const Word& medium, const Mask<Real>& active) {
         const Word nowhere(static_cast<std::uint32_t>(capacity));
         Word last = nowhere;
         for (int i = 0; i < capacity; ++i) {
@@ -61,7 +61,7 @@ class MediumStack {
     }
 
     /// The medium that fills the current point, or no_medium.
-    [[nodiscard]] TANDEM_HD Word current() const {
+    [[nodiscard]] TANDEM_HD_INLINE Word current() const {
         Word best(empty);
         for (const Word& entry : entries_) {
             const Mask<Real> filled = entry != Word(empty);
@@ -72,13 +72,13 @@ class MediumStack {
     }
 
     /// References to all values per lane.
-    TANDEM_HD auto per_lane() {
+    TANDEM_HD_INLINE auto per_lane() {
         auto& [a, b, c, d, e, f, g, h] = entries_;
         return std::tie(a, b, c, d, e, f, g, h);
     }
 
     /// `a` in the lanes of `mask`, else `b`.
-    TANDEM_HD friend MediumStack select(const Mask<Real>& mask, const MediumStack& a, const MediumStack& b) {
+    TANDEM_HD_INLINE friend MediumStack select(const Mask<Real>& mask, const MediumStack& a, const MediumStack& b) {
         MediumStack result;
         for (int i = 0; i < capacity; ++i) result.entries_[i] = select(mask, a.entries_[i], b.entries_[i]);
         return result;

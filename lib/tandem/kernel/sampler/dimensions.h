@@ -38,18 +38,19 @@ struct SampleId {
     /// The four numbers of a dimension at a vertex (0: where the camera ray hits), as uniform bits. The counter is
     /// (pixel, sample, dimension and vertex, frame) and the key is the seed, so each combination has its own numbers
     /// without any state.
-    TANDEM_HD PhiloxBlock<UInt<Real>> block(Dimension dimension, const UInt<Real>& vertex = UInt<Real>(0U)) const {
+    TANDEM_HD_INLINE PhiloxBlock<UInt<Real>> block(Dimension dimension,
+                                                   const UInt<Real>& vertex = UInt<Real>(0U)) const {
         return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                       static_cast<std::uint32_t>(seed >> 32));
     }
     /// The same, but out of line on the device, for numbers that a path needs at every vertex.
-    TANDEM_HD PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
+    TANDEM_HD_INLINE PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
         return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
                                                           static_cast<std::uint32_t>(seed >> 32));
     }
 
   private:
-    TANDEM_HD PhiloxBlock<UInt<Real>> counter(Dimension dimension, const UInt<Real>& vertex) const {
+    TANDEM_HD_INLINE PhiloxBlock<UInt<Real>> counter(Dimension dimension, const UInt<Real>& vertex) const {
         using Word = UInt<Real>;
         return {{pixel, sample, (vertex << 8) | Word(static_cast<std::uint32_t>(dimension)), Word(frame)}};
     }

@@ -15,7 +15,7 @@ struct PhiloxBlock {
 /// Source: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel Random Numbers: As Easy as 1, 2, 3", SC 2011, sec. 3.3;
 /// checked against the authors' known answers in tests/kernel/sampler/philox_test.cpp.
 template <class Word>
-TANDEM_HD PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
+TANDEM_HD_INLINE PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
     const Word multiplier0(0xD2511F53U);
     const Word multiplier1(0xCD9E8D57U);
 #if TANDEM_ON_DEVICE
@@ -34,7 +34,7 @@ TANDEM_HD PhiloxBlock<Word> philox4x32(PhiloxBlock<Word> counter, std::uint32_t 
 
 /// Uniform in [0, 1): the upper 24 bits, so that every value is exact in float and below 1.
 template <class Real>
-TANDEM_HD Real to_unit_interval(const UInt<Real>& word) {
+TANDEM_HD_INLINE Real to_unit_interval(const UInt<Real>& word) {
     return from_uint<Real>(word >> 8) * Real(0x1p-24F);
 }
 

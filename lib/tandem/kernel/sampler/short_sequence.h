@@ -14,11 +14,11 @@ class ShortSequence {
   public:
     using Word = UInt<Real>;
 
-    TANDEM_HD explicit ShortSequence(const PhiloxBlock<Word>& start)
+    TANDEM_HD_INLINE explicit ShortSequence(const PhiloxBlock<Word>& start)
         : a_(start.word[0]), b_(start.word[1]), c_(start.word[2]), counter_(start.word[3]) {}
 
     /// The next number, 32 uniform bits, in the lanes of `takes`; the others do not advance.
-    TANDEM_HD Word next(const Mask<Real>& takes) {
+    TANDEM_HD_INLINE Word next(const Mask<Real>& takes) {
         const Word result = (a_ + b_) + counter_;
         const Word a = b_ ^ (b_ >> 9);
         const Word b = c_ + (c_ << 3);

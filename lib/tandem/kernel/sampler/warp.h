@@ -20,7 +20,7 @@ struct DirectionSample {
 /// Source: P. Shirley, K. Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997: maps squares around the
 /// centre to circles.
 template <class Real>
-TANDEM_HD Vec2<Double<Real>> sample_disk(const Double<Real>& u, const Double<Real>& v) {
+TANDEM_HD_INLINE Vec2<Double<Real>> sample_disk(const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;
     const D one(1.0F);
     const D x = u + u - one;
@@ -36,8 +36,8 @@ TANDEM_HD Vec2<Double<Real>> sample_disk(const Double<Real>& u, const Double<Rea
 /// +y. sides >= 3. Density 2 / (n sin(2 pi / n)).
 /// Method: u chooses one of the triangles around the centre, and its remainder the distance from the centre.
 template <class Real>
-TANDEM_HD Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real>& rotation, const Double<Real>& u,
-                                                    const Double<Real>& v) {
+TANDEM_HD_INLINE Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real>& rotation,
+                                                           const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -58,15 +58,15 @@ TANDEM_HD Vec2<Double<Real>> sample_regular_polygon(int sides, const Double<Real
 /// Uniform in the aperture of a thin lens of radius 1: a polygon with `blades` corners, or a disk for 0. `rotation`: of
 /// the first corner, in turns.
 template <class Real>
-TANDEM_HD Vec2<Double<Real>> sample_aperture(int blades, const Double<Real>& rotation, const Double<Real>& u,
-                                             const Double<Real>& v) {
+TANDEM_HD_INLINE Vec2<Double<Real>> sample_aperture(int blades, const Double<Real>& rotation, const Double<Real>& u,
+                                                    const Double<Real>& v) {
     if (blades == 0) return sample_disk<Real>(u, v);
     return sample_regular_polygon<Real>(blades, rotation, u, v);
 }
 
 /// Density of sample_cosine_hemisphere() for the cosine of the angle to the normal.
 template <class D>
-TANDEM_HD D cosine_hemisphere_pdf(const D& cosine) {
+TANDEM_HD_INLINE D cosine_hemisphere_pdf(const D& cosine) {
     return greater(cosine, D(0.0F)) * constant<D>(inverse_pi);
 }
 
@@ -75,8 +75,8 @@ TANDEM_HD D cosine_hemisphere_pdf(const D& cosine) {
 /// Calculations", ACM TOG 15(1), 1996): points of a disk, lifted to the hemisphere. The height is computed from the
 /// radius before the concentric map, so that it does not cancel at the horizon.
 template <class Real>
-TANDEM_HD DirectionSample<Real> sample_cosine_hemisphere(const Vec3<Double<Real>>& normal, const Double<Real>& u,
-                                                         const Double<Real>& v) {
+TANDEM_HD_INLINE DirectionSample<Real> sample_cosine_hemisphere(const Vec3<Double<Real>>& normal, const Double<Real>& u,
+                                                                const Double<Real>& v) {
     using D = Double<Real>;
     const D one(1.0F);
     const Vec2<D> point = sample_disk<Real>(u, v);
@@ -91,7 +91,7 @@ inline constexpr double uniform_sphere_pdf = inverse_pi / 4;
 
 /// Uniform over all directions.
 template <class Real>
-TANDEM_HD DirectionSample<Real> sample_sphere(const Double<Real>& u, const Double<Real>& v) {
+TANDEM_HD_INLINE DirectionSample<Real> sample_sphere(const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;
     const D one(1.0F);
     const D radius = square_root(u * (one - u));

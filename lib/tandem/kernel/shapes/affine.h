@@ -24,7 +24,7 @@ static_assert(sizeof(Placement) == 72 + 24 + 16 + 24 + 8,
 struct Ellipsoid : Placement {};
 struct Parallelepiped : Placement {};
 
-TANDEM_HD Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
+TANDEM_HD_INLINE Aabb bounds(const Placement& placement) { return enclose(placement.centre, placement.half_extent); }
 
 /// A ray in object space, double, not normalised.
 template <class Real>
@@ -34,27 +34,27 @@ struct ObjectRay {
 };
 
 template <class Real>
-TANDEM_HD ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>& ray) {
+TANDEM_HD_INLINE ObjectRay<Real> to_object(const Placement& placement, const Ray<Real>& ray) {
     using D = Double<Real>;
     const Vec3<D> offset = widen(ray.origin) - constant<D>(placement.centre);
     return {multiply(placement.object_from_world, offset), multiply(placement.object_from_world, widen(ray.direction))};
 }
 
 template <class Real>
-TANDEM_HD SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray,
-                                            const SphereLines<Real>& lines = {}) {
+TANDEM_HD_INLINE SphereRoots<Real> ellipsoid_roots(const Placement& placement, const Ray<Real>& ray,
+                                                   const SphereLines<Real>& lines = {}) {
     const ObjectRay<Real> local = to_object(placement, ray);
     const Double<Real> zero(0.0);
     return sphere_roots<Real>(local.origin, {zero, zero, zero}, local.direction, Double<Real>(1.0), lines);
 }
 
 template <class Real>
-TANDEM_HD Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
+TANDEM_HD_INLINE Crossing<Real> cross_ellipsoid(const Placement& placement, const Ray<Real>& ray) {
     return to_crossing(ellipsoid_roots(placement, ray));
 }
 
 template <class Real>
-TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
+TANDEM_HD_INLINE BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
     using D = Double<Real>;
     const Vec3<D> one = {D(1.0), D(1.0), D(1.0)};
     return cross_box<Real>(-one, one, local.origin, local.direction);
@@ -62,38 +62,40 @@ TANDEM_HD BoxCrossing<Real> cross_parallelepiped(const ObjectRay<Real>& local) {
 
 /// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
-                               const Mask<Real>& active = Mask<Real>(true)) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Ellipsoid& body, const Ray<Real>& ray, Double<Real>& t,
+                                      const Mask<Real>& active = Mask<Real>(true)) {
     return active && first_hit(ellipsoid_roots<Real>(body, ray, {active}), t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
-                               const Mask<Real>& active = Mask<Real>(true)) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Parallelepiped& body, const Ray<Real>& ray, Double<Real>& t,
+                                      const Mask<Real>& active = Mask<Real>(true)) {
     return active && first_hit<Real>(cross_parallelepiped(to_object(body, ray)), t);
 }
 
 /// World-space unit normal from an object-space one: the inverse transpose of world_from_object.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> to_world_normal(const Placement& placement, const Vec3<Double<Real>>& object_normal) {
+TANDEM_HD_INLINE Vec3<Double<Real>> to_world_normal(const Placement& placement,
+                                                    const Vec3<Double<Real>>& object_normal) {
     return normalize(multiply(transpose(placement.object_from_world), object_normal));
 }
 
 // For closed solids `from_inside` follows from the ray's origin, so that a grazing ray enters before it leaves.
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>&,
-                                     const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const Ellipsoid& body, const Ray<Real>& ray, const Double<Real>&,
+                                            const Mask<Real>& exits, const Mask<Real>&) {
     const ObjectRay<Real> local = to_object(body, ray);
     return {UInt<Real>(0U), exits || dot(local.origin, local.origin) < Double<Real>(1.0)};
 }
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>&,
-                                     const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const Parallelepiped& body, const Ray<Real>& ray, const Double<Real>&,
+                                            const Mask<Real>& exits, const Mask<Real>&) {
     const ObjectRay<Real> local = to_object(body, ray);
     return record_hit<Real>(cross_parallelepiped(local), local.direction, exits);
 }
 
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const Ray<Real>& ray, const Double<Real>& t) {
+TANDEM_HD_INLINE Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const Ray<Real>& ray,
+                                                     const Double<Real>& t) {
     using D = Double<Real>;
     const ObjectRay<Real> local = to_object(placement, ray);
     return to_world_normal<Real>(placement,
@@ -102,7 +104,7 @@ TANDEM_HD Vec3<Double<Real>> ellipsoid_normal(const Placement& placement, const 
 }
 
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const HitRecord<Real>& record) {
+TANDEM_HD_INLINE Vec3<Double<Real>> parallelepiped_normal(const Placement& placement, const HitRecord<Real>& record) {
     return to_world_normal<Real>(placement, face_normal(record));
 }
 

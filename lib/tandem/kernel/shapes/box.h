@@ -17,7 +17,7 @@ struct alignas(16) Box {
     float unused[2] = {0, 0};
 };
 
-TANDEM_HD Aabb bounds(const Box& box) { return {box.lower, box.upper}; }
+TANDEM_HD_INLINE Aabb bounds(const Box& box) { return {box.lower, box.upper}; }
 
 /// Entry and exit of a line through a box, and the axes (0, 1, 2) of the faces where it enters and leaves.
 template <class Real>
@@ -113,10 +113,10 @@ requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Doubl
 
 /// The same in the tier fast: in float, with reciprocals, not exact. A ray in the plane of a face may miss.
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
-                                                              const Vec3<Double<Real>>& upper,
-                                                              const Vec3<Double<Real>>& origin,
-                                                              const Vec3<Double<Real>>& direction) {
+requires(is_fast<Real>) TANDEM_HD_INLINE BoxCrossing<Real> cross_box(const Vec3<Double<Real>>& lower,
+                                                                     const Vec3<Double<Real>>& upper,
+                                                                     const Vec3<Double<Real>>& origin,
+                                                                     const Vec3<Double<Real>>& direction) {
     BoxCrossing<Real> result;
     result.t_near = Real(-__builtin_huge_valf());
     result.t_far = Real(__builtin_huge_valf());
@@ -143,23 +143,23 @@ requires(is_fast<Real>) TANDEM_HD BoxCrossing<Real> cross_box(const Vec3<Double<
 }
 
 template <class Real>
-TANDEM_HD BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
+TANDEM_HD_INLINE BoxCrossing<Real> cross_box(const Box& box, const Ray<Real>& ray) {
     using D = Double<Real>;
     return cross_box<Real>(broadcast<D>(box.lower), broadcast<D>(box.upper), widen(ray.origin), widen(ray.direction));
 }
 
 /// The nearest hit in front of the ray's origin, in the lanes of `active`.
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Box& box, const Ray<Real>& ray, Double<Real>& t,
-                               const Mask<Real>& active = Mask<Real>(true)) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Box& box, const Ray<Real>& ray, Double<Real>& t,
+                                      const Mask<Real>& active = Mask<Real>(true)) {
     return active && first_hit<Real>(cross_box(box, ray), t);
 }
 
 /// The record of the face that the ray hits first or, in the lanes of `exits`, of the face where it leaves the box.
 /// Faces are numbered 2 axis + (1 for the upper one).
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
-                                     const Mask<Real>& exits) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Double<Real>>& direction,
+                                            const Mask<Real>& exits) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const D zero(0.0);
@@ -172,20 +172,19 @@ TANDEM_HD HitRecord<Real> record_hit(const BoxCrossing<Real>& c, const Vec3<Doub
     return {(axis << 1) | upper, !entering};
 }
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const Box& box, const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& exits,
-                                     const Mask<Real>&) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const Box& box, const Ray<Real>& ray, const Double<Real>&,
+                                            const Mask<Real>& exits, const Mask<Real>&) {
     return record_hit<Real>(cross_box(box, ray), widen(ray.direction), exits);
 }
 
 /// Unit outward normal of a face. Axis-aligned and so exact.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> face_normal(const HitRecord<Real>& record) {
+TANDEM_HD_INLINE Vec3<Double<Real>> face_normal(const HitRecord<Real>& record) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const Word axis = record.part >> 1;
     const D outward = select((record.part & Word(1U)) != Word(0U), D(1.0), D(-1.0));
-    const auto component = [&](std::uint32_t a)
-                               TANDEM_INLINE_LAMBDA { return select(axis == Word(a), outward, D(0.0)); };
+    const auto component = [&](std::uint32_t a) { return select(axis == Word(a), outward, D(0.0)); };
     return {component(0U), component(1U), component(2U)};
 }
 

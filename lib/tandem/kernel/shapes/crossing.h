@@ -16,7 +16,7 @@ struct Crossing {
 /// The first crossing in front of the origin: t_near if positive, else t_far if positive (origin inside), else a
 /// miss. `t` is written in every lane and is valid where the result is true.
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Crossing<Real>& c, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Crossing<Real>& c, Double<Real>& t) {
     const Double<Real> zero(0.0);
     t = select(c.t_near > zero, c.t_near, c.t_far);
     return c.crosses && t > zero;

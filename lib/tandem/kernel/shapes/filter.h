@@ -23,12 +23,12 @@ namespace tandem {
 inline constexpr float filter_margin = 12.0F * float_roundoff;
 
 template <class Real>
-TANDEM_HD Real loose_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
+TANDEM_HD_INLINE Real loose_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
     return loose_multiply_add(a.z, b.z, loose_multiply_add(a.y, b.y, a.x * b.x));
 }
 
 template <class Real>
-TANDEM_HD Vec3<Real> loose_cross(const Vec3<Real>& a, const Vec3<Real>& b) {
+TANDEM_HD_INLINE Vec3<Real> loose_cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {loose_multiply_add(a.y, b.z, -(a.z * b.y)), loose_multiply_add(a.z, b.x, -(a.x * b.z)),
             loose_multiply_add(a.x, b.y, -(a.y * b.x))};
 }
@@ -42,7 +42,7 @@ struct FilterRay {
 };
 
 template <class Real>
-TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
+TANDEM_HD_INLINE FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
     using F = Float<Real>;
     const Vec3<F> direction = narrow(ray.direction);
     const F length2 = loose_dot(direction, direction);
@@ -52,7 +52,7 @@ TANDEM_HD FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
 
 /// Whether the line of the ray may touch the sphere; false only for certain misses.
 template <class Real>
-TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
+TANDEM_HD_INLINE Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
     using F = Float<Real>;
     const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
     const Vec3<F> moment = loose_cross(offset, narrow(f.ray.direction));
@@ -66,7 +66,7 @@ TANDEM_HD Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sph
 /// centre. By the bound above offset . direction errs by less than 5 u |offset|_1 |direction|_1, and |offset|^2 by less
 /// than 8 u of itself, half of what `reach` adds to radius^2 where the two are close.
 template <class Real>
-TANDEM_HD Mask<Real> is_behind_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
+TANDEM_HD_INLINE Mask<Real> is_behind_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
     using F = Float<Real>;
     const Vec3<F> direction = narrow(f.ray.direction);
     const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
@@ -84,13 +84,13 @@ struct BoxFilter {
     float corner_norm1;  ///< |lower|_1 + |upper|_1: the rounding of `centre` and `half` is relative to this
 };
 
-TANDEM_HD BoxFilter make_box_filter(const Vec3f& lower, const Vec3f& upper) {
+TANDEM_HD_INLINE BoxFilter make_box_filter(const Vec3f& lower, const Vec3f& upper) {
     return {(lower + upper) * 0.5F, (upper - lower) * 0.5F, norm1(lower) + norm1(upper)};
 }
 
 /// Whether the line of the ray may touch the box. Separating axes of a line and a box: direction x each axis.
 template <class Real>
-TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& box) {
+TANDEM_HD_INLINE Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& box) {
     using F = Float<Real>;
     const Vec3<F> direction = narrow(f.ray.direction);
     const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(box.centre);
@@ -98,7 +98,7 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& bo
     const Vec3<F> d = {absolute(direction.x), absolute(direction.y), absolute(direction.z)};
     const F slack = loose_multiply_add(F(filter_margin) * (norm1(offset) + f.origin_norm1 + F(box.corner_norm1)),
                                        (d.x + d.y) + d.z, F(1e-36F));
-    const auto limit = [&](float h0, const F& d0, float h1, const F& d1) TANDEM_INLINE_LAMBDA {
+    const auto limit = [&](float h0, const F& d0, float h1, const F& d1) {
         return loose_multiply_add(F(h0), d0, loose_multiply_add(F(h1), d1, slack));
     };
     const F limit_x = limit(box.half.y, d.z, box.half.z, d.y);
@@ -108,7 +108,7 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const BoxFilter& bo
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
+TANDEM_HD_INLINE Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower, const Vec3f& upper) {
     return may_touch_box(f, make_box_filter(lower, upper));
 }
 
@@ -122,7 +122,8 @@ TANDEM_HD Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f& lower,
 /// the same error with |a| in place of |d|, plus u (|a| + |origin|) |e|^2 for the rounding of a. The terms with 1e-30
 /// keep the limits above the loss by underflow; where a volume overflows, its limit does too.
 template <class Real>
-TANDEM_HD Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+TANDEM_HD_INLINE Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1,
+                                               const Vec3f& v2) {
     using F = Float<Real>;
     const Vec3f e1 = v1 - v0;
     const Vec3f e2 = v2 - v0;

@@ -23,13 +23,13 @@ struct Closest {
 };
 
 template <class Real>
-TANDEM_HD Closest<Real> no_hit() {
+TANDEM_HD_INLINE Closest<Real> no_hit() {
     return {Double<Real>(__builtin_huge_val()), UInt<Real>(no_primitive)};
 }
 
 /// Whether (t, primitive) is nearer than `best`. On equal t the lower id wins, in any order of discovery.
 template <class Real>
-TANDEM_HD Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& primitive, const Closest<Real>& best) {
+TANDEM_HD_INLINE Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& primitive, const Closest<Real>& best) {
     return t < best.t || (t == best.t && primitive < best.primitive);
 }
 
@@ -49,7 +49,7 @@ struct Hit {
 
 /// `Real` of one lane.
 template <class Real>
-TANDEM_HD Hit to_hit(const Closest<Real>& closest) {
+TANDEM_HD_INLINE Hit to_hit(const Closest<Real>& closest) {
     if (closest.primitive == no_primitive) return {};
     return {to_plain(closest.t), closest.primitive};
 }

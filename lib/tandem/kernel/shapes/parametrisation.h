@@ -40,7 +40,7 @@ namespace parametrisation_detail {
 /// `p`: from the centre to the point, of any length. The directions are in the space of p; at the poles those of
 /// longitude 0.
 template <class Real>
-TANDEM_HD Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
+TANDEM_HD_INLINE Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
     using D = Double<Real>;
     const D zero(0.0);
     const D half(0.5);
@@ -57,7 +57,7 @@ TANDEM_HD Parametrisation<Real> on_globe(const Vec3<Double<Real>>& p) {
 /// `at`: the point along each axis, 0 to 1. `face`: the outward normal, along an axis. The directions are in the space
 /// of both.
 template <class Real>
-TANDEM_HD Parametrisation<Real> on_box(const Vec3<Double<Real>>& at, const Vec3<Double<Real>>& face) {
+TANDEM_HD_INLINE Parametrisation<Real> on_box(const Vec3<Double<Real>>& at, const Vec3<Double<Real>>& face) {
     using D = Double<Real>;
     const D zero(0.0);
     const D one(1.0);
@@ -74,18 +74,18 @@ TANDEM_HD Parametrisation<Real> on_box(const Vec3<Double<Real>>& at, const Vec3<
 }
 
 template <class Real>
-TANDEM_HD Double<Real> clamp_to_one(const Double<Real>& a) {
+TANDEM_HD_INLINE Double<Real> clamp_to_one(const Double<Real>& a) {
     return lesser(greater(a, Double<Real>(0.0)), Double<Real>(1.0));
 }
 
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<Real>& t) {
+TANDEM_HD_INLINE Vec3<Double<Real>> point_at(const ObjectRay<Real>& ray, const Double<Real>& t) {
     return {ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, ray.origin.z + t * ray.direction.z};
 }
 
 /// Transforms the directions from object space.
 template <class Real>
-TANDEM_HD Parametrisation<Real> to_world(const Placement& placement, const Parametrisation<Real>& own) {
+TANDEM_HD_INLINE Parametrisation<Real> to_world(const Placement& placement, const Parametrisation<Real>& own) {
     const Matrix3 world_from_object = inverse(placement.object_from_world);
     return {own.u, own.v, multiply(world_from_object, own.dp_du), multiply(world_from_object, own.dp_dv)};
 }
@@ -120,12 +120,12 @@ template <int count>
 struct Corners {
     Vec2f uv[count];
 };
-TANDEM_HD Corners<3> corners_of(const Triangle& face, const Vec2f* texcoords) {
+TANDEM_HD_INLINE Corners<3> corners_of(const Triangle& face, const Vec2f* texcoords) {
     const std::uint32_t first = face.attributes.texcoords;
     if (first == no_attributes) return {{{0, 0}, {1, 0}, {0, 1}}};
     return {{texcoords[first], texcoords[first + 1], texcoords[first + 2]}};
 }
-TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
+TANDEM_HD_INLINE Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
     const std::uint32_t first = face.attributes.texcoords;
     if (first == no_attributes) return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     return {{texcoords[first], texcoords[first + 1], texcoords[first + 2], texcoords[first + 3]}};
@@ -141,24 +141,24 @@ TANDEM_HD Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
 //        tests/kernel/shapes/parametrisation_test.cpp.
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Sphere& sphere, const HitRecord<Real>&, const Vec2f*,
-                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Sphere& sphere, const HitRecord<Real>&, const Vec2f*,
+                                                       const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     return parametrisation_detail::on_globe<Real>(sphere_offset(sphere, ray, t));
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Ellipsoid& body, const HitRecord<Real>&, const Vec2f*,
-                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Ellipsoid& body, const HitRecord<Real>&, const Vec2f*,
+                                                       const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     const auto own = parametrisation_detail::on_globe<Real>(parametrisation_detail::point_at(to_object(body, ray), t));
     return parametrisation_detail::to_world(body, own);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const HitRecord<Real>& record, const Vec2f*,
-                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Box& box, const HitRecord<Real>& record, const Vec2f*,
+                                                       const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
     using D = Double<Real>;
     const Vec3<D> direction = widen(ray.direction);
-    const auto along = [&](const D& o, const D& d, float lower, float upper) TANDEM_INLINE_LAMBDA {
+    const auto along = [&](const D& o, const D& d, float lower, float upper) {
         // across a flat box the size is 0 and the value does not matter
         const D size = D(upper) - D(lower);
         const D from_lower = (o - D(lower)) + t * d;
@@ -172,31 +172,31 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Box& box, const HitRecord<
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Parallelepiped& body, const HitRecord<Real>& record, const Vec2f*,
-                                                const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Parallelepiped& body, const HitRecord<Real>& record,
+                                                       const Vec2f*, const Ray<Real>& ray, const Double<Real>& t,
+                                                       const Mask<Real>&) {
     using D = Double<Real>;
     const ObjectRay<Real> local = to_object(body, ray);
     const Vec3<D> p = parametrisation_detail::point_at(local, t);
-    const auto along = [](const D& x) TANDEM_INLINE_LAMBDA {
-        return parametrisation_detail::clamp_to_one<Real>(D(0.5) * x + D(0.5));
-    };
+    const auto along = [](const D& x) { return parametrisation_detail::clamp_to_one<Real>(D(0.5) * x + D(0.5)); };
     const auto own =
         parametrisation_detail::on_box<Real>(Vec3<D>{along(p.x), along(p.y), along(p.z)}, face_normal(record));
     return parametrisation_detail::to_world(body, own);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Triangle& triangle, const HitRecord<Real>&,
-                                                const Vec2f* texcoords, const Ray<Real>& ray, const Double<Real>&,
-                                                const Mask<Real>& here) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Triangle& triangle, const HitRecord<Real>&,
+                                                       const Vec2f* texcoords, const Ray<Real>& ray,
+                                                       const Double<Real>&, const Mask<Real>& here) {
     const auto corner = parametrisation_detail::corners_of(triangle, texcoords);
     return parametrisation_detail::on_triangle<Real>(triangle.v0, triangle.v1, triangle.v2, corner.uv[0], corner.uv[1],
                                                      corner.uv[2], ray, here);
 }
 
 template <class Real>
-TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const HitRecord<Real>& record, const Vec2f* texcoords,
-                                                const Ray<Real>& ray, const Double<Real>&, const Mask<Real>& here) {
+TANDEM_HD_INLINE Parametrisation<Real> parametrisation(const Quad& quad, const HitRecord<Real>& record,
+                                                       const Vec2f* texcoords, const Ray<Real>& ray,
+                                                       const Double<Real>&, const Mask<Real>& here) {
     using D = Double<Real>;
     const auto corner = parametrisation_detail::corners_of(quad, texcoords);
     const auto& [a, b, c, d] = corner.uv;
@@ -208,7 +208,7 @@ TANDEM_HD Parametrisation<Real> parametrisation(const Quad& quad, const HitRecor
     if (any(here && !first)) {
         const auto second =
             parametrisation_detail::on_triangle<Real>(quad.v0, quad.v2, quad.v3, a, c, d, ray, here && !first);
-        const auto choose = [&](const D& x, const D& y) TANDEM_INLINE_LAMBDA { return select(first, x, y); };
+        const auto choose = [&](const D& x, const D& y) { return select(first, x, y); };
         result = {choose(result.u, second.u),
                   choose(result.v, second.v),
                   {choose(result.dp_du.x, second.dp_du.x), choose(result.dp_du.y, second.dp_du.y),

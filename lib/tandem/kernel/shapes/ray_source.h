@@ -23,7 +23,7 @@ using RaySource = Source<float>;
 
 /// Converts a caller's source to the types of a tier. `Real` of one lane.
 template <class Real>
-TANDEM_HD Source<Real> to_real(const RaySource& source) {
+TANDEM_HD_INLINE Source<Real> to_real(const RaySource& source) {
     return {source.primitive, source.inside};
 }
 
@@ -40,7 +40,8 @@ struct PathSource : Source<Real> {
 
 /// Whether a hit comes after the last masked hit, and so counts.
 template <class Real>
-TANDEM_HD Mask<Real> is_beyond(const Closest<Real>& last_masked, const Double<Real>& t, const UInt<Real>& primitive) {
+TANDEM_HD_INLINE Mask<Real> is_beyond(const Closest<Real>& last_masked, const Double<Real>& t,
+                                      const UInt<Real>& primitive) {
     return t > last_masked.t || (t == last_masked.t && primitive > last_masked.primitive);
 }
 
@@ -55,12 +56,12 @@ namespace source_detail {
 /// Makes t positive. The far crossing of an inward ray is in front of it, unless rounding moved the origin out of the
 /// solid; then the hit is at once.
 template <class Real>
-TANDEM_HD Double<Real> in_front(const Double<Real>& t) {
+TANDEM_HD_INLINE Double<Real> in_front(const Double<Real>& t) {
     return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
 }
 
 template <class Real>
-TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
+TANDEM_HD_INLINE Double<Real> far_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
     // If the line misses the sphere because rounding moved the origin outside: the point of the line nearest to the
     // sphere.
@@ -77,36 +78,37 @@ TANDEM_HD Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 // root at the origin is not computed, so that it need not be told from the exit.
 
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
     const Mask<Real> hit = first_hit(roots, t);
     t = select(own, source_detail::far_crossing(roots), t);
     return hit || own;
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const BoxCrossing<Real>& crossing, const Mask<Real>& own, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const BoxCrossing<Real>& crossing, const Mask<Real>& own,
+                                              Double<Real>& t) {
     const Mask<Real> hit = first_hit<Real>(crossing, t);
     t = select(own, source_detail::in_front<Real>(crossing.t_far), t);
     return hit || own;
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
-                                       const Mask<Real>& active, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const Sphere& sphere, const Ray<Real>& ray, const Mask<Real>& own,
+                                              const Mask<Real>& active, Double<Real>& t) {
     return active && first_hit_or_exit(sphere_roots<Real>(sphere, ray, {active, own}), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const Box& box, const Ray<Real>& ray, const Mask<Real>& own,
-                                       const Mask<Real>& active, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const Box& box, const Ray<Real>& ray, const Mask<Real>& own,
+                                              const Mask<Real>& active, Double<Real>& t) {
     return active && first_hit_or_exit(cross_box(box, ray), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                       const Mask<Real>& active, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const Ellipsoid& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                              const Mask<Real>& active, Double<Real>& t) {
     return active && first_hit_or_exit(ellipsoid_roots<Real>(body, ray, {active, own}), own, t);
 }
 template <class Real>
-TANDEM_HD Mask<Real> first_hit_or_exit(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
-                                       const Mask<Real>& active, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const Parallelepiped& body, const Ray<Real>& ray, const Mask<Real>& own,
+                                              const Mask<Real>& active, Double<Real>& t) {
     return active && first_hit_or_exit(cross_parallelepiped(to_object(body, ray)), own, t);
 }
 
@@ -116,39 +118,39 @@ inline constexpr bool is_face = std::is_same_v<Primitive, Triangle> || std::is_s
 /// The lanes whose ray can hit primitive `id`: not those that left it outward or left a face, nor those that have it
 /// certainly `behind` them.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+TANDEM_HD_INLINE Mask<Real> can_meet(const Source<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
     if constexpr (is_face<Primitive>) return !own && !behind;
     return select(own, source.inside, !behind);
 }
 /// A ray does not hit a triangle again after a masked hit on it.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
+TANDEM_HD_INLINE Mask<Real> can_meet(const PathSource<Real>& source, std::uint32_t id, const Mask<Real>& behind) {
     const Source<Real>& surface = source;
     const Mask<Real> meets = can_meet<Real, Primitive>(surface, id, behind);
     if constexpr (!std::is_same_v<Primitive, Triangle>) return meets;
     return meets && source.last_masked.primitive != UInt<Real>(id);
 }
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
+TANDEM_HD_INLINE Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
     return !behind;
 }
 
 /// The lanes where a hit on primitive `id` is the far side of the solid that the ray left inward.
 template <class Real>
-TANDEM_HD Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
+TANDEM_HD_INLINE Mask<Real> leaves_inward(const Source<Real>& source, std::uint32_t id) {
     return source.inside && source.primitive == UInt<Real>(id);
 }
 template <class Real>
-TANDEM_HD Mask<Real> leaves_inward(NoSource, std::uint32_t) {
+TANDEM_HD_INLINE Mask<Real> leaves_inward(NoSource, std::uint32_t) {
     return Mask<Real>(false);
 }
 
 /// Whether a hit at `t` on primitive `id` is on its far side: where the ray left the primitive inward, and where it has
 /// passed a masked hit on the near side of the solid.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                 const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
+TANDEM_HD_INLINE Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                        const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>& here) {
     Mask<Real> far = leaves_inward<Real>(source, id);
     if constexpr (!is_face<Primitive>) {
         const Mask<Real> has_passed = here && !far && source.last_masked.t > Double<Real>(0.0);
@@ -163,8 +165,8 @@ TANDEM_HD Mask<Real> is_far_side(const PathSource<Real>& source, const Primitive
 /// The nearest hit of a ray from `source` on primitive `id`, in the lanes of `active`. A hit on a face beyond
 /// `farthest` may be omitted.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_hit_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
-                                    const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_from(NoSource, const Primitive& primitive, std::uint32_t, const Ray<Real>& ray,
+                                           const Mask<Real>& active, const Double<Real>& farthest, Double<Real>& t) {
     if constexpr (is_face<Primitive>) {
         return first_hit(primitive, ray, t, active, farthest);
     } else {
@@ -175,9 +177,9 @@ TANDEM_HD Mask<Real> first_hit_from(NoSource, const Primitive& primitive, std::u
 // A ray does not hit again a solid that it leaves outward, nor a face, nor a quad, even a folded one. Tested first,
 // because at the origin of the ray only exact arithmetic could decide.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_hit_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                    Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_from(const Source<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                           const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                           Double<Real>& t) {
     const Mask<Real> own = source.primitive == UInt<Real>(id);
     if constexpr (is_face<Primitive>) {
         return first_hit(primitive, ray, t, active && !own, farthest);
@@ -204,15 +206,14 @@ TANDEM_HD_CALL Double<Real> second_crossing(Body body, Ray<Real> ray, Mask<Real>
 // A ray may hit a primitive a second time after a masked hit on it: a solid on its far side, a folded quad on its other
 // half. `culls`: culled faces let rays pass from behind.
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_hit_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                    Double<Real>& t, bool culls) {
+TANDEM_HD_INLINE Mask<Real> first_hit_from(const PathSource<Real>& source, const Primitive& primitive, std::uint32_t id,
+                                           const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
+                                           Double<Real>& t, bool culls) {
     const UInt<Real> number(id);
     const Source<Real>& surface = source;
     if constexpr (is_face<Primitive>) {
         culls = culls && primitive.attributes.sides == FaceSides::culled;
-        const auto counts = [&](Mask<Real> hit, const Double<Real>& at, const Vec3f& b,
-                                const Vec3f& c) TANDEM_INLINE_LAMBDA {
+        const auto counts = [&](Mask<Real> hit, const Double<Real>& at, const Vec3f& b, const Vec3f& c) {
             hit = hit && is_beyond<Real>(source.last_masked, at, number);
             if (culls && any(hit)) hit = hit && !comes_from_behind(ray, geometric_normal<Real>(primitive.v0, b, c));
             return hit;
@@ -240,9 +241,9 @@ TANDEM_HD Mask<Real> first_hit_from(const PathSource<Real>& source, const Primit
 }
 
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> first_hit_from(const ShadowSource<Real>& source, const Primitive& primitive, std::uint32_t id,
-                                    const Ray<Real>& ray, const Mask<Real>& active, const Double<Real>& farthest,
-                                    Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit_from(const ShadowSource<Real>& source, const Primitive& primitive,
+                                           std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& active,
+                                           const Double<Real>& farthest, Double<Real>& t) {
     const Source<Real>& surface = source;
     return first_hit_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
 }

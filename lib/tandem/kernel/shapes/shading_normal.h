@@ -6,7 +6,7 @@
 namespace tandem {
 
 /// The shading normals of the corners of a face; null if it has none.
-TANDEM_HD const Vec3f* corner_normals(const Vec3f* normals, const FaceAttributes& attributes) {
+TANDEM_HD_INLINE const Vec3f* corner_normals(const Vec3f* normals, const FaceAttributes& attributes) {
     return attributes.normals == no_attributes ? nullptr : normals + attributes.normals;
 }
 
@@ -26,7 +26,7 @@ TANDEM_HD_CALL Vec3<Double<Real>> shading_normal(Vec3f v0, Vec3f v1, Vec3f v2, c
     if (normals != nullptr) {
         const Barycentrics<D> at = barycentrics(v0, v1, v2, ray, here);
         const D rest = (D(1.0) - at.u) - at.v;
-        const auto corner = [&](int i) TANDEM_INLINE_LAMBDA { return broadcast<D>(normals[i]); };
+        const auto corner = [&](int i) { return broadcast<D>(normals[i]); };
         const Vec3<D> sum = corner(0) * rest + corner(second) * at.u + corner(second + 1) * at.v;
         const Mask<Real> enough = dot(sum, sum) > D(0x1p-40);
         normal = select(enough, normalize(sum), own);
@@ -40,16 +40,16 @@ TANDEM_HD_CALL Vec3<Double<Real>> shading_normal(Vec3f v0, Vec3f v1, Vec3f v2, c
 
 /// `normals`: of the corners, in their order, or null.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3f* normals, const Ray<Real>& ray,
-                                            const Mask<Real>& here) {
+TANDEM_HD_INLINE Vec3<Double<Real>> shading_normal(const Triangle& triangle, const Vec3f* normals, const Ray<Real>& ray,
+                                                   const Mask<Real>& here) {
     return shading_normal<Real>(triangle.v0, triangle.v1, triangle.v2, normals, 1, is_double_sided(triangle.attributes),
                                 ray, here);
 }
 
 /// The same for the half of the quad that the ray hits.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> shading_normal(const Quad& quad, const HitRecord<Real>& record, const Vec3f* normals,
-                                            const Ray<Real>& ray, const Mask<Real>& here) {
+TANDEM_HD_INLINE Vec3<Double<Real>> shading_normal(const Quad& quad, const HitRecord<Real>& record,
+                                                   const Vec3f* normals, const Ray<Real>& ray, const Mask<Real>& here) {
     const bool double_sided = is_double_sided(quad.attributes);
     const Mask<Real> first = is_in_first_half(record);
     Vec3<Double<Real>> normal{};

@@ -15,7 +15,7 @@ struct alignas(16) Sphere {
     float radius;
 };
 
-TANDEM_HD Aabb bounds(const Sphere& sphere) {
+TANDEM_HD_INLINE Aabb bounds(const Sphere& sphere) {
     const double r = widen(sphere.radius);
     return enclose(widen(sphere.centre), {r, r, r});
 }
@@ -76,9 +76,9 @@ struct SphereLines {
 
 /// The roots in double only, from offset = origin - centre; `doubtful` where that may not suffice.
 template <class Real>
-TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
-                                                   const Vec3<Double<Real>>& direction, const Double<Real>& radius,
-                                                   const SphereLines<Real>& lines) {
+TANDEM_HD_INLINE SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& offset,
+                                                          const Vec3<Double<Real>>& direction,
+                                                          const Double<Real>& radius, const SphereLines<Real>& lines) {
     using D = Double<Real>;
     const D zero(0.0);
     const Vec3<D> moment = accurate_cross(offset, direction);
@@ -119,11 +119,11 @@ TANDEM_HD SphereRoots<Real> sphere_roots_in_double(const Vec3<Double<Real>>& off
 ///        Ray/Sphere Intersection", Ray Tracing Gems ch. 7; |moment| / |direction| is that perpendicular. Bound tested
 ///        by tests/kernel/shapes/sphere_test.cpp.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
-                                                                  const Vec3<Double<Real>>& centre,
-                                                                  const Vec3<Double<Real>>& direction,
-                                                                  const Double<Real>& radius,
-                                                                  const SphereLines<Real>& lines = {}) {
+requires(!is_fast<Real>) TANDEM_HD_INLINE SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                         const Vec3<Double<Real>>& centre,
+                                                                         const Vec3<Double<Real>>& direction,
+                                                                         const Double<Real>& radius,
+                                                                         const SphereLines<Real>& lines = {}) {
     using D = Double<Real>;
     const D zero(0.0);
     SphereRoots<Real> roots = sphere_roots_in_double<Real>(origin - centre, direction, radius, lines);
@@ -140,11 +140,11 @@ requires(!is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Dou
 
 /// The same in the tier fast: in float, without a second evaluation.
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
-                                                                 const Vec3<Double<Real>>& centre,
-                                                                 const Vec3<Double<Real>>& direction,
-                                                                 const Double<Real>& radius,
-                                                                 const SphereLines<Real>& = {}) {
+requires(is_fast<Real>) TANDEM_HD_INLINE SphereRoots<Real> sphere_roots(const Vec3<Double<Real>>& origin,
+                                                                        const Vec3<Double<Real>>& centre,
+                                                                        const Vec3<Double<Real>>& direction,
+                                                                        const Double<Real>& radius,
+                                                                        const SphereLines<Real>& = {}) {
     const Vec3<Real> offset = origin - centre;
     SphereRoots<Real> roots;
     roots.doubtful = Mask<Real>(false);
@@ -164,7 +164,7 @@ requires(is_fast<Real>) TANDEM_HD SphereRoots<Real> sphere_roots(const Vec3<Doub
 
 /// Entry and exit.
 template <class Real>
-TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
+TANDEM_HD_INLINE Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
     using D = Double<Real>;
     const D zero(0.0);
     // q = 0 only for b = 0 and a tangent or empty line; both crossings are then at t = 0
@@ -177,7 +177,7 @@ TANDEM_HD Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
 /// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a if the centre is ahead (b >= 0), else c
 /// / q. From the surface (c = 0) an inward ray leaves at q / a; for an outward one c / q = 0 is no hit.
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
     using D = Double<Real>;
     const D zero(0.0);
     const Mask<Real> by_product = roots.c > zero || roots.b < zero;
@@ -186,15 +186,15 @@ TANDEM_HD Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) 
 }
 
 template <class Real>
-TANDEM_HD SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray,
-                                         const SphereLines<Real>& lines = {}) {
+TANDEM_HD_INLINE SphereRoots<Real> sphere_roots(const Sphere& sphere, const Ray<Real>& ray,
+                                                const SphereLines<Real>& lines = {}) {
     using D = Double<Real>;
     return sphere_roots<Real>(widen(ray.origin), broadcast<D>(sphere.centre), widen(ray.direction), D(sphere.radius),
                               lines);
 }
 
 template <class Real>
-TANDEM_HD Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray) {
+TANDEM_HD_INLINE Crossing<Real> cross_sphere(const Sphere& sphere, const Ray<Real>& ray) {
     return to_crossing(sphere_roots(sphere, ray));
 }
 
@@ -213,8 +213,9 @@ TANDEM_HD_COLD Double<Real> exact_first_hit(Sphere sphere, Ray<Real> ray) {
 /// The nearest hit in front of the ray's origin, in the lanes of `active`: first_hit(sphere_roots(sphere, ray),
 /// t), with the rare cases out of line.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
-                                                        const Mask<Real>& active = Mask<Real>(true)) {
+requires(!is_fast<Real>) TANDEM_HD_INLINE Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray,
+                                                               Double<Real>& t,
+                                                               const Mask<Real>& active = Mask<Real>(true)) {
     using D = Double<Real>;
     const SphereRoots<Real> roots = sphere_roots_in_double<Real>(widen(ray.origin) - broadcast<D>(sphere.centre),
                                                                  widen(ray.direction), D(sphere.radius), {active});
@@ -228,14 +229,15 @@ requires(!is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, co
 }
 
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray, Double<Real>& t,
-                                                       const Mask<Real>& active = Mask<Real>(true)) {
+requires(is_fast<Real>) TANDEM_HD_INLINE Mask<Real> first_hit(const Sphere& sphere, const Ray<Real>& ray,
+                                                              Double<Real>& t,
+                                                              const Mask<Real>& active = Mask<Real>(true)) {
     return active && first_hit(sphere_roots(sphere, ray), t);
 }
 
 /// From the centre to the point at parameter t of the ray.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
+TANDEM_HD_INLINE Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
     using D = Double<Real>;
     const Vec3<D> offset = widen(ray.origin) - broadcast<D>(sphere.centre);
     const Vec3<D> direction = widen(ray.direction);
@@ -245,15 +247,15 @@ TANDEM_HD Vec3<Double<Real>> sphere_offset(const Sphere& sphere, const Ray<Real>
 /// Unit outward normal, in double, at parameter t of the ray, which is on the sphere. Normalising the offset from the
 /// centre projects the point onto the sphere, so the error of t does not tilt the normal.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
+TANDEM_HD_INLINE Vec3<Double<Real>> sphere_normal(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>& t) {
     return normalize(sphere_offset(sphere, ray, t));
 }
 
 /// `exits`: the ray left the sphere inward, so it comes from inside, even if rounding moved its origin outside. For
 /// other rays the origin decides, so that a grazing ray enters before it leaves.
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>&,
-                                     const Mask<Real>& exits, const Mask<Real>&) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const Sphere& sphere, const Ray<Real>& ray, const Double<Real>&,
+                                            const Mask<Real>& exits, const Mask<Real>&) {
     using D = Double<Real>;
     const Vec3<D> start = widen(ray.origin) - broadcast<D>(sphere.centre);
     return {UInt<Real>(0U), exits || dot(start, start) < D(sphere.radius) * D(sphere.radius)};

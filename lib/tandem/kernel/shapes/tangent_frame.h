@@ -13,7 +13,7 @@ namespace tandem {
 /// dp_du without its component along the normal, after E. Lengyel, "Mathematics for 3D Game Programming and Computer
 /// Graphics", 7.8. Tested by tests/kernel/shapes/parametrisation_test.cpp.
 template <class D>
-TANDEM_HD Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, const Vec3<D>& dp_dv) {
+TANDEM_HD_INLINE Frame<D> tangent_frame(const Vec3<D>& normal, const Vec3<D>& dp_du, const Vec3<D>& dp_dv) {
     const Vec3<D> flat = dp_du - normal * dot(normal, dp_du);
     const D length2 = dot(flat, flat);
     const auto enough = length2 > constant<D>(0x1p-30) * dot(dp_du, dp_du);

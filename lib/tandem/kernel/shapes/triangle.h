@@ -21,7 +21,9 @@ struct FaceAttributes {
     FaceSides sides = FaceSides::single_sided;
 };
 
-TANDEM_HD bool is_double_sided(const FaceAttributes& attributes) { return attributes.sides == FaceSides::double_sided; }
+TANDEM_HD_INLINE bool is_double_sided(const FaceAttributes& attributes) {
+    return attributes.sides == FaceSides::double_sided;
+}
 
 /// World space, metres; counter-clockwise seen from the front. Not degenerate. Aligned, so that a GPU needs three
 /// loads.
@@ -33,13 +35,13 @@ static_assert(sizeof(Triangle) == 48, "no byte of a triangle is undefined; scene
 
 /// The bounding box of points.
 template <class... Points>
-TANDEM_HD Aabb box_around(const Points&... points) {
+TANDEM_HD_INLINE Aabb box_around(const Points&... points) {
     Aabb box;
     ((box = merge(box, Aabb{points, points})), ...);
     return box;
 }
 
-TANDEM_HD Aabb bounds(const Triangle& triangle) { return box_around(triangle.v0, triangle.v1, triangle.v2); }
+TANDEM_HD_INLINE Aabb bounds(const Triangle& triangle) { return box_around(triangle.v0, triangle.v1, triangle.v2); }
 
 /// Barycentric coordinates: the point v0 + u (v1 - v0) + v (v2 - v0); u and v in [0, 1], u + v <= 1.
 template <class D>
@@ -66,7 +68,7 @@ struct Volumes {
     D speed, above;  ///< d . (e1 x e2), their sum, and a . (e1 x e2): above / speed is t
     D above_error;
 
-    TANDEM_HD Volumes(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    TANDEM_HD_INLINE Volumes(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
         using S = Scalar<D>;
         const Vec3<S> e1 = Vec3<S>(v1) - Vec3<S>(v0);
         const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
@@ -86,7 +88,7 @@ struct Volumes {
     }
 
     /// Whether a crossing is certainly behind the origin or beyond `farthest`.
-    [[nodiscard]] TANDEM_HD Mask<Real> is_out_of_reach(const D& farthest) const {
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> is_out_of_reach(const D& farthest) const {
         const Mask<Real> turned = speed < D(0.0);
         const D height = select(turned, -above, above);
         const D most = (absolute(speed) + error) * D(1.0 + 0x1p-40);
@@ -101,7 +103,7 @@ struct RoughCrossing {
     Real t;
     Barycentrics<Real> at;
 
-    TANDEM_HD RoughCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    TANDEM_HD_INLINE RoughCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
         const Vec3<Real> e1 = broadcast<Real>(v1 - v0);
         const Vec3<Real> e2 = broadcast<Real>(v2 - v0);
         const Vec3<Real> p = cross(ray.direction, e2);
@@ -115,15 +117,15 @@ struct RoughCrossing {
 
 /// a - b exactly, by component.
 template <class D>
-TANDEM_HD Vec3<Pair<D>> subtract(const Vec3<D>& a, const Vec3<D>& b) {
+TANDEM_HD_INLINE Vec3<Pair<D>> subtract(const Vec3<D>& a, const Vec3<D>& b) {
     return {two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
 }
 template <class D>
-TANDEM_HD D size_of(const Vec3<Pair<D>>& a) {
+TANDEM_HD_INLINE D size_of(const Vec3<Pair<D>>& a) {
     return (absolute(a.x.high) + absolute(a.y.high)) + absolute(a.z.high);
 }
 template <class D, class Scalar>
-TANDEM_HD Vec3<Pair<D>> broadcast_pairs(const Vec3<Pair<Scalar>>& a) {
+TANDEM_HD_INLINE Vec3<Pair<D>> broadcast_pairs(const Vec3<Pair<Scalar>>& a) {
     return {Pair<D>{D(a.x.high), D(a.x.low)}, Pair<D>{D(a.y.high), D(a.y.low)}, Pair<D>{D(a.z.high), D(a.z.low)}};
 }
 
@@ -135,7 +137,7 @@ struct PlaneCrossing {
     Mask<Real> in_front;
     Mask<Real> doubtful;  ///< pairs did not suffice for these lanes
 
-    TANDEM_HD PlaneCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    TANDEM_HD_INLINE PlaneCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
         using S = Scalar<D>;
         const Vec3<Pair<S>> e1 = subtract(Vec3<S>(v1), Vec3<S>(v0));
         const Vec3<Pair<S>> e2 = subtract(Vec3<S>(v2), Vec3<S>(v0));
@@ -157,11 +159,11 @@ struct PlaneCrossing {
 template <class T>
 class ExactCrossing {
   public:
-    TANDEM_HD ExactCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<T>& ray)
+    TANDEM_HD_INLINE ExactCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<T>& ray)
         : v_{Vec3<T>(v0), Vec3<T>(v1), Vec3<T>(v2)}, ray_(ray) {}
 
     /// The parameter of the hit, or infinity for a miss.
-    TANDEM_HD double parameter() const {
+    TANDEM_HD_INLINE double parameter() const {
         const double miss = __builtin_huge_val();
         const ExactSum<T> speed = volume();
         const int front = speed.sign();
@@ -180,7 +182,7 @@ class ExactCrossing {
     }
 
     /// For a line that crosses the triangle.
-    TANDEM_HD Barycentrics<double> barycentrics() const {
+    TANDEM_HD_INLINE Barycentrics<double> barycentrics() const {
         const ScaledPair whole = volume().leading();
         if (whole.mantissa.high == 0.0) return {0.0, 0.0};
         return {quotient(weight(1).leading(), whole), quotient(weight(2).leading(), whole)};
@@ -188,7 +190,7 @@ class ExactCrossing {
 
   private:
     /// det(d, p - o, q - o) for the edge p, q opposite a corner.
-    TANDEM_HD ExactSum<T> weight(int corner) const {
+    TANDEM_HD_INLINE ExactSum<T> weight(int corner) const {
         const Vec3<T>& p = v_[(corner + 1) % 3];
         const Vec3<T>& q = v_[(corner + 2) % 3];
         ExactSum<T> sum;
@@ -199,7 +201,7 @@ class ExactCrossing {
     }
 
     /// Their sum, in which the origin cancels: det(d, v1 - v0, v2 - v0).
-    TANDEM_HD ExactSum<T> volume() const {
+    TANDEM_HD_INLINE ExactSum<T> volume() const {
         ExactSum<T> sum;
         TANDEM_KEEP_LOOP
         for (int i = 0; i < 3; ++i) add_determinant(sum, ray_.direction, v_[i], v_[(i + 1) % 3]);
@@ -220,7 +222,7 @@ TANDEM_HD_CALL Barycentrics<double> exact_barycentrics(Vec3f v0, Vec3f v1, Vec3f
 }
 
 template <class Real>
-TANDEM_HD Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
+TANDEM_HD_INLINE Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     const Vec3<Real>&o = ray.origin, &d = ray.direction;
     return {{lane(o.x, i), lane(o.y, i), lane(o.z, i)}, {lane(d.x, i), lane(d.y, i), lane(d.z, i)}};
 }
@@ -254,7 +256,7 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
 
 /// The same in the tier fast: in float, not watertight. A line through an edge may miss both of its triangles.
 template <class Real>
-requires(is_fast<Real>) TANDEM_HD Real
+requires(is_fast<Real>) TANDEM_HD_INLINE Real
     parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&, const Real&) {
     const RoughCrossing<Real> crossing(v0, v1, v2, ray);
     const Real zero(0.0F);
@@ -265,8 +267,8 @@ requires(is_fast<Real>) TANDEM_HD Real
 
 /// In the lanes of `active`, within 2^-22; they may be out of range by as much.
 template <class Real>
-TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
-                                                       const Ray<Real>& ray, const Mask<Real>& active) {
+TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
+                                                              const Ray<Real>& ray, const Mask<Real>& active) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D whole = (w.w0 + w.w1) + w.w2;
@@ -304,26 +306,26 @@ TANDEM_HD Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Ve
 ///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by
 ///        tests/kernel/shapes/triangle_test.cpp and mesh_test.cpp.
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, Double<Real>& t,
-                               const Mask<Real>& active = Mask<Real>(true),
-                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
+                                      Double<Real>& t, const Mask<Real>& active = Mask<Real>(true),
+                                      const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     if (!any(active)) return active;
     t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active, farthest);
     return active && t > Double<Real>(0.0) && t < Double<Real>(__builtin_huge_val());
 }
 
 template <class Real>
-TANDEM_HD Mask<Real> first_hit(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
-                               const Mask<Real>& active = Mask<Real>(true),
-                               const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
+TANDEM_HD_INLINE Mask<Real> first_hit(const Triangle& triangle, const Ray<Real>& ray, Double<Real>& t,
+                                      const Mask<Real>& active = Mask<Real>(true),
+                                      const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     return first_hit(triangle.v0, triangle.v1, triangle.v2, ray, t, active, farthest);
 }
 
 /// The barycentric coordinates of a hit, in the lanes of `active`, whose rays hit the triangle. Within 2^-22 of the
 /// exact ones, except in the tier fast.
 template <class Real>
-TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
-                                                  const Ray<Real>& ray, const Mask<Real>& active) {
+TANDEM_HD_INLINE Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
+                                                         const Ray<Real>& ray, const Mask<Real>& active) {
     using D = Double<Real>;
     Barycentrics<D> at;
     if constexpr (is_fast<Real>) {
@@ -331,7 +333,7 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
     } else {
         at = triangle_detail::fine_barycentrics(v0, v1, v2, ray, active);
     }
-    const auto clamp = [](const D& x, const D& most) TANDEM_INLINE_LAMBDA { return lesser(greater(x, D(0.0)), most); };
+    const auto clamp = [](const D& x, const D& most) { return lesser(greater(x, D(0.0)), most); };
     at.u = clamp(at.u, D(1.0));
     at.v = clamp(at.v, D(1.0) - at.u);
     return at;
@@ -340,7 +342,7 @@ TANDEM_HD Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& 
 namespace triangle_detail {
 
 /// One component of (v1 - v0) x (v2 - v0), along a coordinate axis, without rounding.
-TANDEM_HD ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec3f& axis) {
+TANDEM_HD_INLINE ExactSum<float> shadow(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Vec3f& axis) {
     ExactSum<float> sum;
     add_determinant(sum, v0, v1, axis);
     add_determinant(sum, v1, v2, axis);
@@ -368,7 +370,7 @@ TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
 }  // namespace triangle_detail
 
 /// Unit geometric normal, on the front. Within 2^-28. Needs a triangle that is not degenerate.
-TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+TANDEM_HD_INLINE Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     const Vec3d e1 = widen(v1) - widen(v0);
     const Vec3d e2 = widen(v2) - widen(v0);
     const Vec3d direction = accurate_cross(e1, e2);
@@ -379,7 +381,7 @@ TANDEM_HD Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v
 
 /// The same for all lanes; in float in the tier fast.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+TANDEM_HD_INLINE Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     using D = Double<Real>;
     if constexpr (is_fast<Real>) {
         return normalize(cross(broadcast<D>(v1 - v0), broadcast<D>(v2 - v0)));
@@ -390,12 +392,12 @@ TANDEM_HD Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, 
 
 /// Whether a ray comes from behind a face. `normal`: its geometric_normal().
 template <class Real>
-TANDEM_HD Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<Real>>& normal) {
+TANDEM_HD_INLINE Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<Real>>& normal) {
     return dot(widen(ray.direction), normal) > Double<Real>(0.0);
 }
 
 /// Whether the area is exactly zero. No ray hits such a triangle.
-[[nodiscard]] TANDEM_HD bool is_degenerate(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+[[nodiscard]] TANDEM_HD_INLINE bool is_degenerate(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
     const Vec3d e1 = widen(v1) - widen(v0);
     const Vec3d e2 = widen(v2) - widen(v0);
     if (norm1(cross(e1, e2)) > triangle_detail::volume_error * (norm1(e1) * norm1(e2))) return false;
@@ -408,8 +410,8 @@ TANDEM_HD Mask<Real> comes_from_behind(const Ray<Real>& ray, const Vec3<Double<R
 
 /// A triangle has one part.
 template <class Real>
-TANDEM_HD HitRecord<Real> record_hit(const Triangle&, const Ray<Real>&, const Double<Real>&, const Mask<Real>&,
-                                     const Mask<Real>&) {
+TANDEM_HD_INLINE HitRecord<Real> record_hit(const Triangle&, const Ray<Real>&, const Double<Real>&, const Mask<Real>&,
+                                            const Mask<Real>&) {
     return {};
 }
 

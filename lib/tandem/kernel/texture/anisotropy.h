@@ -16,7 +16,7 @@ static_assert(sizeof(Anisotropy) == 44, "no byte is undefined; scene_hash() read
 
 /// What the texture says where there is none: along the tangent, of full strength.
 template <class Real>
-TANDEM_HD Rgba<Real> default_anisotropy_texel() {
+TANDEM_HD_INLINE Rgba<Real> default_anisotropy_texel() {
     return {Real(1.0F), Real(0.5F), Real(1.0F), Real(1.0F)};
 }
 
@@ -27,8 +27,8 @@ TANDEM_HD Rgba<Real> default_anisotropy_texel() {
 /// Where they vanish it is as without a texture. The result's sign does not matter: grooves have none. Source:
 /// KHR_materials_anisotropy.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> rough_tangent(const Anisotropy& anisotropy, const Frame<Double<Real>>& frame,
-                                           const Rgba<Real>& texel) {
+TANDEM_HD_INLINE Vec3<Double<Real>> rough_tangent(const Anisotropy& anisotropy, const Frame<Double<Real>>& frame,
+                                                  const Rgba<Real>& texel) {
     using D = Double<Real>;
     const D r = signed_level<Real>(texel.r);
     const D g = signed_level<Real>(texel.g);

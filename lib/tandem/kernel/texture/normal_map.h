@@ -13,7 +13,8 @@ namespace tandem {
 /// all vanish, the result is the frame's normal. For the back of a double-sided face, use the frame of the front and
 /// negate the result. Source: glTF 2.0, 3.9.3, normal textures.
 template <class Real>
-TANDEM_HD Vec3<Double<Real>> mapped_normal(const Frame<Double<Real>>& frame, const Rgba<Real>& texel, float scale) {
+TANDEM_HD_INLINE Vec3<Double<Real>> mapped_normal(const Frame<Double<Real>>& frame, const Rgba<Real>& texel,
+                                                  float scale) {
     using D = Double<Real>;
     const Vec3<D> sum = frame.tangent * (signed_level<Real>(texel.r) * D(scale)) +
                         frame.bitangent * (signed_level<Real>(texel.g) * D(scale)) +

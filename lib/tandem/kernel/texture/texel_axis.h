@@ -18,7 +18,7 @@ struct TexelPair {
 
 /// The largest integer not above `a`. In float, for the tier fast, magnitudes of 2^22 and more stay as they are.
 template <class D>
-TANDEM_HD D floor_of(const D& a) {
+TANDEM_HD_INLINE D floor_of(const D& a) {
     D nearest;
     if constexpr (sizeof(Scalar<D>) == sizeof(double)) {
         nearest = round_to_int(a);
@@ -31,7 +31,7 @@ TANDEM_HD D floor_of(const D& a) {
 
 /// Wraps a coordinate to [0, 1]. One that is not finite counts as 0.
 template <class D>
-TANDEM_HD D wrapped(const D& coordinate, Wrap wrap) {
+TANDEM_HD_INLINE D wrapped(const D& coordinate, Wrap wrap) {
     const D zero(0.0F);
     const D one(1.0F);
     const D finite = select(absolute(coordinate) < D(__builtin_huge_valf()), coordinate, zero);
@@ -45,15 +45,14 @@ TANDEM_HD D wrapped(const D& coordinate, Wrap wrap) {
 /// The texels around a coordinate of any size on an axis of `size` texels, from 1 to 65536; their centres are at half
 /// integers. For Filter::nearest `first` is the texel that contains the point, and the weight is 0.
 template <class D>
-TANDEM_HD TexelPair<D> texels_around(const D& coordinate, Wrap wrap, Filter filter, const D& size) {
+TANDEM_HD_INLINE TexelPair<D> texels_around(const D& coordinate, Wrap wrap, Filter filter, const D& size) {
     const D zero(0.0F);
     const D last = size - D(1.0F);
     const D along = wrapped(coordinate, wrap) * size;
     // beyond an end follows the other end, or the last texel is repeated
     const D before = wrap == Wrap::repeat ? last : zero;
     const D behind = wrap == Wrap::repeat ? zero : last;
-    const auto inside = [&](const D& i)
-                            TANDEM_INLINE_LAMBDA { return select(i < zero, before, select(i > last, behind, i)); };
+    const auto inside = [&](const D& i) { return select(i < zero, before, select(i > last, behind, i)); };
     if (filter == Filter::nearest) {
         const D texel = inside(floor_of(along));
         return {texel, texel, zero};

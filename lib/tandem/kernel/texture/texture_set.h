@@ -47,7 +47,7 @@ static_assert(sizeof(MaterialTextures) == 144 && sizeof(TextureDescriptor) == 28
               "no padding: scene_hash() reads all bytes");
 
 /// Whether the material reads vertex colours, or texture coordinates of another slot than 0.
-TANDEM_HD bool reads_several_slots(const MaterialTextures& material) {
+TANDEM_HD_INLINE bool reads_several_slots(const MaterialTextures& material) {
     return material.colour_slot != no_slot || (material.diffuse.slot | material.normal.slot | material.emission.slot |
                                                material.metallic_roughness.slot) != 0;
 }
@@ -59,9 +59,9 @@ struct TextureSet {
 #undef TANDEM_TEXTURE_ARRAY
 };
 
-TANDEM_HD bool has_textures(const TextureSet& set) { return set.materials != nullptr; }
+TANDEM_HD_INLINE bool has_textures(const TextureSet& set) { return set.materials != nullptr; }
 
-TANDEM_HD TextureView texture_view(const TextureSet& set, std::uint32_t texture) {
+TANDEM_HD_INLINE TextureView texture_view(const TextureSet& set, std::uint32_t texture) {
     const TextureDescriptor& d = set.textures[texture];
     return {set.texels + d.first_texel,
             set.levels + (d.space == ColourSpace::srgb ? 0 : 256),
@@ -77,15 +77,14 @@ template <class Real>
 TANDEM_HD_CALL Rgba<Real> sample(const TextureSet& set, const TextureUse& use, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
     if (use.texture == no_texture) return {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
-    const auto along = [&](const float* row)
-                           TANDEM_INLINE_LAMBDA { return (D(row[0]) * u + D(row[1]) * v) + D(row[2]); };
+    const auto along = [&](const float* row) { return (D(row[0]) * u + D(row[1]) * v) + D(row[2]); };
     return sample<Real>(texture_view(set, use.texture), along(use.u_row), along(use.v_row));
 }
 
 /// The product of two alphas. It is a float in every tier, like the cutoff: an alpha of k / 255 with a cutoff of k /
 /// 255 is opaque.
 template <class Real>
-TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
+TANDEM_HD_INLINE Real times_alpha(const Real& a, const Real& b) {
     const Float<Real> product = narrow(a) * narrow(b);
     if constexpr (std::is_same_v<Real, Float<Real>>) {
         return product;
@@ -96,7 +95,7 @@ TANDEM_HD Real times_alpha(const Real& a, const Real& b) {
 
 /// The lanes in which the material is opaque, given the alpha of its base colour.
 template <class Real>
-TANDEM_HD Mask<Real> is_opaque(const MaterialTextures& material, const Real& alpha) {
+TANDEM_HD_INLINE Mask<Real> is_opaque(const MaterialTextures& material, const Real& alpha) {
     return times_alpha(Real(material.alpha), alpha) >= Real(material.alpha_cutoff);
 }
 

@@ -22,7 +22,7 @@ struct Rgba {
 
 /// The coordinate from -1 to 1 that a level from 0 to 1 stands for, in a texture of directions.
 template <class Real>
-TANDEM_HD Double<Real> signed_level(const Real& level) {
+TANDEM_HD_INLINE Double<Real> signed_level(const Real& level) {
     const Double<Real> wide = widen(level);
     return (wide + wide) - Double<Real>(1.0F);
 }
@@ -31,7 +31,7 @@ namespace texture_detail {
 
 /// A T whose lane i is make(i).
 template <class T, class Make>
-TANDEM_HD T from_lanes(Make make) {
+TANDEM_HD_INLINE T from_lanes(Make make) {
     if constexpr (RealTraits<T>::lanes == 1) {
         return T(make(0));
     } else {
@@ -39,7 +39,7 @@ TANDEM_HD T from_lanes(Make make) {
     }
 }
 template <class Real, class Make>
-TANDEM_HD UInt<Real> words_from_lanes(Make make) {
+TANDEM_HD_INLINE UInt<Real> words_from_lanes(Make make) {
     if constexpr (RealTraits<Real>::lanes == 1) {
         return make(0);
     } else {
@@ -49,8 +49,8 @@ TANDEM_HD UInt<Real> words_from_lanes(Make make) {
 
 /// The texel in column x of row y; both are within the texture.
 template <class Real>
-TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, const Double<Real>& y) {
-    return words_from_lanes<Real>([&](int i) TANDEM_INLINE_LAMBDA {
+TANDEM_HD_INLINE UInt<Real> texel(const TextureView& texture, const Double<Real>& x, const Double<Real>& y) {
+    return words_from_lanes<Real>([&](int i) {
         const auto column = static_cast<std::uint32_t>(to_wide(lane(x, i)));
         const auto row = static_cast<std::uint32_t>(to_wide(lane(y, i)));
         return texture.texels[static_cast<std::size_t>(row) * texture.width + column];
@@ -59,12 +59,11 @@ TANDEM_HD UInt<Real> texel(const TextureView& texture, const Double<Real>& x, co
 
 /// Decodes a texel: red, green and blue at `shift` 0, 8 and 16, and alpha.
 template <class Real>
-TANDEM_HD Double<Real> colour(const TextureView& texture, const UInt<Real>& texel, int shift) {
-    return widen(from_lanes<Float<Real>>(
-        [&](int i) TANDEM_INLINE_LAMBDA { return texture.levels[(lane(texel, i) >> shift) & 0xFFU]; }));
+TANDEM_HD_INLINE Double<Real> colour(const TextureView& texture, const UInt<Real>& texel, int shift) {
+    return widen(from_lanes<Float<Real>>([&](int i) { return texture.levels[(lane(texel, i) >> shift) & 0xFFU]; }));
 }
 template <class Real>
-TANDEM_HD Double<Real> alpha(const UInt<Real>& texel) {
+TANDEM_HD_INLINE Double<Real> alpha(const UInt<Real>& texel) {
     return widen(from_uint<Float<Real>>(texel >> 24)) / Double<Real>(255.0F);
 }
 
@@ -76,7 +75,7 @@ struct Cell {
 
     /// Interpolates `value` of the four texels. Exact if they are equal.
     template <class Value>
-    TANDEM_HD Real mean(Value value) const {
+    TANDEM_HD_INLINE Real mean(Value value) const {
         using D = Double<Real>;
         const D a = value(corner[0]);
         const D c = value(corner[2]);
@@ -97,31 +96,30 @@ struct Cell {
 /// Source: the filters and wrap modes are those of glTF 2.0, 3.8.4, for a texture without mipmaps. Tested by
 ///        tests/kernel/texture/texture_test.cpp.
 template <class Real>
-TANDEM_HD Rgba<Real> sample(const TextureView& texture, const Double<Real>& u, const Double<Real>& v) {
+TANDEM_HD_INLINE Rgba<Real> sample(const TextureView& texture, const Double<Real>& u, const Double<Real>& v) {
     using D = Double<Real>;
     using Word = UInt<Real>;
-    const auto size = [](std::uint32_t texels) TANDEM_INLINE_LAMBDA { return D(to_float(texels)); };
+    const auto size = [](std::uint32_t texels) { return D(to_float(texels)); };
     const TexelPair<D> x = texels_around(u, texture.wrap_s, texture.filter, size(texture.width));
     const TexelPair<D> y = texels_around(v, texture.wrap_t, texture.filter, size(texture.height));
     texture_detail::Cell<Real> cell;
     cell.corner[0] = texture_detail::texel<Real>(texture, x.first, y.first);
-    const auto value_of = [&](auto mean) TANDEM_INLINE_LAMBDA -> Rgba<Real> {
-        const auto colour = [&](int shift) TANDEM_INLINE_LAMBDA {
-            return mean([&, shift](const Word& texel)
-                            TANDEM_INLINE_LAMBDA { return texture_detail::colour<Real>(texture, texel, shift); });
+    const auto value_of = [&](auto mean) -> Rgba<Real> {
+        const auto colour = [&](int shift) {
+            return mean([&, shift](const Word& texel) { return texture_detail::colour<Real>(texture, texel, shift); });
         };
         return {colour(0), colour(8), colour(16),
-                mean([](const Word& texel) TANDEM_INLINE_LAMBDA { return texture_detail::alpha<Real>(texel); })};
+                mean([](const Word& texel) { return texture_detail::alpha<Real>(texel); })};
     };
     if (texture.filter == Filter::nearest) {
-        return value_of([&](auto value) TANDEM_INLINE_LAMBDA { return to_real<Real>(value(cell.corner[0])); });
+        return value_of([&](auto value) { return to_real<Real>(value(cell.corner[0])); });
     }
     cell.corner[1] = texture_detail::texel<Real>(texture, x.second, y.first);
     cell.corner[2] = texture_detail::texel<Real>(texture, x.first, y.second);
     cell.corner[3] = texture_detail::texel<Real>(texture, x.second, y.second);
     cell.x = x.weight;
     cell.y = y.weight;
-    return value_of([&](auto value) TANDEM_INLINE_LAMBDA { return cell.mean(value); });
+    return value_of([&](auto value) { return cell.mean(value); });
 }
 
 }  // namespace tandem

@@ -22,11 +22,11 @@ static_assert(sizeof(BvhNode) == 64);
 /// A leaf holds entries [first, first + count): code = first * 8 + (count - 1).
 inline constexpr int max_leaf_size = 8;
 inline constexpr std::uint32_t max_bvh_primitives = 1U << 28;
-TANDEM_HD constexpr std::int32_t leaf_child(std::uint32_t first, std::uint32_t count) {
+TANDEM_HD_INLINE constexpr std::int32_t leaf_child(std::uint32_t first, std::uint32_t count) {
     return ~static_cast<std::int32_t>(first * 8 + (count - 1));
 }
-TANDEM_HD std::uint32_t leaf_first(std::int32_t child) { return static_cast<std::uint32_t>(~child) >> 3; }
-TANDEM_HD std::uint32_t leaf_count(std::int32_t child) { return (static_cast<std::uint32_t>(~child) & 7U) + 1; }
+TANDEM_HD_INLINE std::uint32_t leaf_first(std::int32_t child) { return static_cast<std::uint32_t>(~child) >> 3; }
+TANDEM_HD_INLINE std::uint32_t leaf_count(std::int32_t child) { return (static_cast<std::uint32_t>(~child) & 7U) + 1; }
 
 /// The depth limit of build_bvh(), so a traversal stack of this size cannot overflow.
 inline constexpr int max_bvh_depth = 64;

@@ -25,7 +25,7 @@ struct alignas(16) Float4 {
 };
 
 /// Loads 16 bytes at once; on the GPU through the read-only cache.
-TANDEM_HD Float4 load_float4(const void* address) {
+TANDEM_HD_INLINE Float4 load_float4(const void* address) {
 #if TANDEM_ON_DEVICE
     const float4 v = __ldg(static_cast<const float4*>(address));
     return {v.x, v.y, v.z, v.w};
@@ -36,7 +36,7 @@ TANDEM_HD Float4 load_float4(const void* address) {
 #endif
 }
 
-TANDEM_HD void count(unsigned long long* counter) {
+TANDEM_HD_INLINE void count(unsigned long long* counter) {
     if (counter == nullptr) return;
 #if TANDEM_ON_DEVICE
     atomicAdd(counter, 1ULL);
@@ -69,7 +69,7 @@ struct BvhStructure {
     BvhView bvh;
 
     template <Search search, class Real, class From>
-    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+    TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const Proposal<Real> proposal = propose(ray, bvh.frame, true);
         if (!proposal.active) return;
         const FilterRay<Real> filter = make_filter_ray(ray);
@@ -125,8 +125,8 @@ struct BvhStructure {
 
   private:
     template <class Real, class From>
-    TANDEM_HD void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
-                            const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
+    TANDEM_HD_INLINE void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
+                                   const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
         const std::uint32_t first = leaf_first(leaf);
         const std::uint32_t end = first + leaf_count(leaf);
         for (std::uint32_t i = first; i < end; ++i) {

@@ -18,7 +18,7 @@ struct ConstantMemoryStructure {
     BoxFilter boxes[max_boxes];
 
     template <Search search, class Real, class From>
-    TANDEM_HD void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+    TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const FilterRay<Real> f = make_filter_ray(ray);
         const Double<Real> t_max = best.t;
         std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
@@ -57,7 +57,7 @@ struct ConstantMemoryStructure {
 using ConstantMemoryTracer = RayTracer<ConstantMemoryStructure>;
 
 /// Whether the scene has few enough primitives, and only of these kinds.
-TANDEM_HD bool fits_constant_memory(const SceneView& scene) {
+TANDEM_HD_INLINE bool fits_constant_memory(const SceneView& scene) {
     return scene.sphere_count <= ConstantMemoryTracer::max_spheres &&
            scene.box_count <= ConstantMemoryTracer::max_boxes &&
            primitive_count(scene) == scene.sphere_count + scene.box_count;

@@ -10,8 +10,8 @@ namespace tandem {
 
 /// Keeps the nearer of `best` and a hit at t, in the lanes of `hit`.
 template <class Real>
-TANDEM_HD void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive,
-                            Closest<Real>& best) {
+TANDEM_HD_INLINE void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const UInt<Real>& primitive,
+                                   Closest<Real>& best) {
     const Mask<Real> closer = hit && is_closer(t, primitive, best);
     best.t = select(closer, t, best.t);
     best.primitive = select(closer, primitive, best.primitive);
@@ -20,8 +20,8 @@ TANDEM_HD void keep_nearest(const Mask<Real>& hit, const Double<Real>& t, const 
 /// Keeps the nearer of `best` and the hit of a ray from `source` on the primitive, in the lanes of `candidate`, which
 /// passed the filter. `From` is NoSource or one of the sources of ray_source.h.
 template <class Real, class From, class Primitive>
-TANDEM_HD void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray, const From& source,
-                              const Mask<Real>& candidate, Closest<Real>& best) {
+TANDEM_HD_INLINE void test_primitive(const Primitive& primitive, std::uint32_t id, const Ray<Real>& ray,
+                                     const From& source, const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
     Mask<Real> hit;
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
@@ -41,37 +41,37 @@ TANDEM_HD void test_primitive(const Primitive& primitive, std::uint32_t id, cons
 // The filter of each kind of primitive. A ray that leaves a surface passes the filter of its own primitive, because the
 // error of its origin is less than the filter allows.
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
+TANDEM_HD_INLINE Mask<Real> may_touch(const FilterRay<Real>& f, const Sphere& sphere) {
     return may_touch_sphere(f, sphere.centre, sphere.radius);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
+TANDEM_HD_INLINE Mask<Real> may_touch(const FilterRay<Real>& f, const Box& box) {
     return may_touch_box(f, box.lower, box.upper);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Placement& body) {
+TANDEM_HD_INLINE Mask<Real> may_touch(const FilterRay<Real>& f, const Placement& body) {
     return may_touch(f, body.bounding_sphere);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Triangle& triangle) {
+TANDEM_HD_INLINE Mask<Real> may_touch(const FilterRay<Real>& f, const Triangle& triangle) {
     return may_touch_triangle(f, triangle.v0, triangle.v1, triangle.v2);
 }
 template <class Real>
-TANDEM_HD Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
+TANDEM_HD_INLINE Mask<Real> may_touch(const FilterRay<Real>& f, const Quad& quad) {
     return may_touch_quad(f, quad);
 }
 
 /// Whether a primitive is certainly behind a ray. False for kinds that do not test this, or whose may_touch() does.
 template <class Real>
-TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Sphere& sphere) {
+TANDEM_HD_INLINE Mask<Real> is_behind(const FilterRay<Real>& f, const Sphere& sphere) {
     return is_behind_sphere(f, sphere.centre, sphere.radius);
 }
 template <class Real>
-TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>& f, const Placement& body) {
+TANDEM_HD_INLINE Mask<Real> is_behind(const FilterRay<Real>& f, const Placement& body) {
     return is_behind(f, body.bounding_sphere);
 }
 template <class Real, class Primitive>
-TANDEM_HD Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
+TANDEM_HD_INLINE Mask<Real> is_behind(const FilterRay<Real>&, const Primitive&) {
     return Mask<Real>(false);
 }
 
@@ -82,8 +82,8 @@ inline constexpr bool has_filter = !is_fast<Real> || std::is_base_of_v<Placement
 
 /// Intersects one primitive: first the float filter, then the decision.
 template <class Real, class From, class Primitive>
-TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f, const From& source,
-                         const Mask<Real>& active, Closest<Real>& best) {
+TANDEM_HD_INLINE void intersect(const Primitive& primitive, std::uint32_t id, const FilterRay<Real>& f,
+                                const From& source, const Mask<Real>& active, Closest<Real>& best) {
     if constexpr (!has_filter<Real, Primitive>) {
         test_primitive(primitive, id, f.ray, source, active, best);
     } else {
@@ -94,10 +94,9 @@ TANDEM_HD void intersect(const Primitive& primitive, std::uint32_t id, const Fil
 
 /// Intersects primitive `id`, of any kind. `kinds`: the kinds that the scene may have.
 template <class Real, std::uint32_t kinds = PrimitiveKinds::all, class From>
-TANDEM_HD void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
-                                   const From& source, const Mask<Real>& active, Closest<Real>& best) {
-    const auto as_itself = [&](const auto& primitive)
-                               TANDEM_INLINE_LAMBDA { intersect(primitive, id, f, source, active, best); };
+TANDEM_HD_INLINE void intersect_primitive(const SceneView& scene, std::uint32_t id, const FilterRay<Real>& f,
+                                          const From& source, const Mask<Real>& active, Closest<Real>& best) {
+    const auto as_itself = [&](const auto& primitive) { intersect(primitive, id, f, source, active, best); };
     visit_primitive<kinds>(scene, id, as_itself);
 }
 
@@ -106,7 +105,7 @@ enum class Search { nearest, any };
 
 /// The initial hit of a search for any hit with t < t_max. No hit at t_max itself replaces it.
 template <class Real>
-TANDEM_HD Closest<Real> closest_starting_at(const Double<Real>& t_max) {
+TANDEM_HD_INLINE Closest<Real> closest_starting_at(const Double<Real>& t_max) {
     return {t_max, UInt<Real>(0U)};
 }
 
@@ -122,7 +121,7 @@ struct LoopTracerFor {
 
     /// The nearest hit of a ray from `source`, of any type that test_primitive() takes.
     template <class Real, class From>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
         Closest<Real> best = no_hit<Real>();
         find<Search::nearest>(ray, source, active, best);
         return best;
@@ -130,8 +129,8 @@ struct LoopTracerFor {
 
     /// Whether the ray hits anything at t < t_max. The comparison is exact, in Double<Real>.
     template <class Real, class From>
-    TANDEM_HD Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
-                                  const Mask<Real>& active) const {
+    TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
+                                         const Mask<Real>& active) const {
         Closest<Real> best = closest_starting_at<Real>(t_max);
         find<Search::any>(ray, source, active, best);
         return active && best.t < t_max;
@@ -139,15 +138,16 @@ struct LoopTracerFor {
 
   private:
     template <Search search, class Real, class From>
-    TANDEM_HD void find(const Ray<Real>& ray, const From& source, const Mask<Real>& active, Closest<Real>& best) const {
+    TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, const Mask<Real>& active,
+                               Closest<Real>& best) const {
         if (!any(active)) return;
         const FilterRay<Real> f = make_filter_ray(ray);
         const Double<Real> t_max = best.t;
         std::uint32_t id = 0;
-        const auto try_all = [&](const auto* primitives, std::uint32_t count) TANDEM_INLINE_LAMBDA {
+        const auto try_all = [&](const auto* primitives, std::uint32_t count) {
             using Primitive = std::decay_t<decltype(*primitives)>;
             if (search == Search::any && !any(active && !(best.t < t_max))) return;
-            const auto is_candidate = [&](std::uint32_t i) TANDEM_INLINE_LAMBDA {
+            const auto is_candidate = [&](std::uint32_t i) {
                 return can_meet<Real, Primitive>(source, id + i, is_behind(f, primitives[i])) &&
                        may_touch(f, primitives[i]);
             };

@@ -19,7 +19,7 @@ struct StructureFrame {
 };
 
 /// `scene_bounds`: merged bounds of all primitives, not padded.
-TANDEM_HD StructureFrame make_structure_frame(const Aabb& scene_bounds) {
+TANDEM_HD_INLINE StructureFrame make_structure_frame(const Aabb& scene_bounds) {
     // the term 1e-30 keeps the margin a normal number, so that flush-to-zero inside Embree does not remove it
     const float margin = 32.0F * float_roundoff * reach(scene_bounds) + 1e-30F;
     return {pad(scene_bounds, 2.0F * margin), margin};
@@ -34,14 +34,14 @@ struct Proposal {
     Mask<Real> active;  ///< lanes whose ray may hit the bounds
 
     /// A float not below the query parameter of t: traversal may stop there.
-    TANDEM_HD Float<Real> limit(const Double<Real>& t) const {
+    TANDEM_HD_INLINE Float<Real> limit(const Double<Real>& t) const {
         const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
         const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
 
     /// A float in [0, query parameter of t]: traversal may start there for a ray whose last masked hit is at t.
-    TANDEM_HD Float<Real> start(const Double<Real>& t) const {
+    TANDEM_HD_INLINE Float<Real> start(const Double<Real>& t) const {
         using D = Double<Real>;
         const D zero(0.0);
         const D before = t - t * constant<D>(is_fast<Real> ? 0x1p-20 : 0x1p-50);
@@ -50,7 +50,7 @@ struct Proposal {
         return narrow(select(s > zero, select(s < most, s, most), zero));
     }
     template <class From>
-    TANDEM_HD Float<Real> start_for(const From& source) const {
+    TANDEM_HD_INLINE Float<Real> start_for(const From& source) const {
         if constexpr (std::is_base_of_v<PathSource<Real>, From>) {
             if (any(source.last_masked.t > Double<Real>(0.0))) [[unlikely]]
                 return start(source.last_masked.t);
@@ -59,7 +59,7 @@ struct Proposal {
     }
 
     /// The approximate t of a hit that the structure itself found at s; the rounding of t_offset remains.
-    TANDEM_HD Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
+    TANDEM_HD_INLINE Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 };
 
 namespace proposal_detail {
@@ -73,14 +73,14 @@ inline constexpr float least_length = 1e-15F;
 /// 4 u t, and the margin is 16 u t. So no ray that may hit anything is lost, and the entry is at most 2^-6 of the reach
 /// before the bounds, never behind them.
 template <class Real>
-TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, bool is_near_by) {
+TANDEM_HD_INLINE Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, bool is_near_by) {
     // A CPU divides twice as many floats as doubles at a time, and this runs for every camera ray. GPUs use double;
     // float has not been timed there. Rays in double are not narrowed.
     constexpr bool in_float = !TANDEM_ON_DEVICE && std::is_same_v<Scalar<Real>, float>;
     if (!in_float || !is_near_by) return cross_box(Box{bounds.lower, bounds.upper}, ray);
     const Real infinity(__builtin_huge_valf());
     Real t_near = -infinity, t_far = infinity;
-    const auto slab = [&](float lower, float upper, const Real& o, const Real& d) TANDEM_INLINE_LAMBDA {
+    const auto slab = [&](float lower, float upper, const Real& o, const Real& d) {
         // d = 0 gives infinities with the right signs, or NaN exactly on the padded bounds, where there is no primitive
         const Real a = (Real(lower) - o) / d;
         const Real b = (Real(upper) - o) / d;
@@ -99,7 +99,7 @@ TANDEM_HD Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>& ray, 
 
 /// Needs traceable rays in the lanes of `active` (is_traceable()).
 template <class Real>
-TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
+TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
     using D = Double<Real>;
     const Real x = absolute(ray.direction.x), y = absolute(ray.direction.y), z = absolute(ray.direction.z);
     const Real largest = select(active, greater(greater(x, y), z), Real(1.0F));
@@ -114,7 +114,7 @@ TANDEM_HD Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& fra
     proposal.t_offset = D(0.0);
     proposal.active = active;
     const Real limit(reach(frame.bounds));
-    const auto beyond = [&](const Real& distance) TANDEM_INLINE_LAMBDA {
+    const auto beyond = [&](const Real& distance) {
         return active && (absolute(ray.origin.x) > distance || absolute(ray.origin.y) > distance ||
                           absolute(ray.origin.z) > distance);
     };

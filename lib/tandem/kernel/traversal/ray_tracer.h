@@ -11,7 +11,7 @@ template <class Structure>
 struct RayTracer : Structure {
     /// As LoopTracer::closest().
     template <class Real, class From>
-    TANDEM_HD Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
         Closest<Real> best = no_hit<Real>();
         if (active) Structure::template find<Search::nearest>(ray, source, best);
         return best;
@@ -19,8 +19,8 @@ struct RayTracer : Structure {
 
     /// As LoopTracer::occluded().
     template <class Real>
-    TANDEM_HD bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
-                            bool active) const {
+    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+                                   bool active) const {
         Closest<Real> best = closest_starting_at<Real>(t_max);
         if (active) Structure::template find<Search::any>(ray, source, best);
         return best.t < t_max;

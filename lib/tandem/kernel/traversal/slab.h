@@ -15,7 +15,7 @@ struct SlabRay {
 
 /// `direction` is a unit vector. A component too small to invert is replaced, which moves the ray inside the scene by
 /// less than the padding of the boxes.
-TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
+TANDEM_HD_INLINE SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
     const auto invert = [](float d) {
         const float safe = absolute(d) < 1e-18F ? (d < 0.0F ? -1e-18F : 1e-18F) : d;
         return 1.0F / safe;
@@ -25,8 +25,8 @@ TANDEM_HD SlabRay make_slab_ray(const Vec3f& origin, const Vec3f& direction) {
 }
 
 /// The entry into the box within [start, limit]; above `limit` if there is none.
-TANDEM_HD float slab_entry(const SlabRay& ray, float lower_x, float upper_x, float lower_y, float upper_y,
-                           float lower_z, float upper_z, float start, float limit) {
+TANDEM_HD_INLINE float slab_entry(const SlabRay& ray, float lower_x, float upper_x, float lower_y, float upper_y,
+                                  float lower_z, float upper_z, float start, float limit) {
     const float x0 = loose_multiply_add(lower_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
     const float x1 = loose_multiply_add(upper_x, ray.inverse_direction.x, -ray.origin_over_direction.x);
     const float y0 = loose_multiply_add(lower_y, ray.inverse_direction.y, -ray.origin_over_direction.y);

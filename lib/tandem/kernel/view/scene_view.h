@@ -42,12 +42,12 @@ struct SceneView {
 };
 
 /// The picture of the environment; without one, its width is 0.
-TANDEM_HD EnvironmentPictureView environment_picture(const SceneView& scene) {
+TANDEM_HD_INLINE EnvironmentPictureView environment_picture(const SceneView& scene) {
     return {scene.environment_picture, scene.environment_texels, scene.environment_borders, scene.environment_band_ends,
             scene.environment_cell_ends};
 }
 
-TANDEM_HD std::uint32_t primitive_count(const SceneView& scene) {
+TANDEM_HD_INLINE std::uint32_t primitive_count(const SceneView& scene) {
     std::uint32_t count = 0;
 #define TANDEM_PRIMITIVE(Type, name, names) count += scene.name##_count;
 #include "tandem/kernel/view/primitives.def"
@@ -83,7 +83,7 @@ inline constexpr std::uint32_t kind_of = 0;
 #include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
 
-TANDEM_HD bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
+TANDEM_HD_INLINE bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
 
 /// Does a kernel learn what its scene has when it is linked (cuda/linked_facts.h)?
 #ifdef TANDEM_LINKED_KINDS
@@ -93,7 +93,7 @@ inline constexpr bool is_linked = false;
 #endif
 
 /// Can a scene have primitives of one of these kinds?
-TANDEM_HD bool may_have(std::uint32_t kinds) {
+TANDEM_HD_INLINE bool may_have(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_KINDS & kinds) != 0;
 #else
@@ -102,7 +102,7 @@ TANDEM_HD bool may_have(std::uint32_t kinds) {
 }
 
 /// Can a material read colours of corners, or texture coordinates of another slot than 0?
-TANDEM_HD bool may_have_several_slots() {
+TANDEM_HD_INLINE bool may_have_several_slots() {
 #if defined(TANDEM_LINKED_SEVERAL_SLOTS) && TANDEM_ON_DEVICE
     return TANDEM_LINKED_SEVERAL_SLOTS != 0;
 #else
@@ -111,7 +111,7 @@ TANDEM_HD bool may_have_several_slots() {
 }
 
 /// Can primitives of one of these kinds be cut out by their alpha, or culled?
-TANDEM_HD bool may_be_cut_out(std::uint32_t kinds) {
+TANDEM_HD_INLINE bool may_be_cut_out(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_CUTOUT_KINDS & kinds) != 0;
 #else
@@ -120,7 +120,7 @@ TANDEM_HD bool may_be_cut_out(std::uint32_t kinds) {
 }
 
 /// Can a light with an area be of one of these kinds?
-TANDEM_HD bool may_emit_light(std::uint32_t kinds) {
+TANDEM_HD_INLINE bool may_emit_light(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_LIGHT_KINDS & kinds) != 0;
 #else
@@ -130,7 +130,7 @@ TANDEM_HD bool may_emit_light(std::uint32_t kinds) {
 
 /// What a linked kernel knows of the number of area lights.
 enum class KnownAreaLights : std::uint32_t { unknown, one, several };
-TANDEM_HD KnownAreaLights known_area_lights() {
+TANDEM_HD_INLINE KnownAreaLights known_area_lights() {
 #if defined(TANDEM_LINKED_AREA_LIGHTS) && TANDEM_ON_DEVICE
     return static_cast<KnownAreaLights>(TANDEM_LINKED_AREA_LIGHTS);
 #else
@@ -139,7 +139,7 @@ TANDEM_HD KnownAreaLights known_area_lights() {
 }
 
 /// Has the scene no primitive that is cut out or culled? A kernel that is linked for a scene with some does not ask.
-TANDEM_HD bool has_no_cutouts(const SceneView& scene) {
+TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
 #if defined(TANDEM_LINKED_ANY_SCENE) && TANDEM_ON_DEVICE
     return TANDEM_LINKED_ANY_SCENE && scene.cutout_kinds == 0;
 #else
@@ -149,7 +149,7 @@ TANDEM_HD bool has_no_cutouts(const SceneView& scene) {
 
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
-TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
+TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
     // the last kind that there may be needs no comparison
 #define TANDEM_PRIMITIVE(Type, name, names)                                                   \
     if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
@@ -164,9 +164,9 @@ TANDEM_HD void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor
 }
 
 /// World-space bounds of primitive `id`, not padded.
-TANDEM_HD Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
+TANDEM_HD_INLINE Aabb primitive_bounds(const SceneView& scene, std::uint32_t id) {
     Aabb result;
-    visit_primitive(scene, id, [&](const auto& primitive) TANDEM_INLINE_LAMBDA { result = bounds(primitive); });
+    visit_primitive(scene, id, [&](const auto& primitive) { result = bounds(primitive); });
     return result;
 }
 
