@@ -1,0 +1,31 @@
+/// Approximate functions for bounds whose margins cover their error. As with loose_multiply_add(), results may differ
+/// between processors, so nothing that decides a bit of the image may depend on them.
+#pragma once
+
+#include "tandem/math/real.h"
+
+namespace tandem {
+
+/// 1 / a within 2^-22 of itself, for 2^-126 <= |a| <= 2^126.
+TANDEM_HD float rough_reciprocal(float a) {
+#if TANDEM_ON_DEVICE
+    float result;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(result) : "f"(a));
+    return result;
+#else
+    return 1.0F / a;
+#endif
+}
+
+/// 1 / sqrt(a) within 2^-22 of itself, for a >= 2^-126.
+TANDEM_HD float rough_inverse_square_root(float a) {
+#if TANDEM_ON_DEVICE
+    float result;
+    asm("rsqrt.approx.ftz.f32 %0, %1;" : "=f"(result) : "f"(a));
+    return result;
+#else
+    return 1.0F / square_root(a);
+#endif
+}
+
+}  // namespace tandem
