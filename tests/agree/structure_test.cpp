@@ -46,6 +46,15 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
     ASSERT_EQ(a.primitive, b.primitive) << what;
     ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << what;
     if (b.primitive == no_primitive) return;
+    // through all surfaces, as if they were masked there
+    PathSource<float> path;
+    for (path.last_masked = b; path.last_masked.primitive != no_primitive;) {
+        const Closest<float> next = one_by_one.closest(ray, path, true);
+        const Closest<float> same = tracer.closest(ray, path, true);
+        ASSERT_EQ(same.primitive, next.primitive) << what << ", through masks";
+        ASSERT_EQ(bits_of(same.t), bits_of(next.t)) << what << ", through masks";
+        path.last_masked = next;
+    }
     const Ray<double> wide = to_real<double>(ray);
     const Closest<double> precise = one_by_one.closest(wide, NoSource{}, true);
     const Closest<double> e = tracer.closest(wide, NoSource{}, true);
@@ -57,6 +66,9 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
     if (!is_traceable(spawned.ray)) return;
     const Closest<float> c = tracer.closest(spawned.ray, spawned.source, true);
     const Closest<float> d = one_by_one.closest(spawned.ray, spawned.source, true);
+    const PathSource<float> onwards = {spawned.source};
+    const Closest<float> f = tracer.closest(spawned.ray, onwards, true);
+    ASSERT_EQ(f.primitive, one_by_one.closest(spawned.ray, onwards, true).primitive) << what << ", onwards as a path";
     ASSERT_EQ(c.primitive, d.primitive) << what << ", onwards";
     ASSERT_EQ(bits_of(c.t), bits_of(d.t)) << what << ", onwards";
     ShadowSource<float> source;
@@ -153,7 +165,7 @@ std::size_t crowded_rays(const Structure& structure, const std::vector<Ray<float
     for (const Ray<float>& ray : rays) {
         const Proposal<float> proposal = propose(ray, structure.frame, is_traceable(ray));
         if (!proposal.active) continue;
-        const QueryRay query = tracer.make_query(NoSource{}, proposal);
+        const QueryRay query = make_query_ray(proposal, structure.frame, NoSource{});
         Candidates<decltype(tracer)::most_candidates> candidates;
         float limit = 3e38F;
         (void)tracer.collect<Search::nearest, float>(NoSource{}, query, 0.0F, limit, candidates);
@@ -181,6 +193,8 @@ TEST(Bvh, DecidesAboutCrowds) {
             faces.triangles.push_back({at, a, b});
             faces.triangles.push_back({{at.x, at.y, at.z + 1}, {at.x + 1, at.y, at.z + 1}, {at.x, at.y + 1, at.z + 1}});
             faces.quads.push_back({at, a, {at.x, at.y, at.z + 1}, {at.x - 1, at.y, at.z}});
+            if (i % 2 == 0) faces.quads.back().attributes.sides = FaceSides::culled;
+            if (i % 3 == 0) faces.triangles.back().attributes.sides = FaceSides::culled;
         }
     }
     for (PreparedScene* scene : {&solids, &faces}) {

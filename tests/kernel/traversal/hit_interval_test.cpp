@@ -41,7 +41,8 @@ void check(const Primitive& primitive, const Ray<float>& ray, const std::optiona
     const StructureFrame frame = any_frame(random, bounds(primitive));
     const Proposal<float> proposal = propose(ray, frame, true);
     if (!proposal.active) return;
-    const HitInterval interval = hit_interval(make_query_ray(proposal, frame), primitive, own);
+    const Source<float> source = {own ? 7U : no_primitive, own};
+    const HitInterval interval = hit_interval(make_query_ray(proposal, frame, source), primitive, own);
     ASSERT_GE(interval.lo, 0.0F) << where;
     ASSERT_LE(interval.lo, interval.hi) << where;
     ++(exact ? counts.hits : counts.misses);
@@ -67,7 +68,6 @@ void check(const Primitive& primitive, const Ray<float>& ray, const std::optiona
         }
     };
     expect_within(*exact, "exact");
-    const Source<float> source = {own ? 7U : no_primitive, own};
     double t = 0;
     if (first_hit_from(source, primitive, 7U, ray, true, __builtin_huge_val(), t)) expect_within(Big(t), "decided");
 }

@@ -29,8 +29,7 @@ enum class Decisions {
     behind_walk,  ///< the walk keeps candidates by their intervals (hit_interval.h), and all threads decide together
 };
 
-/// `kind_set`: as for LoopTracerFor. Rays of the tier fast, and those that pass alpha masks, are decided in leaves in
-/// any case.
+/// `kind_set`: as for LoopTracerFor. Rays of the tier fast are decided in leaves in any case.
 template <std::uint32_t kind_set, Decisions decisions = Decisions::in_leaves>
 struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
@@ -38,9 +37,8 @@ struct BvhStructure {
     /// At the edges of a mesh more faces than two are unsure.
     static constexpr int most_candidates = (kinds & PrimitiveKinds::faces) != 0 ? 4 : 2;
 
-    template <class Real, class From>
-    static constexpr bool decides_behind =
-        decisions == Decisions::behind_walk && !is_fast<Real> && !std::is_same_v<From, PathSource<Real>>;
+    template <class Real>
+    static constexpr bool decides_behind = decisions == Decisions::behind_walk && !is_fast<Real>;
 
     SceneView scene;
     BvhView bvh;
@@ -50,7 +48,7 @@ struct BvhStructure {
         const Proposal<Real> proposal = propose(ray, bvh.frame, true);
         if (!proposal.active) return;
         bvh_detail::WalkEnd end{};
-        if constexpr (decides_behind<Real, From>) {
+        if constexpr (decides_behind<Real>) {
             end = find_behind_walk<search>(ray, source, proposal, best);
         } else {
             end = find_in_leaves<search>(ray, source, proposal, best);
@@ -72,16 +70,6 @@ struct BvhStructure {
             candidates.add(interval.lo, id, limit);
             return false;
         });
-    }
-
-    template <class Real, class From>
-    TANDEM_HD QueryRay make_query(const From& source, const Proposal<Real>& proposal) const {
-        QueryRay query = make_query_ray(proposal, bvh.frame);
-        if constexpr (std::is_base_of_v<Source<Real>, From>) {
-            // a ray never misses the solid that it leaves inward, and the filter allows for this error of its origin
-            if (source.inside) query.drift += filter_margin * norm1(query.origin);
-        }
-        return query;
     }
 
   private:
@@ -133,7 +121,7 @@ struct BvhStructure {
         float limit = search == Search::any ? to_plain(proposal.limit(best.t)) : 3e38F;
         const float enough = search == Search::any ? to_plain(proposal.start(best.t)) : 0.0F;
         Candidates<most_candidates> candidates;
-        const QueryRay query = make_query(source, proposal);
+        const QueryRay query = make_query_ray(proposal, bvh.frame, source);
         const bvh_detail::WalkEnd end = collect<search, Real>(source, query, enough, limit, candidates);
         if (search == Search::any && end.stopped) {
             best = {0.0, some_primitive};
@@ -150,7 +138,7 @@ struct BvhStructure {
     TANDEM_HD bvh_detail::WalkEnd walk_intervals(const From& source, const QueryRay& query, const float& limit,
                                                  const Take& take) const {
         const SlabRay slab = make_slab_ray(query.origin, query.direction);
-        return bvh_detail::walk(bvh.nodes, slab, 0.0F, limit, [&](std::int32_t leaf) {
+        return bvh_detail::walk(bvh.nodes, slab, query.start, limit, [&](std::int32_t leaf) {
             const std::uint32_t first = leaf_first(leaf);
             const std::uint32_t end = first + leaf_count(leaf);
             for (std::uint32_t i = first; i < end; ++i) {
@@ -184,7 +172,7 @@ struct BvhStructure {
     TANDEM_HD_CALL Closest<Real> decide_crowd(const BvhStructure& self, Ray<Real> ray, From source, Closest<Real> best,
                                               float limit) {
         const Proposal<Real> proposal = propose(ray, self.bvh.frame, true);
-        const QueryRay query = self.make_query(source, proposal);
+        const QueryRay query = make_query_ray(proposal, self.bvh.frame, source);
         const Double<Real> t_max = best.t;
         Candidates<2> certain;
         const auto keep_or_decide = [&](const HitInterval& interval, std::uint32_t id) {

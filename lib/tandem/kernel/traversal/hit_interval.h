@@ -20,6 +20,7 @@
 #include "tandem/kernel/shapes/filter.h"
 #include "tandem/kernel/shapes/quad.h"
 #include "tandem/kernel/traversal/query_ray.h"
+#include "tandem/kernel/view/scene_view.h"
 #include "tandem/math/rough.h"
 
 namespace tandem {
@@ -193,7 +194,8 @@ TANDEM_HD HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& body, b
     const float middle = -loose_dot(object.origin, object.direction) * inverse;
     const auto half = [&](float radius) {
         const float rest = loose_multiply_add(length2 * radius, radius, -moment2);
-        return rest > 0.0F ? square_root(rest) * inverse : -1.0F;
+        // far below what the margin adds to the rest, and still normal
+        return rest > 1e-36F ? rest * rough_inverse_square_root(rest) * inverse : -1.0F;
     };
     const float outer = half(1.0F + margin);
     if (outer < 0.0F && own) return unsure_hit;
@@ -252,7 +254,29 @@ TANDEM_HD HitInterval hit_interval(const QueryRay& ray, const Quad& quad, bool) 
     return {lesser(first.lo, second.lo), lesser(first.hi, second.hi)};
 }
 
-/// The hit that counts for a ray from `source`, as first_hit_from() finds it, on primitive `id` of type `Primitive`.
+namespace interval_detail {
+
+/// What remains certain of a hit if those at or before the last masked one do not count.
+template <class Primitive>
+TANDEM_HD HitInterval beyond_masked(const HitInterval& hit, const QueryRay& ray) {
+    if (ray.passed == 0.0F || hit.lo > ray.passed) return hit;
+    // a solid and a folded quad may be hit a second time
+    if (std::is_same_v<Primitive, Triangle> && hit.hi < ray.start) return certain_miss;
+    return {hit.lo, infinity};
+}
+
+template <class Shape>
+TANDEM_HD bool is_culled(const Shape& shape) {
+    if constexpr (is_face<Shape>) {
+        return may_be_cut_out(kind_of<Shape>) && shape.attributes.sides == FaceSides::culled;
+    } else {
+        return false;
+    }
+}
+
+}  // namespace interval_detail
+
+/// The hit that counts for a ray from `source`, as test_primitive() finds it, on primitive `id` of type `Primitive`.
 /// `shape`: the primitive, or the SphereLine of a sphere.
 template <class Real, class Primitive, class From, class Shape>
 TANDEM_HD HitInterval hit_interval_from(const From& source, std::uint32_t id, const QueryRay& ray, const Shape& shape) {
@@ -260,7 +284,12 @@ TANDEM_HD HitInterval hit_interval_from(const From& source, std::uint32_t id, co
     if constexpr (std::is_same_v<From, ShadowSource<Real>>) {
         if (source.light == id) return certain_miss;
     }
-    return hit_interval(ray, shape, leaves_inward<Real>(source, id));
+    HitInterval hit = hit_interval(ray, shape, leaves_inward<Real>(source, id));
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        hit = interval_detail::beyond_masked<Primitive>(hit, ray);
+        if (interval_detail::is_culled(shape)) hit.hi = interval_detail::infinity;  // its back does not count
+    }
+    return hit;
 }
 
 }  // namespace tandem

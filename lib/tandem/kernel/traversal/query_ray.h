@@ -1,6 +1,7 @@
 /// The query ray of a proposal as the bounds of hits need it.
 #pragma once
 
+#include "tandem/kernel/shapes/filter.h"
 #include "tandem/kernel/traversal/proposal.h"
 
 namespace tandem {
@@ -18,11 +19,14 @@ struct QueryRay {
     Vec3f origin;
     Vec3f direction;
     float drift;
+    // for a ray that passes alpha masks: bounds of the query parameter of its last masked hit
+    float start = 0;   ///< not above it
+    float passed = 0;  ///< not below it
 };
 
-/// Needs proposal.active.
-template <class Real>
-TANDEM_HD QueryRay make_query_ray(const Proposal<Real>& proposal, const StructureFrame& frame) {
+/// Needs proposal.active. `source`: of any type that test_primitive() takes.
+template <class Real, class From>
+TANDEM_HD QueryRay make_query_ray(const Proposal<Real>& proposal, const StructureFrame& frame, const From& source) {
     constexpr bool is_rounded = std::is_same_v<Real, double>;
     const float unit = float_roundoff * reach(frame.bounds);
     float drift = is_rounded ? 2.0F * unit + 1e-30F : 1e-30F;
@@ -30,7 +34,18 @@ TANDEM_HD QueryRay make_query_ray(const Proposal<Real>& proposal, const Structur
         const float moved_by = narrow(proposal.t_offset * widen(proposal.length));
         drift = 8.0F * unit + (3.0F * float_roundoff) * moved_by + 1e-30F;
     }
-    return {proposal.ray.origin, proposal.ray.direction, drift};
+    QueryRay query = {proposal.ray.origin, proposal.ray.direction, drift};
+    if constexpr (std::is_base_of_v<Source<Real>, From>) {
+        // a ray never misses the solid that it leaves inward, and the filter allows for this error of its origin
+        if (source.inside) query.drift += filter_margin * norm1(query.origin);
+    }
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        if (source.last_masked.t > 0.0) [[unlikely]] {
+            query.start = proposal.start(source.last_masked.t);
+            query.passed = greater(proposal.limit(source.last_masked.t), 1e-30F);
+        }
+    }
+    return query;
 }
 
 }  // namespace tandem
