@@ -142,6 +142,27 @@ TEST(Bvh, NeverLosesTheFirstThingInTheBoundsFromAfar) {
     expect_same_as_loop(structure, rays, "wall");
 }
 
+TEST(Bvh, NeverLosesAHitOfAShortDirection) {
+    // A big sphere whose box begins before a cluster of small ones, and that is hit behind it. The length of such a
+    // direction has but a few bits in float: a limit from it must not be too low.
+    PreparedScene scene;
+    scene.spheres.push_back({{635, 635, 635}, 100});
+    for (int i = 0; i < 12; ++i) {
+        const float aside = 0.5F * static_cast<float>(i);
+        scene.spheres.push_back({{555 + aside, 555, 555 - aside}, 1});
+    }
+    scene.material_of.assign(scene.spheres.size(), 0);
+    scene.materials.emplace_back();
+    const Structure structure(std::move(scene));
+    std::vector<Ray<float>> rays;
+    for (int k = 1; k < 2000; ++k) {
+        const float step = 0x1p-149F * static_cast<float>(k);
+        rays.push_back({{0, 0, 0}, {step, step, step}});
+        rays.push_back({{-1e4F, -1e4F, -1e4F}, {step, step, step}});
+    }
+    expect_same_as_loop(structure, rays, "short");
+}
+
 TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     PreparedScene scene;
     scene.spheres.assign(5000, Sphere{{1, 2, 3}, 0.5F});
