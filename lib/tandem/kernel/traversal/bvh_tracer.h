@@ -101,18 +101,15 @@ struct BvhStructure {
             }
             const std::uint32_t id = bvh.entry_ids[i];
             const Double<Real> t_before = best.t;
-            if (is_sphere(id)) {
+            // not in a function of its own: nvcc would compile the code for spheres twice
+            if (may_have(PrimitiveKinds::sphere) &&
+                (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
                 test_primitive(around, id, filter.ray, source, true, best);
             } else {
                 intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
             }
             if (best.t < t_before) limit = to_plain(proposal.limit(best.t));
         }
-    }
-
-    [[nodiscard]] TANDEM_HD bool is_sphere(std::uint32_t id) const {
-        return may_have(PrimitiveKinds::sphere) &&
-               (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count);
     }
 
     template <Search search, class Real, class From>
@@ -146,7 +143,8 @@ struct BvhStructure {
                 if (line.misses()) continue;
                 const std::uint32_t id = bvh.entry_ids[i];
                 HitInterval interval;
-                if (is_sphere(id)) {
+                if (may_have(PrimitiveKinds::sphere) &&
+                    (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
                     interval = hit_interval_from<Real, Sphere>(source, id, query, line);
                 } else {
                     visit_primitive<kinds>(scene, id, [&]<class Primitive>(const Primitive& primitive) {
