@@ -45,7 +45,7 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
 template <class Real>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
-    with_tracer(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
+    with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
         auto* kernel = rays.ends != nullptr      ? trace_kernel<Real, Ask::occluded, Tracer>
                        : rays.sources != nullptr ? trace_kernel<Real, Ask::nearest_from_surface, Tracer>
                                                  : trace_kernel<Real, Ask::nearest, Tracer>;

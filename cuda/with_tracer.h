@@ -16,8 +16,8 @@ inline constexpr unsigned int resident_blocks = [] {
     return faces && !is_fast<Real> ? 6 : 8;
 }();
 
-/// Calls f with the tracer for the scene, which counts into `counters`.
-template <class F>
+/// Calls f with the tracer for the scene, which counts into `counters`. `decisions`: where hierarchies decide.
+template <Decisions decisions = Decisions::in_leaves, class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
     const bool faces = has_faces(scene.scene);
@@ -31,7 +31,8 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     }
     BvhView bvh = scene.bvh;
     bvh.stack_overflows = &counters->stack_overflows;
-    return faces ? f(BvhTracerFor<all>{scene.scene, bvh}) : f(BvhTracerFor<bodies>{scene.scene, bvh});
+    return faces ? f(BvhTracerFor<all, decisions>{scene.scene, bvh})
+                 : f(BvhTracerFor<bodies, decisions>{scene.scene, bvh});
 }
 
 }  // namespace tandem::cuda

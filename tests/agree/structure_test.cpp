@@ -29,7 +29,8 @@ struct Structure {
         frame = make_structure_frame(bounds);
         bvh = build_bvh(scene_view, frame.margin);
     }
-    [[nodiscard]] BvhTracer tracer() const {
+    template <Decisions decisions = Decisions::in_leaves>
+    [[nodiscard]] BvhTracerFor<PrimitiveKinds::all, decisions> tracer() const {
         return {view(scene), {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), frame, nullptr}};
     }
     PreparedScene scene;
@@ -45,12 +46,29 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
     ASSERT_EQ(a.primitive, b.primitive) << what;
     ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << what;
     if (b.primitive == no_primitive) return;
+    // through all surfaces, as if they were masked there
+    PathSource<float> path;
+    for (path.last_masked = b; path.last_masked.primitive != no_primitive;) {
+        const Closest<float> next = one_by_one.closest(ray, path, true);
+        const Closest<float> same = tracer.closest(ray, path, true);
+        ASSERT_EQ(same.primitive, next.primitive) << what << ", through masks";
+        ASSERT_EQ(bits_of(same.t), bits_of(next.t)) << what << ", through masks";
+        path.last_masked = next;
+    }
+    const Ray<double> wide = to_real<double>(ray);
+    const Closest<double> precise = one_by_one.closest(wide, NoSource{}, true);
+    const Closest<double> e = tracer.closest(wide, NoSource{}, true);
+    ASSERT_EQ(e.primitive, precise.primitive) << what << ", precise";
+    ASSERT_EQ(bits_of(e.t), bits_of(precise.t)) << what << ", precise";
     const SurfacePoint<float> point = surface_point(one_by_one.scene, ray, NoSource{}, b, true);
     const Vec3f back = {ray.direction.y, -ray.direction.x, ray.direction.z};
     const SpawnedRay<float> spawned = spawn_ray(point, back);
     if (!is_traceable(spawned.ray)) return;
     const Closest<float> c = tracer.closest(spawned.ray, spawned.source, true);
     const Closest<float> d = one_by_one.closest(spawned.ray, spawned.source, true);
+    const PathSource<float> onwards = {spawned.source};
+    const Closest<float> f = tracer.closest(spawned.ray, onwards, true);
+    ASSERT_EQ(f.primitive, one_by_one.closest(spawned.ray, onwards, true).primitive) << what << ", onwards as a path";
     ASSERT_EQ(c.primitive, d.primitive) << what << ", onwards";
     ASSERT_EQ(bits_of(c.t), bits_of(d.t)) << what << ", onwards";
     ShadowSource<float> source;
@@ -67,11 +85,14 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
 }
 
 void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
-    const BvhTracer through_bvh = structure.tracer();
+    const auto in_leaves = structure.tracer();
+    const auto behind_walk = structure.tracer<Decisions::behind_walk>();
     const LoopTracer one_by_one = {view(structure.scene)};
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!is_traceable(rays[i])) continue;
-        expect_same(through_bvh, one_by_one, rays[i], name + ", ray " + std::to_string(i));
+        const std::string what = name + ", ray " + std::to_string(i);
+        expect_same(in_leaves, one_by_one, rays[i], what);
+        expect_same(behind_walk, one_by_one, rays[i], what + ", decided behind the walk");
         if (::testing::Test::HasFatalFailure()) return;
     }
 }
@@ -121,6 +142,27 @@ TEST(Bvh, NeverLosesTheFirstThingInTheBoundsFromAfar) {
     expect_same_as_loop(structure, rays, "wall");
 }
 
+TEST(Bvh, NeverLosesAHitOfAShortDirection) {
+    // A big sphere whose box begins before a cluster of small ones, and that is hit behind it. The length of such a
+    // direction has but a few bits in float: a limit from it must not be too low.
+    PreparedScene scene;
+    scene.spheres.push_back({{635, 635, 635}, 100});
+    for (int i = 0; i < 12; ++i) {
+        const float aside = 0.5F * static_cast<float>(i);
+        scene.spheres.push_back({{555 + aside, 555, 555 - aside}, 1});
+    }
+    scene.material_of.assign(scene.spheres.size(), 0);
+    scene.materials.emplace_back();
+    const Structure structure(std::move(scene));
+    std::vector<Ray<float>> rays;
+    for (int k = 1; k < 2000; ++k) {
+        const float step = 0x1p-149F * static_cast<float>(k);
+        rays.push_back({{0, 0, 0}, {step, step, step}});
+        rays.push_back({{-1e4F, -1e4F, -1e4F}, {step, step, step}});
+    }
+    expect_same_as_loop(structure, rays, "short");
+}
+
 TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     PreparedScene scene;
     scene.spheres.assign(5000, Sphere{{1, 2, 3}, 0.5F});
@@ -128,9 +170,71 @@ TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
     EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
-    const Closest<float> hit = structure.tracer().closest(Ray<float>{{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
-    EXPECT_EQ(hit.primitive, 0U);
-    EXPECT_EQ(hit.t, 2.5);
+    const auto expect_first = [&](const auto& tracer) {
+        const Closest<float> hit = tracer.closest(Ray<float>{{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
+        EXPECT_EQ(hit.primitive, 0U);
+        EXPECT_EQ(hit.t, 2.5);
+    };
+    expect_first(structure.tracer());
+    expect_first(structure.tracer<Decisions::behind_walk>());
+}
+
+/// Rays with more candidates than a tracer keeps that decides behind its walk.
+std::size_t crowded_rays(const Structure& structure, const std::vector<Ray<float>>& rays) {
+    const auto tracer = structure.tracer<Decisions::behind_walk>();
+    std::size_t crowded = 0;
+    for (const Ray<float>& ray : rays) {
+        const Proposal<float> proposal = propose(ray, structure.frame, is_traceable(ray));
+        if (!proposal.active) continue;
+        const QueryRay query = make_query_ray(proposal, structure.frame, NoSource{});
+        Candidates<decltype(tracer)::most_candidates> candidates;
+        float limit = 3e38F;
+        (void)tracer.collect<Search::nearest, float>(NoSource{}, query, 0.0F, limit, candidates);
+        if (candidates.overflow) ++crowded;
+    }
+    return crowded;
+}
+
+TEST(Bvh, DecidesAboutCrowds) {
+    // bundles of primitives that touch, overlap or coincide where rays hit them
+    test::Random random(11);
+    PreparedScene solids, faces;
+    for (int bundle = 0; bundle < 12; ++bundle) {
+        const Vec3f at = {random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F)};
+        for (int i = 0; i < 8; ++i) {
+            const float nudge = i % 3 == 0 ? 0.0F : random.log_uniform(-26.0, -20.0);
+            const float radius = 0.5F + nudge;
+            solids.spheres.push_back({{at.x, at.y + nudge, at.z}, radius});
+            solids.boxes.push_back(
+                {{at.x - 0.45F, at.y - 0.45F, at.z - 0.45F - nudge}, {at.x + 0.45F, at.y + 0.45F, at.z + 0.45F}});
+            // a fan around a common corner, and copies of one triangle
+            const float angle = static_cast<float>(i) * 0.785398F;
+            const Vec3f a = {at.x + std::cos(angle), at.y + std::sin(angle), at.z};
+            const Vec3f b = {at.x + std::cos(angle + 0.785398F), at.y + std::sin(angle + 0.785398F), at.z + nudge};
+            faces.triangles.push_back({at, a, b});
+            faces.triangles.push_back({{at.x, at.y, at.z + 1}, {at.x + 1, at.y, at.z + 1}, {at.x, at.y + 1, at.z + 1}});
+            faces.quads.push_back({at, a, {at.x, at.y, at.z + 1}, {at.x - 1, at.y, at.z}});
+            if (i % 2 == 0) faces.quads.back().attributes.sides = FaceSides::culled;
+            if (i % 3 == 0) faces.triangles.back().attributes.sides = FaceSides::culled;
+        }
+    }
+    for (PreparedScene* scene : {&solids, &faces}) {
+        scene->material_of.assign(
+            scene->spheres.size() + scene->boxes.size() + scene->triangles.size() + scene->quads.size(), 0);
+        scene->materials.emplace_back();
+        const Structure structure(*scene);
+        std::vector<Ray<float>> rays = test::make_rays(structure.scene, 10'000, 12);
+        for (int i = 0; i < 10'000; ++i) {  // at the common corners, and at sides
+            const std::uint32_t id = random.below(primitive_count(view(structure.scene)));
+            const Aabb box = primitive_bounds(view(structure.scene), id);
+            const Vec3f target =
+                scene == &faces && id < faces.triangles.size() && i % 2 == 0 ? faces.triangles[id].v0 : box.upper;
+            const Vec3f origin = {random.uniform(-30.0F, 30.0F), random.uniform(-30.0F, 30.0F), 20};
+            rays.push_back({origin, target - origin});
+        }
+        EXPECT_GT(crowded_rays(structure, rays), 1000U);
+        expect_same_as_loop(structure, rays, scene == &solids ? "solids" : "faces");
+    }
 }
 
 TEST(Bvh, BoundsItsDepthForSizesThatHalve) {
@@ -172,11 +276,13 @@ TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
     EXPECT_NE(find_bvh_defect(bvh, view(structure.scene), 0), "") << "too deep";
     unsigned long long overflows = 0;
     BvhTracer tracer = structure.tracer();
-    tracer.bvh.stack_overflows = &overflows;
+    auto behind_walk = structure.tracer<Decisions::behind_walk>();
+    tracer.bvh.stack_overflows = behind_walk.bvh.stack_overflows = &overflows;
     const LoopTracer one_by_one = {view(structure.scene)};
     for (const float x : {0.0F, 0.5F, 0.999F, 1.5F}) {
         expect_same(tracer, one_by_one, {{x, 0, 0}, {0, 0, -1}}, "x = " + std::to_string(x));
         expect_same(tracer, one_by_one, {{x, 0, -1000}, {0, 0, 1}}, "from behind, x = " + std::to_string(x));
+        expect_same(behind_walk, one_by_one, {{x, 0, 0}, {0, 0, -1}}, "behind the walk, x = " + std::to_string(x));
     }
     EXPECT_GT(overflows, 0U);
     tracer.bvh.stack_overflows = nullptr;  // need not be counted

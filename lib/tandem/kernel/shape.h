@@ -6,6 +6,7 @@
 
 #include "tandem/kernel/area_lights.h"
 #include "tandem/kernel/surface.h"
+#include "tandem/kernel/traversal/hit_interval.h"
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
@@ -13,6 +14,7 @@ namespace tandem {
 /// A plain struct with these functions. They are checked for single rays; packets use the same templates.
 /// - bounds();
 /// - may_touch(): the filter in float, which never rejects a hit;
+/// - hit_interval(): where a ray may hit it, and whether it surely does, in float, for tracers that decide later;
 /// - first_hit(): the nearest hit in front of the ray's origin, decided in Double<Real>; for a solid also
 ///   first_hit_or_exit(), the hit of a ray that starts on it;
 /// - record_hit(): what the next three need to know about a hit;
@@ -23,9 +25,10 @@ template <class Primitive, class Real>
 concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
              const Vec2f* texcoords, Double<Real> t, const Mask<Real>& mask, const HitRecord<Real>& record,
-             const Vec3<Double<Real>>& v) {
+             const Vec3<Double<Real>>& v, const QueryRay& query) {
     { bounds(primitive) } -> std::same_as<Aabb>;
     { may_touch(filter, primitive) } -> std::same_as<Mask<Real>>;
+    { hit_interval(query, primitive, true) } -> std::same_as<HitInterval>;
     { first_hit(primitive, ray, t, mask) } -> std::same_as<Mask<Real>>;
     requires is_face<Primitive> || requires {
         { first_hit_or_exit(primitive, ray, mask, mask, t) } -> std::same_as<Mask<Real>>;

@@ -35,7 +35,7 @@ struct Proposal {
 
     /// A float not below the query parameter of t: traversal may stop there.
     TANDEM_HD_INLINE Float<Real> limit(const Double<Real>& t) const {
-        const Double<Real> s = (t - t_offset) * widen(length) * Double<Real>(1.0 + 0x1p-18);
+        const Double<Real> s = (t - t_offset) * length_within(1.0) * Double<Real>(1.0 + 0x1p-18);
         const auto most = constant<Double<Real>>(3e38);
         return narrow(select(s < most, s, most));
     }
@@ -45,7 +45,7 @@ struct Proposal {
         using D = Double<Real>;
         const D zero(0.0);
         const D before = t - t * constant<D>(is_fast<Real> ? 0x1p-20 : 0x1p-50);
-        const D s = (before - t_offset) * widen(length) * constant<D>(1.0 - 0x1p-18);
+        const D s = (before - t_offset) * length_within(-1.0) * constant<D>(1.0 - 0x1p-18);
         const auto most = constant<D>(3e38);
         return narrow(select(s > zero, select(s < most, s, most), zero));
     }
@@ -60,6 +60,14 @@ struct Proposal {
 
     /// The approximate t of a hit that the structure itself found at s; the rounding of t_offset remains.
     TANDEM_HD_INLINE Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
+
+  private:
+    /// `length` and `sign` times what a subnormal length in float may be off by. A normal one is off by a few 2^-24 of
+    /// itself, which the callers allow for.
+    TANDEM_HD_INLINE Double<Real> length_within(double sign) const {
+        if constexpr (is_fast<Real>) return widen(length);
+        return widen(length) + constant<Double<Real>>(sign * 0x1p-149);
+    }
 };
 
 namespace proposal_detail {

@@ -1,0 +1,52 @@
+/// The query ray of a proposal as the bounds of hits need it.
+#pragma once
+
+#include "tandem/kernel/shapes/filter.h"
+#include "tandem/kernel/traversal/proposal.h"
+
+namespace tandem {
+
+/// A ray in float with a unit direction. The query parameter of a hit at t is s = (t - t_offset) |d|, with the length
+/// of the true direction; it grows with t. Proposal::limit() and start() bound it.
+///
+/// With u = 2^-24, every component of the direction is within 2 u of its own size of a line in the true direction, up
+/// to a common factor within 5 u of 1. So the point at s is within 9 u s of the true one.
+/// `drift` bounds the distance of the origin from the true one, and what the double precision of t and t_offset may
+/// change s by: 8 u S + 3 u t_offset * length for an origin that was moved, where S is the reach of the scene's bounds
+/// (the rounding of the origin is sqrt(3) u S; t errs by 2^-26 of itself at most); 2 u S where an origin in double was
+/// rounded; for others 1e-30, so that no margin underflows.
+struct QueryRay {
+    Vec3f origin;
+    Vec3f direction;
+    float drift;
+    // for a ray that passes alpha masks: bounds of the query parameter of its last masked hit
+    float start = 0;   ///< not above it
+    float passed = 0;  ///< not below it
+};
+
+/// Needs proposal.active. `source`: of any type that test_primitive() takes.
+template <class Real, class From>
+TANDEM_HD_INLINE QueryRay make_query_ray(const Proposal<Real>& proposal, const StructureFrame& frame,
+                                         const From& source) {
+    constexpr bool is_rounded = std::is_same_v<Real, double>;
+    const float unit = float_roundoff * reach(frame.bounds);
+    float drift = is_rounded ? 2.0F * unit + 1e-30F : 1e-30F;
+    if (proposal.t_offset > 0.0) {
+        const float moved_by = narrow(proposal.t_offset * widen(proposal.length));
+        drift = 8.0F * unit + (3.0F * float_roundoff) * moved_by + 1e-30F;
+    }
+    QueryRay query = {proposal.ray.origin, proposal.ray.direction, drift};
+    if constexpr (std::is_base_of_v<Source<Real>, From>) {
+        // a ray never misses the solid that it leaves inward, and the filter allows for this error of its origin
+        if (source.inside) query.drift += filter_margin * norm1(query.origin);
+    }
+    if constexpr (std::is_same_v<From, PathSource<Real>>) {
+        if (source.last_masked.t > 0.0) [[unlikely]] {
+            query.start = proposal.start(source.last_masked.t);
+            query.passed = greater(proposal.limit(source.last_masked.t), 1e-30F);
+        }
+    }
+    return query;
+}
+
+}  // namespace tandem
