@@ -237,6 +237,25 @@ Scene polished_scene() {
     return still_life(polished("gold", {0.9F, 0.7F, 0.3F}, 1, 0.15F), polished("worn", {0.6F, 0.6F, 0.7F}, 0.7F, 0.6F),
                       polished("varnish", {0.1F, 0.2F, 0.5F}, 0, 0.4F));
 }
+/// The camera and all objects inside a polished dielectric ball, which shows its back.
+Scene inside_polished_ball() {
+    Scene scene = polished_scene();
+    Node dome{.name = "dome"};
+    dome.geometry.push_back({SphereShape{9}, 3, {}});
+    scene.nodes.push_back(dome);
+    return scene;
+}
+/// A polished dielectric sheet, single-sided, that shows its back.
+Scene behind_polished_sheet() {
+    Scene scene = polished_scene();
+    scene.meshes = {{.name = "sheet",
+                     .positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}, {0.5F, 0.7F, 0.1F}, {-0.5F, 0.7F, 0}},
+                     .quads = {0, 1, 2, 3}}};
+    Node sheet{.name = "sheet", .trs = {{-0.2, -0.1, 1.0}, {0, 1, 0, 0.1}, {1, 1, 1}}};
+    sheet.geometry.push_back({MeshShape{0}, 3, {}});
+    scene.nodes.push_back(sheet);
+    return scene;
+}
 /// Every kind of primitive with textured microfacets, normal maps, and double-sided faces.
 Scene worn_scene() {
     Scene scene = textured(true, true, false);
@@ -365,6 +384,8 @@ std::vector<EffectScene> make_scenes() {
                       lamps | facets | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back({"worn metal", in_daylight(lit(worn_scene(), {}), true, false),
                       shadows | facets | Effect::textures | Effect::normal_maps | Effect::environment_light});
+    scenes.push_back({"inside a polished ball", in_daylight(lit(inside_polished_ball(), plain), true, false),
+                      shadows | facets | Effect::environment_light});
     const EffectMask grooves = facets | Effect::anisotropy;
     scenes.push_back({"brushed metal, lamps", with_lamps(brushed(polished_scene())), lamps | grooves});
     scenes.push_back(
@@ -376,6 +397,8 @@ std::vector<EffectScene> make_scenes() {
         {"picture behind", within_picture(lit(diffuse_scene(), plain), false, false), Effect::environment_picture});
     scenes.push_back({"picture", within_picture(diffuse_scene(), true, false), surroundings});
     scenes.push_back({"picture, microfacets", within_picture(polished_scene(), true, false), surroundings | facets});
+    scenes.push_back({"picture, behind a polished sheet, indirect", within_picture(behind_polished_sheet(), true, true),
+                      surroundings | facets | Effect::indirect | Effect::roulette});
     scenes.push_back({"picture, lamps, indirect", within_picture(with_lamps(polished_scene()), true, true),
                       surroundings | lamps | facets | Effect::indirect | Effect::roulette});
     Scene everything = within_picture(with_lamps(lit(nested(), {.intensity = 9, .inverse_square = true})), true, true);

@@ -151,6 +151,7 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
         if (is_blocked(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
     }
     Vector reflected{0, 0, 0};
+    if (has_picture(scene) && material.is_hidden) return reflected;
     if (ends.diffuse) reflected = material.diffuse * (inner(direction, vertex.normal) * uncovered(material, direction));
     if (ends.facets) reflected = reflected + facets(material, vertex, direction);
     return times(reflected, background_towards(scene, direction)) * 2;

@@ -62,9 +62,9 @@ Reflectances reflectances(const SceneView& scene, const Vertex& vertex) {
         Reflectances facets = facets_at(scene, vertex);
         facets.to_viewer = vertex.direction * -1;
         const Real height = inner(facets.to_viewer, vertex.normal);
-        facets.has_facets = height > 0 || !vertex.from_inside;
+        facets.has_facets = true;
+        facets.is_hidden = !(height > 0) && vertex.from_inside;
         if (height < 0) facets.to_viewer = facets.to_viewer - vertex.normal * (2 * height);
-        if (!facets.has_facets) facets.diffuse = {0, 0, 0};
         return facets;
     }
     const Real highlight = transmission > 0 && vertex.from_inside ? 0 : 1;
@@ -76,7 +76,7 @@ Reflectances reflectances(const SceneView& scene, const Vertex& vertex) {
 Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& l) {
     const Vector n = vertex.normal, v = material.to_viewer;
     const Real to_light = inner(n, l), to_viewer = inner(n, v);
-    if (!material.has_facets || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
+    if (!material.has_facets || material.is_hidden || !(to_light > 0) || !(to_viewer > 0)) return {0, 0, 0};
     const Real cosine = std::min<Real>(1, inner(n, unit(l + v)));
     const Vector sine = unit(l + v) - n * cosine;
     const Real tangent2 = inner(sine, sine) / (cosine * cosine), phi = azimuth(material, n, sine);
@@ -95,6 +95,7 @@ Real uncovered(const Reflectances& material, const Vector& l) {
 
 Vector reflected(const Reflectances& material, const Vertex& vertex, const Vector& l, bool seen) {
     const Vector n = vertex.normal;
+    if (material.is_hidden) return {0, 0, 0};
     if (material.has_facets) {
         const Vector base = material.diffuse * (std::max<Real>(0, inner(l, n)) * uncovered(material, l));
         return seen ? base + facets(material, vertex, l) : base;

@@ -15,6 +15,7 @@ struct Reflectances {
     Vector ambient, diffuse, specular;
     Real shininess;
     bool has_facets = false;
+    bool is_hidden = false;  ///< microfacets on the back of a single-sided surface: they reflect no light source
     Vector f0{0, 0, 0};    ///< of microfacets: reflectance head-on
     Real border = 0;       ///< the same of what covers the diffuse base
     Real alpha = 0;        ///< of GGX: the least of all directions
@@ -23,7 +24,7 @@ struct Reflectances {
     Vector to_viewer{};  ///< on the side of the normal for shading
 };
 
-/// The reflectances at a vertex, on the visible side.
+/// The reflectances at a vertex.
 [[nodiscard]] Reflectances reflectances(const SceneView& scene, const Vertex& vertex);
 
 /// GGX by angles, as Walter and others write it; times pi and the cosine of the light.
