@@ -324,8 +324,14 @@ std::unique_ptr<Backend> make_cpu_backend(const BackendOptions& options) {
     return std::make_unique<CpuBackend>(options);
 }
 
-std::string why_cpu_unavailable() {
-    return instruction_sets().front().is_supported() ? "" : "this processor lacks SSE4.2, which x86-64-v2 includes";
+std::string why_cpu_unavailable() { return why_no_instruction_set(); }
+
+std::vector<std::string> runnable_instruction_sets() {
+    std::vector<std::string> names;
+    for (const InstructionSet& set : instruction_sets()) {
+        if (set.is_supported()) names.emplace_back(set.name);
+    }
+    return names;
 }
 
 }  // namespace tandem

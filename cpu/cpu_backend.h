@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "tandem/render/backend.h"
 
@@ -11,5 +13,8 @@ namespace tandem {
 
 /// Why this processor cannot run it; empty if it can.
 [[nodiscard]] std::string why_cpu_unavailable();
+
+/// See cpu_instruction_sets() in tandem/backends/make_backend.h.
+[[nodiscard]] std::vector<std::string> runnable_instruction_sets();
 
 }  // namespace tandem

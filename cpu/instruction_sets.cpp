@@ -1,9 +1,12 @@
 #include "cpu/instruction_sets.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tandem/base/error.h"
 #include "tandem/base/processor_level.h"
@@ -42,41 +45,60 @@ constexpr std::array<FirstHitKernel*, all_tiers<Isa>.size()> all_first_hits = {
 #undef TANDEM_TIER
 };
 
-bool has_v2() { return x86_64_level() >= 2; }
-bool has_v3() { return x86_64_level() >= 3; }
-#if defined(TANDEM_ONE_INSTRUCTION_SET)
-bool has_v4() { return false; }  // such a build has no kernels for it
-using SetV4 = Avx2;
-#else
-bool has_v4() { return x86_64_level() >= 4; }
-using SetV4 = Avx512;
-#endif
+template <class Isa, int level>
+constexpr InstructionSet instruction_set = {
+    Isa::name, [] { return x86_64_level() >= level; }, all_tiers<Isa>.data(), all_first_hits<Isa>.data()};
 
 constexpr std::array sets = {
-    InstructionSet{"x86-64-v2", has_v2, all_tiers<Sse4>.data(), all_first_hits<Sse4>.data()},
-    InstructionSet{"x86-64-v3", has_v3, all_tiers<Avx2>.data(), all_first_hits<Avx2>.data()},
-    InstructionSet{"x86-64-v4", has_v4, all_tiers<SetV4>.data(), all_first_hits<SetV4>.data()},
+#if defined(TANDEM_HAS_ISA_2)
+    instruction_set<Sse4, 2>,
+#endif
+#if defined(TANDEM_HAS_ISA_3)
+    instruction_set<Avx2, 3>,
+#endif
+#if defined(TANDEM_HAS_ISA_4)
+    instruction_set<Avx512, 4>,
+#endif
 };
 
 }  // namespace
 
 std::span<const InstructionSet> instruction_sets() { return sets; }
 
+namespace {
+
+std::vector<std::string> compiled_instruction_sets() {
+    std::vector<std::string> names;
+    for (const InstructionSet& set : sets) names.emplace_back(set.name);
+    return names;
+}
+
+}  // namespace
+
 const InstructionSet& choose_instruction_set(const std::string& name) {
     const InstructionSet* best = nullptr;
+    bool is_compiled = name.empty();
     for (const InstructionSet& set : sets) {
-        if (name == set.name && !set.is_supported()) {
-            throw EnvironmentError(fmt::format("this processor lacks the instruction set {}", name));
-        }
-        if (set.is_supported() && (name.empty() || name == set.name)) best = &set;
+        if (!name.empty() && name != set.name) continue;
+        is_compiled = true;
+        if (set.is_supported()) best = &set;
     }
     if (best != nullptr) return *best;
-    if (name.empty()) {
-        throw EnvironmentError(
-            "this processor lacks SSE4.2; the CPU backend needs x86-64-v2 (processors since about 2009)");
+    if (!is_compiled) {
+        throw InputError(fmt::format("this build has no kernels for the instruction set '{}', but for {}", name,
+                                     fmt::join(compiled_instruction_sets(), ", ")));
     }
-    throw InputError(fmt::format(
-        "there is no instruction set '{}'; the instruction sets are x86-64-v2, x86-64-v3, x86-64-v4", name));
+    throw EnvironmentError(name.empty() ? why_no_instruction_set()
+                                        : fmt::format("this processor lacks the instruction set {}", name));
+}
+
+std::string why_no_instruction_set() {
+    if (sets.front().is_supported()) return "";
+    if (sets.front().name == std::string_view(Sse4::name)) {
+        return "this processor lacks SSE4.2; the CPU backend needs x86-64-v2 (processors since about 2009)";
+    }
+    return fmt::format("this build has kernels for {} and newer processors; build with -DTANDEM_INSTRUCTION_SETS=native",
+                       sets.front().name);
 }
 
 }  // namespace tandem

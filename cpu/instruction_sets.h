@@ -21,11 +21,14 @@ struct InstructionSet {
     }
 };
 
-/// From the least to the most capable.
+/// Those that this build has kernels for, from the least to the most capable.
 [[nodiscard]] std::span<const InstructionSet> instruction_sets();
 
-/// An empty name selects the best of this machine. Throws InputError for an unknown name, EnvironmentError for a set
-/// that this processor lacks.
+/// An empty name selects the best of this machine. Throws InputError for a name that this build does not know,
+/// EnvironmentError for a set that this processor lacks.
 [[nodiscard]] const InstructionSet& choose_instruction_set(const std::string& name);
+
+/// Why this processor has none of them; empty if it has one.
+[[nodiscard]] std::string why_no_instruction_set();
 
 }  // namespace tandem

@@ -247,7 +247,7 @@ bool run_parity(const ParityOptions& options, const BackendSource& source, Repor
         report.blocks.emplace_back(
             Callout{Callout::Kind::note, "This run compares the CPU with itself only; it says nothing about a GPU."});
     }
-    const std::vector<ParityVariant> variants = parity_variants(backends, supported_instruction_sets());
+    const std::vector<ParityVariant> variants = parity_variants(backends, cpu_instruction_sets());
     bool equal = true;
     for (const std::string& scene : options.scenes) {
         for (const Tier tier : tiers) {

@@ -19,4 +19,8 @@ namespace tandem {
 /// Why a backend cannot run here; empty if it can.
 [[nodiscard]] std::string why_unavailable(const std::string& name);
 
+/// The instruction sets that this build has CPU kernels for and this processor can run, from the least to the most
+/// capable: names for BackendOptions::instruction_set.
+[[nodiscard]] std::vector<std::string> cpu_instruction_sets();
+
 }  // namespace tandem

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cpu/cpu_backend.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/oracle/oracle.h"
 #if TANDEM_HAS_CUDA
 #include "cuda/cuda_backend.h"
@@ -30,5 +31,7 @@ constexpr std::array registry = {
 }  // namespace
 
 std::span<const BackendEntry> backend_registry() { return registry; }
+
+std::vector<std::string> cpu_instruction_sets() { return runnable_instruction_sets(); }
 
 }  // namespace tandem

@@ -19,9 +19,9 @@ namespace tandem::hard {
 
 namespace {
 
-/// The CPU backend with the baseline instruction set and one thread.
+/// The CPU backend with the least instruction set of this build and one thread.
 std::unique_ptr<Backend> least_processor() {
-    return make_backend("cpu", {.threads = 1, .instruction_set = "x86-64-v2"});
+    return make_backend("cpu", {.threads = 1, .instruction_set = cpu_instruction_sets().front()});
 }
 
 /// Films and hits against those of the baseline.
