@@ -14,6 +14,7 @@
 #include "tandem/math/fp_environment.h"
 #include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
+#include "tandem/render/ray_coherence.h"
 #include "tandem/render/traced_job.h"
 
 namespace tandem {
@@ -219,8 +220,8 @@ class CudaBackend final : public Backend {
         one.samples = 1;
         for (std::uint32_t i = 0; i < job.samples; ++i) {
             one.first_sample = job.first_sample + i;
-            check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_pixel), 0,
-                                  sizeof(DeviceCounters::next_pixel), compute_.get()),
+            check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_in_queue), 0,
+                                  sizeof(DeviceCounters::next_in_queue), compute_.get()),
                   "resetting the queue of pixels");
             draw(one, sample);
             add_samples(sample, sums, squares, pixels, compute_.get());
@@ -228,6 +229,10 @@ class CudaBackend final : public Backend {
     }
 
     double trace(const DeviceScene& resident, const TraceJob& job) {
+        const bool coherent = job.coherence == Coherence::unknown
+                                  ? are_coherent(job.rays, reach(resident.view().bvh.frame.bounds))
+                                  : job.coherence == Coherence::coherent;
+        if (!coherent) candidates_.reserve(job.rays.size() * candidate_bytes);
         hits_.reserve(job.hits.size_bytes());
         wide_t_.reserve(job.wide_t.size_bytes());
         counters_.reserve(sizeof(DeviceCounters));
@@ -239,7 +244,9 @@ class CudaBackend final : public Backend {
                                  .hits = reinterpret_cast<Hit*>(hits_.data()),
                                  .wide_t = job.wide_t.empty() ? nullptr : reinterpret_cast<double*>(wide_t_.data()),
                                  .counters = reinterpret_cast<DeviceCounters*>(counters_.data()),
-                                 .count = job.rays.size()};
+                                 .count = job.rays.size(),
+                                 .candidates = candidates_.data(),
+                                 .are_coherent = coherent};
         check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
         trace_start_.record(compute_.get());
         trace_kernels(resident.tier())(resident.view(), rays, compute_.get());
@@ -283,7 +290,7 @@ class CudaBackend final : public Backend {
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
     std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
     std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
-    Buffer<DeviceMemory> rays_, sources_, ends_, hits_, wide_t_, counters_;
+    Buffer<DeviceMemory> rays_, sources_, ends_, candidates_, hits_, wide_t_, counters_;
     Buffer<PinnedMemory> counters_on_host_;
     Event trace_start_, trace_end_;
 };

@@ -83,6 +83,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
         layout.add(bvh.nodes, view_.bvh.nodes);
         layout.add(bvh.entry_spheres, view_.bvh.entry_spheres);
         layout.add(bvh.entry_ids, view_.bvh.entry_ids);
+        layout.add(bvh.placements, view_.bvh.placements);
+        layout.add(bvh.entry_triangles, view_.bvh.entry_triangles);
     }
     bytes_ = layout.bytes();
     memory_->device.reserve(bytes_);

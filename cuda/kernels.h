@@ -48,7 +48,7 @@ struct DeviceCounters {
     unsigned long long rejected_rays;
     unsigned long long stack_overflows;
     unsigned long long rays[ray_counters];
-    unsigned int next_pixel;  ///< of the queue of pixels
+    unsigned int next_in_queue;  ///< the next pixel, or ray
 };
 
 /// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.
@@ -60,7 +60,12 @@ struct DeviceRays {
     double* wide_t;
     DeviceCounters* counters;
     std::size_t count;
+    void* candidates;   ///< candidate_bytes for each ray, unless they are coherent
+    bool are_coherent;  ///< neighbouring rays take nearly the same way
 };
+
+/// What a ray's candidates take between the two kernels that trace incoherent rays.
+inline constexpr std::size_t candidate_bytes = 16;
 
 /// Starts tracing the rays.
 using TraceLaunch = void(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);

@@ -5,6 +5,7 @@
 #include "cuda/block_threads.h"
 #include "cuda/kernels.h"
 #include "tandem/kernel/path_walk.h"
+#include "tandem/kernel/pixel_culling.h"
 
 namespace tandem::cuda {
 
@@ -17,6 +18,22 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
     if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.tally.rays);
 }
 
+/// The primitives that camera rays of a warp's pixels may hit, in double: worth its time from a few samples on.
+/// `inside`: the threads that call it.
+template <class Effects>
+__device__ __forceinline__ std::uint32_t slots_in_warp(const ConstantMemoryTracer& tracer, const PixelJob& job,
+                                                       std::uint32_t x, std::uint32_t y, unsigned int inside) {
+    constexpr std::uint32_t least_samples = 8;
+    if (job.samples < least_samples) return ConstantMemoryTracer::all_slots;
+    const std::uint32_t own = slots_in_pixel(tracer, bundle_of_pixel(job.camera, x, y, Effects::has(Effect::lens)));
+    std::uint32_t slots = 0;
+    TANDEM_KEEP_LOOP
+    for (std::uint32_t slot = 1; slot < ConstantMemoryTracer::all_slots; slot *= 2) {
+        if (__any_sync(inside, (own & slot) != 0)) slots |= slot;
+    }
+    return slots;
+}
+
 /// One pixel, for paths of one vertex and little code.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
@@ -27,9 +44,16 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
         blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width + lane % warp_width;
     const std::uint32_t y =
         blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
-    if (x >= job.width || y >= height) return;
-    const PixelSum<Real> pixel =
-        render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
+    const bool is_inside = x < job.width && y < height;
+    const unsigned int inside = __ballot_sync(0xFFFFFFFFU, is_inside);
+    if (!is_inside) return;
+    PixelSum<Real> pixel;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
+        const CulledTracer culled = {tracer, slots_in_warp<Effects>(tracer, job, x, y, inside)};
+        pixel = render_pixel<Effects, Real>(culled, tracer.scene, job, x, y, true, BlockThreads<Effects>());
+    } else {
+        pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
+    }
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
@@ -48,7 +72,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     bool is_open = true;
     while (true) {
         while (is_open && !walk.working()) {
-            const std::uint32_t place = atomicAdd(&counters->next_pixel, 1U);
+            const std::uint32_t place = atomicAdd(&counters->next_in_queue, 1U);
             const std::uint32_t tile = place / 32, within = place % 32;
             const std::uint32_t x = tile % tiles_across * warp_width + within % warp_width;
             const std::uint32_t y = tile / tiles_across * warp_height + within / warp_width;

@@ -6,24 +6,26 @@
 #error "compile it with TANDEM_SHORT_PATHS: the kernels that trace rays are slower by a tenth without"
 #endif
 
-#include "cuda/block_shape.h"
-#include "cuda/launch.h"
-#include "cuda/with_tracer.h"
+#include "cuda/refill_kernels.h"
 
 namespace tandem::cuda {
 
-/// The queries of a trace: nearest hits of rays that start in space or on surfaces, or whether shadow rays are blocked.
-enum class Ask { nearest, nearest_from_surface, occluded };
+/// Resident blocks per multiprocessor. Where the decisions are behind the walk, it needs fewer registers than they.
+template <class Real, class Tracer>
+inline constexpr unsigned int trace_blocks = [] {
+    if (!can_refill<Real, Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;
+    if (Tracer::kinds == PrimitiveKinds::sphere) return 10U;
+    return Tracer::kinds == PrimitiveKinds::triangle ? 8U : resident_blocks<Real, Tracer>;
+}();
 
 template <class Real, Ask ask, class Tracer>
-__global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
+__global__ void __launch_bounds__(block_threads, trace_blocks<Real, Tracer>)
     trace_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
     const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
     if (i >= job.count) return;
     const Ray<float> ray = job.rays[i];
     const bool traceable = is_traceable(ray);
     if (!traceable) atomicAdd(&job.counters->rejected_rays, 1ULL);
-    Closest<Real> closest = no_hit<Real>();
     if constexpr (ask == Ask::occluded) {
         ShadowSource<Real> source;
         if (job.sources != nullptr) static_cast<Source<Real>&>(source) = to_real<Real>(job.sources[i]);
@@ -31,21 +33,26 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
         const auto t_max = constant<Double<Real>>(job.ends[i].t);
         const bool occluded = tracer.occluded(to_real<Real>(ray), t_max, source, traceable);
         job.hits[i] = {0.0F, occluded ? some_primitive : no_primitive};
+        if (job.wide_t != nullptr) job.wide_t[i] = 0.0;
     } else {
-        if constexpr (ask == Ask::nearest) {
-            closest = tracer.closest(to_real<Real>(ray), NoSource{}, traceable);
-        } else {
-            closest = tracer.closest(to_real<Real>(ray), to_real<Real>(job.sources[i]), traceable);
-        }
-        job.hits[i] = to_hit(closest);
+        write_hit(job, i, tracer.closest(to_real<Real>(ray), source_of<Real, ask>(job, i), traceable));
     }
-    if (job.wide_t != nullptr) job.wide_t[i] = closest.primitive == no_primitive ? 0.0 : to_wide(closest.t);
 }
 
 template <class Real>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
+        if constexpr (can_refill<Real, Tracer>) {
+            if (!rays.are_coherent && rays.ends == nullptr && rays.count <= most_queued_rays) {
+                if (rays.sources != nullptr) {
+                    trace_with_refill<Real, Ask::nearest_from_surface>(tracer, rays, stream);
+                } else {
+                    trace_with_refill<Real, Ask::nearest>(tracer, rays, stream);
+                }
+                return;
+            }
+        }
         auto* kernel = rays.ends != nullptr      ? trace_kernel<Real, Ask::occluded, Tracer>
                        : rays.sources != nullptr ? trace_kernel<Real, Ask::nearest_from_surface, Tracer>
                                                  : trace_kernel<Real, Ask::nearest, Tracer>;

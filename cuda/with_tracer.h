@@ -31,6 +31,12 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     }
     BvhView bvh = scene.bvh;
     bvh.stack_overflows = &counters->stack_overflows;
+    if constexpr (decisions == Decisions::behind_walk) {
+        constexpr std::uint32_t sphere = PrimitiveKinds::sphere, triangle = PrimitiveKinds::triangle;
+        const std::uint32_t count = primitive_count(scene.scene);
+        if (scene.scene.sphere_count == count) return f(BvhTracerFor<sphere, decisions>{scene.scene, bvh});
+        if (scene.scene.triangle_count == count) return f(BvhTracerFor<triangle, decisions>{scene.scene, bvh});
+    }
     return faces ? f(BvhTracerFor<all, decisions>{scene.scene, bvh})
                  : f(BvhTracerFor<bodies, decisions>{scene.scene, bvh});
 }

@@ -98,12 +98,16 @@ TEST_P(ClosestHit, GivesTheBitsOfTheLeastProcessor) {
     for (const Reference& reference : references()) {
         std::vector<Hit> expected(reference.rays.size());
         least->trace(*least->load(reference.scene, GetParam().tier), reference.rays, expected);
-        std::vector<Hit> hits(reference.rays.size());
-        backend_->trace(*load(reference.scene), reference.rays, hits);
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            ASSERT_EQ(bits_of(hits[i].t), bits_of(expected[i].t))
-                << describe(reference.parameters, i, reference.rays[i]);
-            ASSERT_EQ(hits[i].primitive, expected[i].primitive) << describe(reference.parameters, i, reference.rays[i]);
+        const auto scene = load(reference.scene);
+        for (const Coherence coherence : {Coherence::unknown, Coherence::coherent, Coherence::incoherent}) {
+            std::vector<Hit> hits(reference.rays.size());
+            backend_->trace(*scene, TraceJob{.rays = reference.rays, .hits = hits, .coherence = coherence});
+            for (std::size_t i = 0; i < hits.size(); ++i) {
+                ASSERT_EQ(bits_of(hits[i].t), bits_of(expected[i].t))
+                    << describe(reference.parameters, i, reference.rays[i]);
+                ASSERT_EQ(hits[i].primitive, expected[i].primitive)
+                    << describe(reference.parameters, i, reference.rays[i]);
+            }
         }
     }
 }

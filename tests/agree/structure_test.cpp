@@ -29,9 +29,11 @@ struct Structure {
         frame = make_structure_frame(bounds);
         bvh = build_bvh(scene_view, frame.margin);
     }
-    template <Decisions decisions = Decisions::in_leaves>
-    [[nodiscard]] BvhTracerFor<PrimitiveKinds::all, decisions> tracer() const {
-        return {view(scene), {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), frame, nullptr}};
+    template <Decisions decisions = Decisions::in_leaves, std::uint32_t kinds = PrimitiveKinds::all>
+    [[nodiscard]] BvhTracerFor<kinds, decisions> tracer() const {
+        return {view(scene),
+                {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), bvh.entry_triangles.data(),
+                 bvh.placements.data(), frame, nullptr}};
     }
     PreparedScene scene;
     StructureFrame frame;
@@ -84,6 +86,18 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
         << what << ", to a light";
 }
 
+/// For a scene of these kinds alone.
+template <std::uint32_t kinds>
+void expect_same_of_kinds(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
+    const auto tracer = structure.tracer<Decisions::behind_walk, kinds>();
+    const LoopTracer one_by_one = {view(structure.scene)};
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!is_traceable(rays[i])) continue;
+        expect_same(tracer, one_by_one, rays[i], name + ", ray " + std::to_string(i) + ", one kind");
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
 void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
     const auto in_leaves = structure.tracer();
     const auto behind_walk = structure.tracer<Decisions::behind_walk>();
@@ -94,6 +108,29 @@ void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float
         expect_same(in_leaves, one_by_one, rays[i], what);
         expect_same(behind_walk, one_by_one, rays[i], what + ", decided behind the walk");
         if (::testing::Test::HasFatalFailure()) return;
+    }
+    const std::size_t count = primitive_count(view(structure.scene));
+    if (structure.scene.spheres.size() == count) {
+        expect_same_of_kinds<PrimitiveKinds::sphere>(structure, rays, name);
+    } else if (structure.scene.triangles.size() == count) {
+        expect_same_of_kinds<PrimitiveKinds::triangle>(structure, rays, name);
+    }
+}
+
+TEST(Bvh, HoldsScenesOfAnySize) {
+    for (const float scale : {1e-25F, 1e-20F, 1e-4F, 1e10F, 1e17F}) {
+        PreparedScene prepared = prepare(named_scene("icosphere/2"));
+        for (Triangle& t : prepared.triangles) t.v0 = t.v0 * scale, t.v1 = t.v1 * scale, t.v2 = t.v2 * scale;
+        const Structure structure(std::move(prepared));
+        ASSERT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "") << scale;
+        expect_same_as_loop(structure, test::make_rays(structure.scene, 1'000, 10), std::to_string(scale));
+    }
+}
+
+TEST(Bvh, NeverLosesAHitOfTriangles) {
+    for (const char* name : {"icosphere/3", "triangles/500"}) {
+        const Structure structure(prepare(named_scene(name)));
+        expect_same_as_loop(structure, test::make_rays(structure.scene, 4'000, 9), name);
     }
 }
 
@@ -264,14 +301,21 @@ TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
         bvh.entry_ids.push_back(i);
         bvh.entry_spheres.push_back(structure.scene.spheres[i]);
         if (i + 1 == count) break;
-        // all boxes hold everything, and the chain comes first, so that each step leaves a leaf on the stack
+        // all boxes hold everything, and the chain comes first, so that each step leaves leaves on the stack
         BvhNode node{};
-        for (auto& side : node.xy) side[0] = side[2] = -1e3F, side[1] = side[3] = 1e3F;
-        node.z[0] = node.z[2] = -1e3F;
-        node.z[1] = node.z[3] = 1e3F;
-        node.child[0] = i + 2 == count ? leaf_child(count - 1, 1) : static_cast<std::int32_t>(i + 1);
-        node.child[1] = leaf_child(i, 1);
+        std::fill(node.corner, node.corner + 3, -1024.0F);
+        for (unsigned axis = 0; axis < 3; ++axis) node.frame |= frame_exponent(4) << (8 * axis);  // steps of 16
+        node.lower_x = node.lower_y = node.lower_z = 0xFFFF0000U;
+        node.upper_x = node.upper_y = node.upper_z = 0xFFFFU;
+        const bool is_last = i + 2 == count;
+        node.frame |= (is_last ? 0U : 1U) << 24;
+        node.first_inner = static_cast<std::int32_t>(i + 1);
+        node.leaf_base = is_last ? ~static_cast<std::int32_t>(i) : -static_cast<std::int32_t>(i);
         bvh.nodes.push_back(node);
+    }
+    for (int i = 0; i < spare_entries; ++i) {
+        bvh.entry_ids.push_back(bvh.entry_ids.back());
+        bvh.entry_spheres.push_back(bvh.entry_spheres.back());
     }
     EXPECT_NE(find_bvh_defect(bvh, view(structure.scene), 0), "") << "too deep";
     unsigned long long overflows = 0;
@@ -331,10 +375,10 @@ TEST(BvhDefects, AreFound) {
     twice.entry_ids[0] = twice.entry_ids[1];
     EXPECT_NE(find_bvh_defect(twice, scene, margin), "");
     Bvh shrunk = structure.bvh;
-    shrunk.nodes[0].xy[0][1] = shrunk.nodes[0].xy[0][0] + 1e-3F;
+    shrunk.nodes[0].upper_y -= 1;
     EXPECT_NE(find_bvh_defect(shrunk, scene, margin), "");
     Bvh cut = structure.bvh;
-    cut.nodes.back().child[0] = 1 << 20;
+    cut.nodes[0].first_inner = 1 << 20;
     EXPECT_NE(find_bvh_defect(cut, scene, margin), "");
 }
 

@@ -98,15 +98,18 @@ class SurfaceRays : public test::ExactBackend {
         std::vector<double> t;
         RenderCounters counters;
     };
-    static Answers ask(Backend& backend, const Reference& r, Tier tier) {
+    static Answers ask(Backend& backend, const Reference& r, Tier tier, Coherence coherence = Coherence::unknown) {
         Answers a{
             std::vector<Hit>(r.rays.size()), std::vector<Hit>(r.rays.size()), std::vector<double>(r.rays.size()), {}};
         const auto scene = backend.load(r.scene, tier);
-        backend.trace(*scene,
-                      {.rays = r.rays, .hits = a.hits, .sources = r.sources, .wide_t = a.t, .counters = &a.counters});
-        backend.trace(
-            *scene,
-            {.rays = r.rays, .hits = a.occluded, .sources = r.sources, .ends = r.ends, .counters = &a.counters});
+        TraceJob job = {.rays = r.rays, .hits = a.hits, .sources = r.sources, .wide_t = a.t};
+        job.coherence = coherence;
+        job.counters = &a.counters;
+        backend.trace(*scene, job);
+        job.hits = a.occluded;
+        job.ends = r.ends;
+        job.wide_t = {};
+        backend.trace(*scene, job);
         return a;
     }
 };
@@ -139,11 +142,13 @@ TEST_P(SurfaceRays, GiveTheBitsOfTheLeastProcessor) {
     const auto least = make_backend("cpu", options);
     for (const Reference& r : references()) {
         const Answers expected = ask(*least, r, GetParam().tier);
-        const Answers a = ask(*backend_, r, GetParam().tier);
-        for (std::size_t i = 0; i < r.rays.size(); ++i) {
-            ASSERT_EQ(bits_of(a.t[i]), bits_of(expected.t[i])) << describe(r, i);
-            ASSERT_EQ(a.hits[i].primitive, expected.hits[i].primitive) << describe(r, i);
-            ASSERT_EQ(a.occluded[i].primitive, expected.occluded[i].primitive) << describe(r, i);
+        for (const Coherence coherence : {Coherence::coherent, Coherence::incoherent}) {
+            const Answers a = ask(*backend_, r, GetParam().tier, coherence);
+            for (std::size_t i = 0; i < r.rays.size(); ++i) {
+                ASSERT_EQ(bits_of(a.t[i]), bits_of(expected.t[i])) << describe(r, i);
+                ASSERT_EQ(a.hits[i].primitive, expected.hits[i].primitive) << describe(r, i);
+                ASSERT_EQ(a.occluded[i].primitive, expected.occluded[i].primitive) << describe(r, i);
+            }
         }
     }
 }

@@ -71,7 +71,8 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
 }
 
 TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
-    for (const char* scenes : {"few", "loop", "loop_bodies", "bvh", "bvh_bodies"}) {
+    // in hierarchies the exact tiers walk with intervals, whose margins cover fused operations, and fast does not
+    for (const char* scenes : {"few", "loop", "loop_bodies"}) {
         for (const KernelVariant& variant : variants) {
             const std::string name = fmt::format("cuda/compiled_{}_{}_", variant.name, scenes);
             const auto of = [&](const char* tier) { return compiled(name + tier, "tandem_render"); };

@@ -70,8 +70,12 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
         const auto effect = static_cast<Effect>(i);
         if (host_effects.has(effect)) continue;  // no kernel knows of it
         const auto found = base.find(effect);
-        const EffectMask without = found == base.end() ? EffectMask() : found->second;
-        EXPECT_GT(write(without | effect).code_bytes, linked(facts(without)).code_bytes) << to_string(effect);
+        EffectMask without = found == base.end() ? EffectMask() : found->second;
+        // kernels for long paths call what those for short ones have inline, so both must be for long ones
+        const Effect other = effect == Effect::reflection ? Effect::refraction : Effect::reflection;
+        (void)write(without | effect);
+        if (synchronising_effects.has(effect)) without = without | other;
+        EXPECT_GT(linked(facts(without | effect)).code_bytes, linked(facts(without)).code_bytes) << to_string(effect);
     }
     const Linked everything = write(all_effects);
     EXPECT_GT(everything.code_bytes, 3 * nothing.code_bytes);

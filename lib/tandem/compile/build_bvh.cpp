@@ -4,20 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
+#include <span>
 
 #include "tandem/base/error.h"
+#include "tandem/compile/binary_tree.h"
 
 namespace tandem {
 
 namespace {
-
-constexpr int bin_count = 16;
-constexpr std::uint32_t preferred_leaf_size = 2;
-/// Below this depth ranges are halved, which ends within log2(max_bvh_primitives) = 28 more levels.
-constexpr int sah_depth = max_bvh_depth - 30;
-
-float component(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// The smallest sphere around `middle` that contains all points.
 template <class... Points>
@@ -43,158 +38,185 @@ Sphere sphere_around(const Box& box) {
 Sphere sphere_around(const Triangle& t) { return sphere_to(centre(bounds(t)), t.v0, t.v1, t.v2); }
 Sphere sphere_around(const Quad& q) { return sphere_to(centre(bounds(q)), q.v0, q.v1, q.v2, q.v3); }
 
-struct Bin {
-    Aabb box;
-    std::uint32_t count = 0;
+/// Which nodes of a binary tree become the children of a wide node, by the surface area heuristic. The cost of a node
+/// with k places is that of the cheapest forest of k wide trees over its primitives.
+/// Source: Ylitie et al. (kernel/traversal/bvh.h), section 3.1.
+class Collapse {
+  public:
+    explicit Collapse(const BinaryTree& tree) : nodes_(tree.nodes), places_(nodes_.size()) {
+        // relative to the root, and in double, so that they are numbers in scenes of any size
+        const double whole = std::max(area_of(nodes_[0].box), 1e-300);
+        for (std::size_t i = nodes_.size(); i-- > 0;) {
+            weigh(i, static_cast<float>(std::min(area_of(nodes_[i].box) / whole, 1.0)));
+        }
+    }
+
+    /// The children of the wide node that replaces binary node `index`: at least two, at most bvh_width.
+    [[nodiscard]] std::vector<std::uint32_t> children(std::uint32_t index) const {
+        if (nodes_[index].is_leaf()) return {index};
+        std::vector<std::uint32_t> list;
+        divide(index, bvh_width, list);
+        return list;
+    }
+
+  private:
+    static constexpr float leaf_cost = 0.6F;  ///< of a primitive, relative to that of a node
+
+    /// By number of places - 1.
+    struct Places {
+        std::array<float, bvh_width - 1> cost;
+        std::array<std::uint8_t, bvh_width> for_first;  ///< how many go to the first child; 0: the last place is unused
+    };
+
+    static double area_of(const Aabb& box) {
+        const Vec3d extent = widen(box.upper) - widen(box.lower);
+        return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+    }
+
+    void weigh(std::size_t index, float area) {
+        Places& at = places_[index];
+        at.for_first.fill(0);
+        if (nodes_[index].is_leaf()) {
+            at.cost.fill(area * leaf_cost);
+            return;
+        }
+        const auto cheapest = [&](std::size_t places) {
+            float least = 0;
+            for (std::size_t first = 1; first < places; ++first) {
+                const float cost =
+                    places_[index + 1].cost[first - 1] + places_[nodes_[index].second].cost[places - first - 1];
+                if (first > 1 && !(cost < least)) continue;
+                least = cost;
+                at.for_first[places - 1] = static_cast<std::uint8_t>(first);
+            }
+            return least;
+        };
+        at.cost[0] = cheapest(bvh_width) + area;
+        for (std::size_t places = 2; places < bvh_width; ++places) {
+            const float divided = cheapest(places);
+            const float undivided = at.cost[places - 2];
+            if (!(divided < undivided)) at.for_first[places - 1] = 0;
+            at.cost[places - 1] = std::min(divided, undivided);
+        }
+    }
+
+    void divide(std::uint32_t index, std::size_t places, std::vector<std::uint32_t>& list) const {
+        const Places& at = places_[index];
+        while (places > 1 && at.for_first[places - 1] == 0) --places;
+        if (places == 1) {
+            list.push_back(index);
+            return;
+        }
+        const std::size_t first = at.for_first[places - 1];
+        divide(index + 1, first, list);
+        divide(nodes_[index].second, places - first, list);
+    }
+
+    const std::vector<BinaryNode>& nodes_;
+    std::vector<Places> places_;
+};
+
+/// One axis of a node's grid: corner + 2^exponent * byte.
+struct Axis {
+    float corner;
+    int exponent;
+
+    /// The finest grid whose bytes reach from `lower` to `upper`, with 1/32 step to spare (node_ray.h needs 2^-8).
+    Axis(float lower, float upper) {
+        const double extent = static_cast<double>(upper) - lower;
+        exponent = std::max(least_step_exponent, std::ilogb(std::max(extent / 255, 1e-300)) - 1);
+        while (!try_exponent(lower, upper)) ++exponent;
+    }
+    [[nodiscard]] std::uint32_t below(float plane) const { return byte(std::floor(steps_to(plane) - spare)); }
+    [[nodiscard]] std::uint32_t above(float plane) const { return byte(std::ceil(steps_to(plane) + spare)); }
+
+  private:
+    static constexpr double spare = 1.0 / 32;
+
+    bool try_exponent(float lower, float upper) {
+        corner = round_sum_down(lower, -std::ldexp(2 * spare, exponent));
+        return std::ceil(steps_to(upper) + spare) <= 255;
+    }
+    [[nodiscard]] double steps_to(float plane) const {
+        return std::ldexp(static_cast<double>(plane) - corner, -exponent);
+    }
+    static std::uint32_t byte(double steps) { return static_cast<std::uint32_t>(std::clamp(steps, 0.0, 255.0)); }
 };
 
 class Builder {
   public:
-    Builder(const SceneView& scene, float margin) : scene_(scene) {
-        const std::uint32_t count = primitive_count(scene);
-        boxes_.reserve(count);
-        for (std::uint32_t id = 0; id < count; ++id) boxes_.push_back(pad(primitive_bounds(scene, id), margin));
-        order_.resize(count);
-        std::iota(order_.begin(), order_.end(), 0U);
-    }
+    Builder(const SceneView& scene, float margin)
+        : scene_(scene), tree_(build_binary_tree(scene, margin)), collapse_(tree_) {}
 
     Bvh run() {
-        Range all = {0, static_cast<std::uint32_t>(order_.size()), 0};
-        if (all.size() == 1) {  // a root has two children; an empty box is never entered
-            bvh_.nodes.emplace_back();
-            set_child(0, 0, boxes_[order_[0]], leaf_child(0, 1));
-            set_child(0, 1, Aabb{}, leaf_child(0, 1));
-        } else {
-            build_node(all);
-        }
-        bvh_.entry_ids = order_;
-        for (const std::uint32_t id : order_) bvh_.entry_spheres.push_back(bounding_sphere(id));
+        bvh_.entry_ids.reserve(tree_.order.size() + spare_entries);
+        bvh_.entry_spheres.reserve(tree_.order.size() + spare_entries);
+        std::vector<std::uint32_t> binary = {0};  // for each node, the one that it replaces
+        for (std::size_t i = 0; i < binary.size(); ++i) add_node(binary[i], binary);
+        for (int i = 0; i < spare_entries; ++i) add_entry(bvh_.entry_ids.back());
+        add_placements(std::span(scene_.ellipsoids, scene_.ellipsoid_count));
+        add_placements(std::span(scene_.parallelepipeds, scene_.parallelepiped_count));
         return std::move(bvh_);
     }
 
   private:
-    struct Range {
-        std::uint32_t first, end;
-        int depth;
-        [[nodiscard]] std::uint32_t size() const { return end - first; }
-    };
-
-    struct Split {
-        float cost = 3.4e38F;
-        int axis = -1;
-        int bin = 0;
-        float lower = 0, scale = 0;
-        [[nodiscard]] int bin_of(const Vec3f& centre) const {
-            return std::min(bin_count - 1, static_cast<int>((component(centre, axis) - lower) * scale));
-        }
-    };
-
-    Aabb bounds_of(const Range& range) const {
-        Aabb box;
-        for (std::uint32_t i = range.first; i < range.end; ++i) box = merge(box, boxes_[order_[i]]);
-        return box;
+    template <class Body>
+    void add_placements(std::span<const Body> bodies) {
+        for (const Body& body : bodies) bvh_.placements.push_back(rough_placement(body));
     }
 
-    /// Builds an inner node over at least two primitives; returns its index.
-    std::int32_t build_node(const Range& range) {
-        const auto index = static_cast<std::int32_t>(bvh_.nodes.size());
-        bvh_.nodes.emplace_back();
-        const std::uint32_t middle = split(range);
-        const Range halves[2] = {{range.first, middle, range.depth + 1}, {middle, range.end, range.depth + 1}};
-        for (int side = 0; side < 2; ++side) {
-            const Range& half = halves[side];
-            const Aabb box = bounds_of(half);
-            const std::int32_t child =
-                half.size() <= preferred_leaf_size ? leaf_child(half.first, half.size()) : build_node(half);
-            set_child(static_cast<std::size_t>(index), side, box, child);
-        }
-        return index;
-    }
-
-    /// Reorders the range; returns where its second half begins.
-    std::uint32_t split(const Range& range) {
-        const auto first = order_.begin() + range.first;
-        const auto end = order_.begin() + range.end;
-        const Split best = range.depth < sah_depth ? best_split(range) : Split{};
-        if (best.axis >= 0) {
-            const auto middle = std::partition(
-                first, end, [&](std::uint32_t id) { return best.bin_of(centre(boxes_[id])) <= best.bin; });
-            if (middle != first && middle != end) return static_cast<std::uint32_t>(middle - order_.begin());
-        }
-        return range.first + range.size() / 2;  // centres coincide, or the tree is deep: halve by number
-    }
-
-    Split best_split(const Range& range) const {
-        Aabb centres;
-        for (std::uint32_t i = range.first; i < range.end; ++i) {
-            const Vec3f c = centre(boxes_[order_[i]]);
-            centres = merge(centres, {c, c});
-        }
-        Split best;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float extent = component(centres.upper, axis) - component(centres.lower, axis);
-            if (!(extent > 0)) continue;
-            Split candidate;
-            candidate.axis = axis;
-            candidate.lower = component(centres.lower, axis);
-            candidate.scale = static_cast<float>(bin_count) / extent;
-            if (!(candidate.scale < 3e38F)) continue;
-            evaluate(range, candidate);
-            if (candidate.cost < best.cost) best = candidate;
-        }
-        return best;
-    }
-
-    /// Finds the cheapest plane between the bins along candidate.axis.
-    void evaluate(const Range& range, Split& candidate) const {
-        std::array<Bin, bin_count> bins;
-        for (std::uint32_t i = range.first; i < range.end; ++i) {
-            const Aabb& box = boxes_[order_[i]];
-            Bin& bin = bins[static_cast<std::size_t>(candidate.bin_of(centre(box)))];
-            bin.box = merge(bin.box, box);
-            ++bin.count;
-        }
-        std::array<float, bin_count> cost_above{};
-        Bin above;
-        const auto cost = [](const Bin& b) {
-            return b.count == 0 ? 0.0F : half_area(b.box) * static_cast<float>(b.count);
-        };
-        for (std::size_t i = bin_count - 1; i > 0; --i) {
-            above = {merge(above.box, bins[i].box), above.count + bins[i].count};
-            cost_above[i - 1] = cost(above);
-        }
-        Bin below;
-        for (std::size_t i = 0; i + 1 < bin_count; ++i) {
-            below = {merge(below.box, bins[i].box), below.count + bins[i].count};
-            const float total = cost(below) + cost_above[i];
-            if (below.count > 0 && below.count < range.size() && total < candidate.cost) {
-                candidate.cost = total;
-                candidate.bin = static_cast<int>(i);
+    void add_node(std::uint32_t index, std::vector<std::uint32_t>& binary) {
+        std::vector<std::uint32_t> children = collapse_.children(index);
+        const auto first_leaf = std::stable_partition(
+            children.begin(), children.end(), [&](std::uint32_t child) { return !tree_.nodes[child].is_leaf(); });
+        const auto inner = static_cast<std::int32_t>(first_leaf - children.begin());
+        BvhNode node{};
+        set_planes(children, node);
+        node.frame |= static_cast<std::uint32_t>(inner) << 24;
+        node.first_inner = static_cast<std::int32_t>(binary.size());
+        node.leaf_base = inner - 1 - static_cast<std::int32_t>(bvh_.entry_ids.size());
+        for (const std::uint32_t child : children) {
+            if (tree_.nodes[child].is_leaf()) {
+                add_entry(tree_.order[tree_.nodes[child].first_primitive]);
+            } else {
+                binary.push_back(child);
             }
         }
+        bvh_.nodes.push_back(node);
     }
 
-    void set_child(std::size_t node, int side, const Aabb& box, std::int32_t child) {
-        BvhNode& n = bvh_.nodes[node];
-        const auto s = static_cast<std::size_t>(side);
-        n.xy[s][0] = box.lower.x;
-        n.xy[s][1] = box.upper.x;
-        n.xy[s][2] = box.lower.y;
-        n.xy[s][3] = box.upper.y;
-        n.z[2 * s] = box.lower.z;
-        n.z[2 * s + 1] = box.upper.z;
-        n.child[s] = child;
+    void set_planes(const std::vector<std::uint32_t>& children, BvhNode& node) const {
+        Aabb all;
+        for (const std::uint32_t child : children) all = merge(all, tree_.nodes[child].box);
+        const auto set_axis = [&](unsigned axis, float Vec3f::*of, std::uint32_t& lower, std::uint32_t& upper) {
+            const Axis grid(all.lower.*of, all.upper.*of);
+            node.corner[axis] = grid.corner;
+            node.frame |= frame_exponent(grid.exponent) << (8 * axis);
+            lower = 0xFFFFFFFFU;  // empty
+            for (std::size_t i = 0; i < children.size(); ++i) {
+                const Aabb& box = tree_.nodes[children[i]].box;
+                lower = (lower & ~(0xFFU << (8 * i))) | grid.below(box.lower.*of) << (8 * i);
+                upper |= grid.above(box.upper.*of) << (8 * i);
+            }
+        };
+        set_axis(0, &Vec3f::x, node.lower_x, node.upper_x);
+        set_axis(1, &Vec3f::y, node.lower_y, node.upper_y);
+        set_axis(2, &Vec3f::z, node.lower_z, node.upper_z);
     }
 
-    Sphere bounding_sphere(std::uint32_t id) const {
-        Sphere sphere{};
-        visit_primitive(scene_, id, [&](const auto& primitive) { sphere = sphere_around(primitive); });
-        return sphere;
+    void add_entry(std::uint32_t id) {
+        bvh_.entry_ids.push_back(id);
+        if (scene_.triangle_count == tree_.order.size()) {
+            const Triangle& t = scene_.triangles[id];
+            bvh_.entry_triangles.push_back({t.v0, t.v1, t.v2, id, t.attributes.sides, 0});
+        }
+        visit_primitive(scene_, id,
+                        [&](const auto& primitive) { bvh_.entry_spheres.push_back(sphere_around(primitive)); });
     }
 
     const SceneView& scene_;
-    std::vector<Aabb> boxes_;
-    std::vector<std::uint32_t> order_;
+    BinaryTree tree_;
+    Collapse collapse_;
     Bvh bvh_;
 };
 

@@ -6,20 +6,26 @@
 #include <vector>
 
 #include "tandem/kernel/traversal/bvh.h"
+#include "tandem/kernel/traversal/hit_interval.h"
 #include "tandem/kernel/view/scene_view.h"
 
 namespace tandem {
 
-/// A BVH in host memory. Leaf entries are in the order of the leaves: the bounding sphere of a primitive (of a sphere,
-/// the sphere itself), which rejects most rays, and the primitive's id.
+/// Behind the entries of all primitives, those that children that are not there may name.
+inline constexpr int spare_entries = bvh_width - 1;
+
+/// A BVH in host memory. An entry is the bounding sphere of a primitive (of a sphere, the sphere itself), which rejects
+/// most rays, and the primitive's id.
 struct Bvh {
     std::vector<BvhNode> nodes;  ///< the root is nodes[0]
     std::vector<Sphere> entry_spheres;
     std::vector<std::uint32_t> entry_ids;
+    std::vector<RoughPlacement> placements;      ///< of the ellipsoids, then the parallelepipeds
+    std::vector<EntryTriangle> entry_triangles;  ///< if all primitives are triangles
 };
 
-/// Surface area heuristic over 16 bins per axis; deterministic. `margin`: padding of every box
-/// (kernel/traversal/proposal.h). Throws InputError for more than max_bvh_primitives. The scene must not be empty.
+/// Surface area heuristic; deterministic. `margin`: padding of every box (kernel/traversal/proposal.h). Throws
+/// InputError for more than max_bvh_primitives. The scene must not be empty.
 [[nodiscard]] Bvh build_bvh(const SceneView& scene, float margin);
 
 /// What is wrong with a BVH (a primitive missing or twice, a box that does not contain its child, too deep); empty if

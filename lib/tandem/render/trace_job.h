@@ -17,6 +17,14 @@ struct RayEnd {
     std::uint32_t unused = 0;
 };
 
+/// Whether neighbouring rays take nearly the same way. Decides how they are traced, and so the time; no bit depends on
+/// it.
+enum class Coherence {
+    unknown,  ///< the backend looks at some rays
+    coherent,
+    incoherent,
+};
+
 /// All spans except rays and hits may be empty; the others have as many elements.
 struct TraceJob {
     std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)
@@ -24,7 +32,8 @@ struct TraceJob {
     std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (kernel/spawn_ray.h)
     std::span<const RayEnd> ends{};        ///< not empty: shadow rays. A hit is {0, some_primitive}
     std::span<double> wide_t{};            ///< t before its rounding to float; 0 for a miss and for shadow rays
-    RenderCounters* counters = nullptr;    ///< rejected rays and stack overflows are added here unless it is null
+    Coherence coherence = Coherence::unknown;
+    RenderCounters* counters = nullptr;  ///< rejected rays and stack overflows are added here unless it is null
 };
 
 /// The rays [first, first + count) of a job, without its counters: parts may run at the same time.
@@ -34,7 +43,8 @@ struct TraceJob {
             .hits = cut(job.hits),
             .sources = cut(job.sources),
             .ends = cut(job.ends),
-            .wide_t = cut(job.wide_t)};
+            .wide_t = cut(job.wide_t),
+            .coherence = job.coherence};
 }
 
 /// Throws InputError if the sizes differ.

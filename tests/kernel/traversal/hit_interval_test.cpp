@@ -6,6 +6,7 @@
 #include "support/adversarial_rays.h"
 #include "support/adversarial_triangles.h"
 #include "support/exact_geometry.h"
+#include "tandem/kernel/traversal/quick_proposal.h"
 
 namespace tandem {
 namespace {
@@ -39,8 +40,11 @@ template <class Primitive>
 void check(const Primitive& primitive, const Ray<float>& ray, const std::optional<Big>& exact, bool own, Random& random,
            const std::string& where, Counts& counts) {
     const StructureFrame frame = any_frame(random, bounds(primitive));
-    const Proposal<float> proposal = propose(ray, frame, true);
-    if (!proposal.active) return;
+    const Proposal<float> proposal = random.coin() ? propose(ray, frame, true) : propose_quickly(ray, frame);
+    if (!proposal.active) {
+        ASSERT_FALSE(exact) << "lost before the bounds: " << where;
+        return;
+    }
     const Source<float> source = {own ? 7U : no_primitive, own};
     const HitInterval interval = hit_interval(make_query_ray(proposal, frame, source), primitive, own);
     ASSERT_GE(interval.lo, 0.0F) << where;

@@ -1,34 +1,53 @@
-/// The binary BVH of the CUDA backend.
+/// The hierarchy of the CUDA backend: nodes of four children with boxes in bytes.
+/// Source: H. Ylitie, T. Karras, S. Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
+///         HPG 2017, section 3; here four children, and one primitive a leaf.
 #pragma once
 
 #include <cstdint>
 
 #include "tandem/kernel/shapes/sphere.h"
 #include "tandem/kernel/view/scene_view.h"
-#include "tandem/math/aabb.h"
 #include "tandem/math/host_device.h"
 
 namespace tandem {
 
-/// The boxes and indices of both children, 64 bytes: one traversal step reads it with four 16-byte loads.
+inline constexpr int bvh_width = 4;
+
+/// The planes of the children's boxes are multiples of the node's steps, from its corner: 48 bytes, three loads of 16.
+/// Inner children come first. A child that is not there has an empty box; rounding may let a ray enter it, so its
+/// entry exists as well.
 struct alignas(16) BvhNode {
-    float xy[2][4];         ///< by child: lower x, upper x, lower y, upper y
-    float z[4];             ///< lower z, upper z of child 0, then of child 1
-    std::int32_t child[2];  ///< 0 or more: index of a node; negative: ~code of a leaf
-    std::int32_t unused[2];
+    float corner[3];
+    std::uint32_t frame;       ///< a byte per axis: the exponent of 128 steps, as in a float; then the inner children
+    std::int32_t first_inner;  ///< the index of the first inner child; the others follow it
+    std::int32_t leaf_base;    ///< child i >= number of inner children is ~(leaf_base - i), an entry
+    std::uint32_t lower_x, upper_x, lower_y, upper_y, lower_z, upper_z;  ///< a byte per child, in steps
 };
-static_assert(sizeof(BvhNode) == 64);
+static_assert(sizeof(BvhNode) == 48);
 
-/// A leaf holds entries [first, first + count): code = first * 8 + (count - 1).
-inline constexpr int max_leaf_size = 8;
-inline constexpr std::uint32_t max_bvh_primitives = 1U << 28;
-TANDEM_HD_INLINE constexpr std::int32_t leaf_child(std::uint32_t first, std::uint32_t count) {
-    return ~static_cast<std::int32_t>(first * 8 + (count - 1));
+inline constexpr int least_step_exponent = -100;  ///< of two: 128 such steps are a normal float
+inline constexpr std::uint32_t frame_exponent(int step_exponent) {
+    return static_cast<std::uint32_t>(step_exponent + 7 + 127);
 }
-TANDEM_HD_INLINE std::uint32_t leaf_first(std::int32_t child) { return static_cast<std::uint32_t>(~child) >> 3; }
-TANDEM_HD_INLINE std::uint32_t leaf_count(std::int32_t child) { return (static_cast<std::uint32_t>(~child) & 7U) + 1; }
+TANDEM_HD_INLINE std::uint32_t inner_count(const BvhNode& node) { return node.frame >> 24; }
+/// 0 or more: the index of a node; negative: ~entry of a leaf.
+TANDEM_HD_INLINE std::int32_t child_of(const BvhNode& node, std::int32_t child) {
+    return child < static_cast<std::int32_t>(inner_count(node)) ? node.first_inner + child : node.leaf_base - child;
+}
 
-/// The depth limit of build_bvh(), so a traversal stack of this size cannot overflow.
+/// An entry of a hierarchy of triangles alone.
+struct alignas(16) EntryTriangle {
+    Vec3f v0, v1, v2;
+    std::uint32_t id;
+    FaceSides sides;
+    std::uint32_t unused;
+};
+static_assert(sizeof(EntryTriangle) == 48);
+
+inline constexpr std::uint32_t max_bvh_primitives = 1U << 30;
+/// The depth limit of build_bvh(). A node leaves three children on the stack at most, so a traversal stack of
+/// bvh_stack_size, with an end mark below them, cannot overflow.
 inline constexpr int max_bvh_depth = 64;
+inline constexpr int bvh_stack_size = (bvh_width - 1) * max_bvh_depth + 1;
 
 }  // namespace tandem

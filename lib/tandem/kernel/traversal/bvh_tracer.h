@@ -1,9 +1,11 @@
-/// Traces rays through the binary BVH, and decides in its leaves or behind the walk.
+/// Traces rays through the hierarchy, and decides in its leaves or behind the walk.
 #pragma once
 
 #include "tandem/kernel/traversal/bvh_walk.h"
 #include "tandem/kernel/traversal/candidates.h"
+#include "tandem/kernel/traversal/quick_proposal.h"
 #include "tandem/kernel/traversal/ray_tracer.h"
+#include "tandem/math/parked.h"
 
 namespace tandem {
 
@@ -45,7 +47,7 @@ struct BvhStructure {
 
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
-        const Proposal<Real> proposal = propose(ray, bvh.frame, true);
+        const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
         bvh_detail::WalkEnd end{};
         if constexpr (decides_behind<Real>) {
@@ -53,107 +55,42 @@ struct BvhStructure {
         } else {
             end = find_in_leaves<search>(ray, source, proposal, best);
         }
-        if (end.stack_was_full && !end.stopped) [[unlikely]] {
-            bvh_detail::count(bvh.stack_overflows);
-            if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
+        if (end.stack_was_full) [[unlikely]]
+            try_what_was_missed(ray, source, best);
+    }
+
+    template <class Real>
+    TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray) const {
+        if constexpr (decides_behind<Real> && std::is_same_v<Real, float>) {
+            return propose_quickly(ray, bvh.frame);
+        } else {
+            return tandem::propose(ray, bvh.frame, true);
         }
     }
 
-    /// Keeps the primitives that a ray may hit at or before `limit`: at first the largest query parameter of interest,
-    /// then that of the nearest certain hit. A search for any hit stops at a certain one before `enough`.
+    /// Keeps the primitive of an entry if the ray may hit it at or before `limit`: at first the largest query parameter
+    /// of interest, then that of the nearest certain hit. True where a search for any hit may stop: at a certain one
+    /// before `enough`.
+    template <Search search, class Real, class From>
+    TANDEM_HD_INLINE bool keep(std::uint32_t entry, const From& source, const QueryRay& query, float enough,
+                               float& limit, Candidates<most_candidates>& candidates) const {
+        std::uint32_t id = no_primitive;
+        const HitInterval interval = interval_at<Real>(entry, source, query, id);
+        if (!(interval.lo <= limit)) return false;
+        if (search == Search::any && interval.hi < enough) return true;
+        if constexpr (search == Search::nearest) limit = lesser(limit, interval.hi);
+        candidates.add(interval.lo, id, limit);
+        return false;
+    }
+
+    /// keep() for all entries on the ray's way.
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE bvh_detail::WalkEnd collect(const From& source, const QueryRay& query, float enough, float& limit,
                                                  Candidates<most_candidates>& candidates) const {
-        return walk_intervals<Real>(source, query, limit, [&](const HitInterval& interval, std::uint32_t id) {
-            if (search == Search::any && interval.hi < enough) return true;
-            if constexpr (search == Search::nearest) limit = lesser(limit, interval.hi);
-            candidates.add(interval.lo, id, limit);
-            return false;
-        });
-    }
-
-  private:
-    template <Search search, class Real, class From>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_in_leaves(const Ray<Real>& ray, const From& source,
-                                                        const Proposal<Real>& proposal, Closest<Real>& best) const {
-        const FilterRay<Real> filter = make_filter_ray(ray);
-        const SlabRay slab = make_slab_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
-        const Double<Real> t_max = best.t;
-        // a constant for other rays: with start_for() nvcc spills more, and nearest hits take 6 % longer
         constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
-        const float start = may_start_late ? to_plain(proposal.start_for(source)) : 0.0F;
-        float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
-        return bvh_detail::walk(bvh.nodes, slab, start, limit, [&](std::int32_t leaf) {
-            try_leaf(leaf, filter, source, proposal, best, limit);
-            return search == Search::any && best.t < t_max;
-        });
-    }
-
-    template <class Real, class From>
-    TANDEM_HD_INLINE void try_leaf(std::int32_t leaf, const FilterRay<Real>& filter, const From& source,
-                                   const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
-        const std::uint32_t first = leaf_first(leaf);
-        const std::uint32_t end = first + leaf_count(leaf);
-        for (std::uint32_t i = first; i < end; ++i) {
-            const Sphere around = bvh_detail::load_entry_sphere(bvh, i);
-            if constexpr (!is_fast<Real>) {  // in the tier fast the test costs hardly more than the filter
-                if (!may_touch_sphere(filter, around.centre, around.radius)) continue;
-            }
-            const std::uint32_t id = bvh.entry_ids[i];
-            const Double<Real> t_before = best.t;
-            // not in a function of its own: nvcc would compile the code for spheres twice
-            if (may_have(PrimitiveKinds::sphere) &&
-                (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
-                test_primitive(around, id, filter.ray, source, true, best);
-            } else {
-                intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
-            }
-            if (best.t < t_before) limit = to_plain(proposal.limit(best.t));
-        }
-    }
-
-    template <Search search, class Real, class From>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_behind_walk(const Ray<Real>& ray, const From& source,
-                                                          const Proposal<Real>& proposal, Closest<Real>& best) const {
-        float limit = search == Search::any ? to_plain(proposal.limit(best.t)) : 3e38F;
-        const float enough = search == Search::any ? to_plain(proposal.start(best.t)) : 0.0F;
-        Candidates<most_candidates> candidates;
-        const QueryRay query = make_query_ray(proposal, bvh.frame, source);
-        const bvh_detail::WalkEnd end = collect<search, Real>(source, query, enough, limit, candidates);
-        if (search == Search::any && end.stopped) {
-            best = {0.0, some_primitive};
-        } else if (candidates.overflow) [[unlikely]] {
-            best = decide_crowd<search>(*this, ray, source, best, limit);
-        } else {
-            candidates.for_each(limit, [&](std::uint32_t id) { decide(ray, source, id, best); });
-        }
-        return end;
-    }
-
-    /// Calls take(interval, id) for the primitives that the ray may hit at or before `limit`, until one returns true.
-    template <class Real, class From, class Take>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd walk_intervals(const From& source, const QueryRay& query, const float& limit,
-                                                        const Take& take) const {
-        const SlabRay slab = make_slab_ray(query.origin, query.direction);
-        return bvh_detail::walk(bvh.nodes, slab, query.start, limit, [&](std::int32_t leaf) {
-            const std::uint32_t first = leaf_first(leaf);
-            const std::uint32_t end = first + leaf_count(leaf);
-            for (std::uint32_t i = first; i < end; ++i) {
-                const SphereLine line(query, bvh_detail::load_entry_sphere(bvh, i));
-                if (line.misses()) continue;
-                const std::uint32_t id = bvh.entry_ids[i];
-                HitInterval interval;
-                if (may_have(PrimitiveKinds::sphere) &&
-                    (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
-                    interval = hit_interval_from<Real, Sphere>(source, id, query, line);
-                } else {
-                    visit_primitive<kinds>(scene, id, [&]<class Primitive>(const Primitive& primitive) {
-                        interval = hit_interval_from<Real, Primitive>(source, id, query, primitive);
-                    });
-                }
-                if (interval.lo <= limit && take(interval, id)) return true;
-            }
-            return false;
+        const NodeRay node_ray = make_node_ray(query.origin, query.direction);
+        return bvh_detail::walk<may_start_late>(bvh, node_ray, query.start, limit, [&](std::uint32_t entry) {
+            return keep<search, Real>(entry, source, query, enough, limit, candidates);
         });
     }
 
@@ -170,16 +107,19 @@ struct BvhStructure {
     template <Search search, class Real, class From>
     TANDEM_HD_CALL Closest<Real> decide_crowd(const BvhStructure& self, Ray<Real> ray, From source, Closest<Real> best,
                                               float limit) {
-        const Proposal<Real> proposal = propose(ray, self.bvh.frame, true);
+        const Proposal<Real> proposal = self.propose(ray);
         const QueryRay query = make_query_ray(proposal, self.bvh.frame, source);
         const Double<Real> t_max = best.t;
         Candidates<2> certain;
-        const auto keep_or_decide = [&](const HitInterval& interval, std::uint32_t id) {
+        const auto keep_or_decide = [&](std::uint32_t entry) {
+            std::uint32_t id = no_primitive;
+            const HitInterval interval = self.template interval_at<Real>(entry, source, query, id);
+            if (!(interval.lo <= limit)) return false;
             if (search == Search::nearest && interval.hi < interval_detail::infinity) {
                 limit = lesser(limit, interval.hi);
                 certain.add(interval.lo, id, limit);
-                if (!certain.overflow) return false;
-                certain.overflow = false;
+                if (certain.overflow == 0) return false;
+                certain.overflow = 0;
             }
             const Double<Real> t_before = best.t;
             self.decide(ray, source, id, best);
@@ -187,14 +127,123 @@ struct BvhStructure {
             if (best.t < t_before) limit = lesser(limit, greater(to_plain(proposal.limit(best.t)), 0.0F));
             return search == Search::any && best.t < t_max;
         };
-        (void)self.template walk_intervals<Real>(source, query, limit, keep_or_decide);
+        constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
+        const NodeRay node_ray = make_node_ray(query.origin, query.direction);
+        const bvh_detail::WalkEnd end =
+            bvh_detail::walk<may_start_late>(self.bvh, node_ray, query.start, limit, keep_or_decide);
+        if (end.stack_was_full) self.try_what_was_missed(ray, source, best);
         certain.for_each(limit, [&](std::uint32_t id) { self.decide(ray, source, id, best); });
         return best;
+    }
+
+  private:
+    /// Whether the scene has no other kinds, as far as is known when kernels are compiled or linked.
+    TANDEM_HD_INLINE static bool is_only(std::uint32_t kind) {
+        return (kinds & kind) != 0 && ((kinds & ~kind) == 0 || !may_have(kinds & ~kind));
+    }
+
+    /// After a walk whose stack was full.
+    template <class Real, class From>
+    TANDEM_HD_INLINE void try_what_was_missed(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        bvh_detail::count(bvh.stack_overflows);
+        if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
+    }
+
+    template <Search search, class Real, class From>
+    TANDEM_HD_INLINE bvh_detail::WalkEnd find_in_leaves(const Ray<Real>& ray, const From& source,
+                                                        const Proposal<Real>& proposal, Closest<Real>& best) const {
+        const FilterRay<Real> filter = make_filter_ray(ray);
+        const NodeRay node_ray = make_node_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
+        const Double<Real> t_max = best.t;
+        // a constant for other rays: with start_for() nvcc spills more, and nearest hits take 6 % longer
+        constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
+        const float start = may_start_late ? to_plain(proposal.start_for(source)) : 0.0F;
+        float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
+        return bvh_detail::walk<may_start_late>(bvh, node_ray, start, limit, [&](std::uint32_t entry) {
+            try_entry(entry, filter, source, proposal, best, limit);
+            return search == Search::any && best.t < t_max;
+        });
+    }
+
+    template <class Real, class From>
+    TANDEM_HD_INLINE void try_entry(std::uint32_t entry, const FilterRay<Real>& filter, const From& source,
+                                    const Proposal<Real>& proposal, Closest<Real>& best, float& limit) const {
+        const Sphere around = bvh_detail::load_entry_sphere(bvh, entry);
+        if constexpr (!is_fast<Real>) {  // in the tier fast the test costs hardly more than the filter
+            if (!may_touch_sphere(filter, around.centre, around.radius)) return;
+        }
+        const std::uint32_t id = bvh.entry_ids[entry];
+        const Double<Real> t_before = best.t;
+        // not in a function of its own: nvcc would compile the code for spheres twice
+        if (may_have(PrimitiveKinds::sphere) &&
+            (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
+            test_primitive(around, id, filter.ray, source, true, best);
+        } else {
+            intersect_primitive<Real, kinds>(scene, id, filter, source, true, best);
+        }
+        if (best.t < t_before) limit = to_plain(proposal.limit(best.t));
+    }
+
+    template <Search search, class Real, class From>
+    TANDEM_HD_INLINE bvh_detail::WalkEnd find_behind_walk(const Ray<Real>& ray, const From& source,
+                                                          const Proposal<Real>& proposal, Closest<Real>& best) const {
+        float limit = search == Search::any ? to_plain(proposal.limit(best.t)) : 3e38F;
+        const float enough = search == Search::any ? to_plain(proposal.start(best.t)) : 0.0F;
+        Candidates<most_candidates> candidates;
+        const QueryRay query = make_query_ray(proposal, bvh.frame, source);
+        const Parked<Ray<Real>> parked(ray);
+        const bvh_detail::WalkEnd end = collect<search, Real>(source, query, enough, limit, candidates);
+        const Ray<Real> same_ray = parked.get();
+        const Parked<Candidates<most_candidates>> found(candidates);
+        const float reached = Parked<float>(limit).get();
+        if (search == Search::any && end.stopped) {
+            best = {0.0, some_primitive};
+        } else if (candidates.overflow != 0) [[unlikely]] {
+            best = decide_crowd<search>(*this, same_ray, source, best, reached);
+            return {};
+        } else {
+            found.get().for_each(reached, [&](std::uint32_t id) { decide(same_ray, source, id, best); });
+        }
+        return end;
+    }
+
+    /// Where the ray hits the primitive of an entry, `id`.
+    template <class Real, class From>
+    TANDEM_HD_INLINE HitInterval interval_at(std::uint32_t entry, const From& source, const QueryRay& query,
+                                             std::uint32_t& id) const {
+        if (is_only(PrimitiveKinds::triangle)) {
+            const EntryTriangle at = bvh_detail::load_entry_triangle(bvh, entry);
+            id = at.id;
+            const Triangle triangle = {at.v0, at.v1, at.v2, {.sides = at.sides}};
+            return hit_interval_from<Real, Triangle>(source, id, query, triangle);
+        }
+        const SphereLine line(query, bvh_detail::load_entry_sphere(bvh, entry));
+        HitInterval interval = certain_miss;
+        if (line.misses()) return interval;
+        id = bvh.entry_ids[entry];
+        if (may_have(PrimitiveKinds::sphere) &&
+            (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
+            interval = hit_interval_from<Real, Sphere>(source, id, query, line);
+        } else {
+            visit_primitive<kinds>(scene, id, [&]<class Primitive>(const Primitive& primitive) {
+                if constexpr (std::is_base_of_v<Placement, Primitive>) {
+                    using Rough =
+                        std::conditional_t<std::is_same_v<Primitive, Ellipsoid>, RoughEllipsoid, RoughParallelepiped>;
+                    const std::uint32_t placed = id - scene.sphere_count - scene.box_count;
+                    const Rough rough = {bvh_detail::load_placement(bvh, placed)};
+                    interval = hit_interval_from<Real, Primitive>(source, id, query, rough);
+                } else {
+                    interval = hit_interval_from<Real, Primitive>(source, id, query, primitive);
+                }
+            });
+        }
+        return interval;
     }
 };
 
 template <std::uint32_t kind_set, Decisions decisions = Decisions::in_leaves>
 using BvhTracerFor = RayTracer<BvhStructure<kind_set, decisions>>;
 using BvhTracer = BvhTracerFor<PrimitiveKinds::all>;
+using DeferringBvhTracer = BvhTracerFor<PrimitiveKinds::all, Decisions::behind_walk>;
 
 }  // namespace tandem

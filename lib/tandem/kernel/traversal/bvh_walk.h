@@ -1,10 +1,10 @@
-/// The walk of a ray through the binary BVH: nearer child first, with a stack in local memory.
+/// The walk of a ray through the hierarchy: nearest child first, the others on a stack in local memory.
 /// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009.
 #pragma once
 
-#include "tandem/kernel/traversal/bvh.h"
+#include "tandem/kernel/traversal/hit_interval.h"
+#include "tandem/kernel/traversal/node_ray.h"
 #include "tandem/kernel/traversal/proposal.h"
-#include "tandem/kernel/traversal/slab.h"
 
 namespace tandem {
 
@@ -13,32 +13,75 @@ struct BvhView {
     const BvhNode* nodes;
     const Sphere* entry_spheres;
     const std::uint32_t* entry_ids;
+    const EntryTriangle* entry_triangles;  ///< null unless all primitives are triangles
+    const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds
     StructureFrame frame;
     unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
+    /// The bits of 256.0F, of which bytes of planes become a part. A member, so that the compiler does not know it:
+    /// a permutation of bytes takes one constant, and that is its pattern.
+    std::uint32_t bits_of_256 = 0x43800000U;
 };
 
 namespace bvh_detail {
 
-struct alignas(16) Float4 {
-    float a, b, c, d;
+struct alignas(16) Load16 {
+    std::uint32_t a, b, c, d;
 };
 
 /// Loads 16 bytes at once; on the GPU through the read-only cache.
-TANDEM_HD_INLINE Float4 load_float4(const void* address) {
+TANDEM_HD_INLINE Load16 load_16(const void* address) {
 #if TANDEM_ON_DEVICE
-    const float4 v = __ldg(static_cast<const float4*>(address));
+    const uint4 v = __ldg(static_cast<const uint4*>(address));
     return {v.x, v.y, v.z, v.w};
 #else
-    Float4 v;
+    Load16 v;
     std::memcpy(&v, address, sizeof(v));
     return v;
 #endif
 }
 
+TANDEM_HD_INLINE BvhNode load_node(const BvhNode* nodes, std::int32_t index) {
+    const auto* address = reinterpret_cast<const char*>(nodes + index);
+    const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32);
+    return {{float_of(p.a), float_of(p.b), float_of(p.c)},
+            p.d,
+            static_cast<std::int32_t>(q.a),
+            static_cast<std::int32_t>(q.b),
+            q.c,
+            q.d,
+            r.a,
+            r.b,
+            r.c,
+            r.d};
+}
+
 /// The sphere around entry `i`; the primitive itself if that is a sphere.
 TANDEM_HD_INLINE Sphere load_entry_sphere(const BvhView& bvh, std::uint32_t i) {
-    const Float4 q = load_float4(&bvh.entry_spheres[i]);
-    return {{q.a, q.b, q.c}, q.d};
+    const Load16 q = load_16(&bvh.entry_spheres[i]);
+    return {{float_of(q.a), float_of(q.b), float_of(q.c)}, float_of(q.d)};
+}
+
+TANDEM_HD_INLINE EntryTriangle load_entry_triangle(const BvhView& bvh, std::uint32_t i) {
+    const auto* address = reinterpret_cast<const char*>(bvh.entry_triangles + i);
+    const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32);
+    return {{float_of(p.a), float_of(p.b), float_of(p.c)},
+            {float_of(p.d), float_of(q.a), float_of(q.b)},
+            {float_of(q.c), float_of(q.d), float_of(r.a)},
+            r.b,
+            static_cast<FaceSides>(r.c),
+            0};
+}
+
+TANDEM_HD_INLINE RoughPlacement load_placement(const BvhView& bvh, std::uint32_t i) {
+    const auto* address = reinterpret_cast<const char*>(bvh.placements + i);
+    const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32), s = load_16(address + 48);
+    const auto vector = [](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return Vec3f{float_of(x), float_of(y), float_of(z)};
+    };
+    return {{vector(p.a, p.b, p.c), vector(p.d, q.a, q.b), vector(q.c, q.d, r.a)},
+            vector(r.b, r.c, r.d),
+            vector(s.a, s.b, s.c),
+            float_of(s.d)};
 }
 
 TANDEM_HD_INLINE void count(unsigned long long* counter) {
@@ -53,50 +96,85 @@ TANDEM_HD_INLINE void count(unsigned long long* counter) {
 /// How a walk ended.
 struct WalkEnd {
     bool stopped;
-    bool stack_was_full;  ///< some leaves were not visited
+    bool stack_was_full;  ///< not all entries were visited
 };
 
-/// Calls leaf(child) for the leaves that the ray may hit in [start, limit], until one returns true. `leaf` may lower
-/// `limit`.
-template <class Leaf>
-TANDEM_HD_INLINE WalkEnd walk(const BvhNode* nodes, const SlabRay& slab, float start, const float& limit,
-                              const Leaf& leaf) {
-    std::int32_t stack[max_bvh_depth];
-    int depth = 0;
-    bool overflow = false;  // checked after the loop, because another branch in the loop would make warps diverge
-    std::int32_t at = 0;
-    while (true) {
-        if (at >= 0) {
-            const BvhNode& node = nodes[at];
-            const Float4 xy0 = load_float4(node.xy[0]);
-            const Float4 xy1 = load_float4(node.xy[1]);
-            const Float4 z = load_float4(node.z);
-            const Float4 children = load_float4(node.child);
-            const float entry0 = slab_entry(slab, xy0.a, xy0.b, xy0.c, xy0.d, z.a, z.b, start, limit);
-            const float entry1 = slab_entry(slab, xy1.a, xy1.b, xy1.c, xy1.d, z.c, z.d, start, limit);
-            const bool enter0 = entry0 <= limit;
-            const bool enter1 = entry1 <= limit;
-            const auto child0 = static_cast<std::int32_t>(bits_of(children.a));
-            const auto child1 = static_cast<std::int32_t>(bits_of(children.b));
-            if (enter0 && enter1) {
-                const bool second_first = entry1 < entry0;
-                overflow = overflow || depth == max_bvh_depth;
-                depth = depth < max_bvh_depth ? depth : max_bvh_depth - 1;
-                stack[depth++] = second_first ? child0 : child1;
-                at = second_first ? child1 : child0;
-                continue;
-            }
-            if (enter0 || enter1) {
-                at = enter0 ? child0 : child1;
-                continue;
-            }
-        } else {
-            if (leaf(at)) return {true, overflow};
-        }
-        if (depth == 0) break;
-        at = stack[--depth];
+/// The stack of a walk in local memory.
+struct LocalStack {
+    std::int32_t entries[bvh_stack_size];
+
+    TANDEM_HD_INLINE void set(int i, std::int32_t child) { entries[i] = child; }
+    [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
+};
+
+/// A place in the hierarchy, and on a stack. The stack is the caller's: as a member its array would take all of the
+/// walk into local memory.
+struct Walk {
+    std::int32_t at;   ///< 0 or more: a node; negative: ~entry; or no_child, at the end
+    std::int32_t top;  ///< of the stack, in a register, so that the next node is known before the memory answers
+    int depth;         ///< of the rest of the stack; above 0 at the end: it was full
+
+    /// At the root.
+    template <class Stack>
+    TANDEM_HD_INLINE static Walk from_root(Stack& stack) {
+        stack.set(0, no_child);  // below the last
+        return {0, no_child, 1};
     }
-    return {false, overflow};
+    [[nodiscard]] TANDEM_HD_INLINE bool is_done() const { return at == no_child; }
+    [[nodiscard]] TANDEM_HD_INLINE bool is_at_entry() const { return at < 0; }
+    [[nodiscard]] TANDEM_HD_INLINE std::uint32_t entry() const { return static_cast<std::uint32_t>(~at); }
+
+    template <class Stack>
+    TANDEM_HD_INLINE void pop(const Stack& stack) {
+        at = top;
+        top = stack.get(--depth);
+    }
+    template <class Stack>
+    TANDEM_HD_INLINE void push(Stack& stack, std::int32_t child) {
+        stack.set(depth++, top);
+        top = child;
+    }
+
+    /// From a node to the nearest child that the ray enters within [start, limit], or to the top of the stack.
+    template <bool starts_late, class Stack>
+    TANDEM_HD_INLINE void descend(Stack& stack, const BvhView& bvh, const NodeRay& ray, float start, float limit) {
+        const BvhNode node = load_node(bvh.nodes, at);
+        const EnteredChildren entered = enter_children<starts_late>(node, bvh.bits_of_256, ray, start, limit);
+        const auto child = [&](int i) { return child_of(node, entered.key[i] & 3); };
+        if (entered.key[0] == no_child) {
+            pop(stack);
+            return;
+        }
+        // a full stack ends the walk, without a branch of its own, because that would make warps diverge
+        constexpr int fullest = bvh_stack_size - (bvh_width - 1);
+        const bool is_full = depth > fullest;
+        depth = is_full ? fullest : depth;
+        if (entered.key[1] != no_child) {
+            if (entered.key[2] != no_child) {
+                if (entered.key[3] != no_child) push(stack, child(3));
+                push(stack, child(2));
+            }
+            push(stack, child(1));
+        }
+        at = is_full ? no_child : child(0);
+    }
+};
+
+/// Calls leaf(entry) for the entries that the ray may hit in [start, limit], until one returns true. `leaf` may lower
+/// `limit`. `starts_late`: whether `start` may be positive.
+template <bool starts_late, class Leaf>
+TANDEM_HD_INLINE WalkEnd walk(const BvhView& bvh, const NodeRay& ray, float start, const float& limit,
+                              const Leaf& leaf) {
+    LocalStack stack;
+    Walk at = Walk::from_root(stack);
+    while (!at.is_done()) {
+        if (!at.is_at_entry()) at.descend<starts_late>(stack, bvh, ray, start, limit);
+        if (at.is_at_entry()) {
+            if (leaf(at.entry())) return {true, false};
+            at.pop(stack);
+        }
+    }
+    return {false, at.depth > 0};
 }
 
 }  // namespace bvh_detail

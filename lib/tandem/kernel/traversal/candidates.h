@@ -11,7 +11,7 @@ template <int most>
 struct Candidates {
     float lo[most];
     std::uint32_t id[most];
-    bool overflow = false;  ///< there was no place for some primitive
+    std::uint32_t overflow = 0;  ///< 1 if there was no place for some primitive
 
     TANDEM_HD_INLINE Candidates() {
         for (int k = 0; k < most; ++k) {
@@ -29,7 +29,7 @@ struct Candidates {
             id[k] = here ? primitive : id[k];
             placed = placed || here;
         }
-        overflow = overflow || !placed;
+        overflow = placed ? overflow : 1U;
     }
 
     /// Calls decide(primitive) for those that may be hit at or before the limit. In one place of the code, so that all

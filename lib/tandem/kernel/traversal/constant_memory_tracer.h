@@ -17,28 +17,43 @@ struct ConstantMemoryStructure {
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
 
+    // one bit per slot: spheres, then boxes
+    static constexpr std::uint32_t all_slots = (1U << (max_spheres + max_boxes)) - 1;
+    TANDEM_HD_INLINE static constexpr std::uint32_t slot_of_sphere(std::uint32_t i) { return 1U << i; }
+    TANDEM_HD_INLINE static constexpr std::uint32_t slot_of_box(std::uint32_t i) { return 1U << (max_spheres + i); }
+
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        find_among<search>(all_slots, ray, source, best);
+    }
+
+    /// `slots`: those that the ray may hit, best the same for all threads of a warp.
+    template <Search search, class Real, class From>
+    TANDEM_HD_INLINE void find_among(std::uint32_t slots, const Ray<Real>& ray, const From& source,
+                                     Closest<Real>& best) const {
+        if (slots == 0) return;
         const FilterRay<Real> f = make_filter_ray(ray);
         const Double<Real> t_max = best.t;
-        std::uint32_t candidates = 0;  // one bit per slot: spheres, then boxes
+        std::uint32_t candidates = 0;
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
         for (std::uint32_t i = 0; i < max_spheres; ++i) {
             if (i == scene.sphere_count) break;
+            if ((slots & slot_of_sphere(i)) == 0) continue;
             if constexpr (is_fast<Real>) {
                 test_primitive(spheres[i], i, ray, source, true, best);
                 continue;
             }
-            if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= 1U << i;
+            if (may_touch_sphere(f, spheres[i].centre, spheres[i].radius)) candidates |= slot_of_sphere(i);
         }
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
         for (std::uint32_t i = 0; i < max_boxes; ++i) {
             if (i == scene.box_count) break;
-            if (may_touch_box(f, boxes[i])) candidates |= 1U << (max_spheres + i);
+            if ((slots & slot_of_box(i)) == 0) continue;
+            if (may_touch_box(f, boxes[i])) candidates |= slot_of_box(i);
         }
         for (; candidates != 0; candidates &= candidates - 1) {
             const auto slot = static_cast<std::uint32_t>(lowest_bit(candidates));

@@ -103,6 +103,26 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Sphere& sph
     return hit_interval(ray, line, own);
 }
 
+/// A placement in float, as hit_interval() needs it: 64 bytes.
+struct alignas(16) RoughPlacement {
+    Vec3f row[3];  ///< of object_from_world
+    Vec3f centre;
+    Vec3f row_norms;  ///< 1-norms
+    float size;       ///< |centre|_1 + the radius of the bounding sphere
+};
+static_assert(sizeof(RoughPlacement) == 64);
+struct RoughEllipsoid : RoughPlacement {};
+struct RoughParallelepiped : RoughPlacement {};
+
+TANDEM_HD_INLINE RoughPlacement rough_placement(const Placement& body) {
+    RoughPlacement rough;
+    for (int i = 0; i < 3; ++i) rough.row[i] = narrow(body.object_from_world.row[i]);
+    rough.centre = narrow(body.centre);
+    rough.row_norms = {norm1(rough.row[0]), norm1(rough.row[1]), norm1(rough.row[2])};
+    rough.size = norm1(rough.centre) + body.bounding_sphere.radius;
+    return rough;
+}
+
 namespace interval_detail {
 
 /// Cuts `c` at the slab |x| <= half, where the ray is at `position` and moves with `speed`, by component; `margin`:
@@ -129,20 +149,13 @@ struct ObjectQuery {
     float margin;  ///< of a point near the solid, before it is moved to the solid's space
     bool is_moderate;
 
-    TANDEM_HD_INLINE ObjectQuery(const QueryRay& ray, const Placement& body) {
-        const Vec3f centre = narrow(body.centre);
-        const Vec3f offset = ray.origin - centre;
-        const float size = norm1(offset) + (norm1(centre) + body.bounding_sphere.radius);
+    TANDEM_HD_INLINE ObjectQuery(const QueryRay& ray, const RoughPlacement& body) : row_norms(body.row_norms) {
+        const Vec3f offset = ray.origin - body.centre;
+        const float size = norm1(offset) + body.size;
         margin = loose_multiply_add(32.0F * float_roundoff, size, 2.0F * ray.drift);
-        const auto move = [&](int i, float& norm, float& position, float& speed) {
-            const Vec3f row = narrow(body.object_from_world.row[i]);
-            norm = norm1(row);
-            position = loose_dot(row, offset);
-            speed = loose_dot(row, ray.direction);
-        };
-        move(0, row_norms.x, origin.x, direction.x);
-        move(1, row_norms.y, origin.y, direction.y);
-        move(2, row_norms.z, origin.z, direction.z);
+        origin = {loose_dot(body.row[0], offset), loose_dot(body.row[1], offset), loose_dot(body.row[2], offset)};
+        direction = {loose_dot(body.row[0], ray.direction), loose_dot(body.row[1], ray.direction),
+                     loose_dot(body.row[2], ray.direction)};
         is_moderate = norm1(row_norms) * (size + 1.0F) < largest && margin < largest &&
                       lesser(lesser(row_norms.x, row_norms.y), row_norms.z) > 1e-24F;
     }
@@ -150,7 +163,7 @@ struct ObjectQuery {
 
 }  // namespace interval_detail
 
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Parallelepiped& body, bool own) {
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const RoughParallelepiped& body, bool own) {
     const interval_detail::ObjectQuery object(ray, body);
     if (!object.is_moderate) return unsure_hit;
     SolidCrossings c = interval_detail::whole_line;
@@ -181,7 +194,7 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Box& box, b
 
 /// The unit sphere, grown and shrunk. The moment and the roots in object space err by 24 u of the distance there, and
 /// of the radius.
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& body, bool own) {
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const RoughEllipsoid& body, bool own) {
     const interval_detail::ObjectQuery object(ray, body);
     const float length2 = loose_dot(object.direction, object.direction);
     const Vec3f moment = loose_cross(object.origin, object.direction);
@@ -202,6 +215,13 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& 
     if (outer < 0.0F) return certain_miss;
     const float inner = margin < 1.0F ? half(1.0F - margin) : -1.0F;
     return hit_of({middle - outer, middle + outer, middle - inner, middle + inner, inner >= 0.0F}, own);
+}
+
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Parallelepiped& body, bool own) {
+    return hit_interval(ray, RoughParallelepiped{rough_placement(body)}, own);
+}
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& body, bool own) {
+    return hit_interval(ray, RoughEllipsoid{rough_placement(body)}, own);
 }
 
 /// With a = v0 - origin, m = direction x a, s = |e1| + |e2|: the volumes err by less than u (4 |a| + 7 |m| + 3 s) s +
@@ -277,7 +297,7 @@ TANDEM_HD_INLINE bool is_culled(const Shape& shape) {
 }  // namespace interval_detail
 
 /// The hit that counts for a ray from `source`, as test_primitive() finds it, on primitive `id` of type `Primitive`.
-/// `shape`: the primitive, or the SphereLine of a sphere.
+/// `shape`: the primitive, the SphereLine of a sphere, or a rough ellipsoid or parallelepiped.
 template <class Real, class Primitive, class From, class Shape>
 TANDEM_HD_INLINE HitInterval hit_interval_from(const From& source, std::uint32_t id, const QueryRay& ray,
                                                const Shape& shape) {

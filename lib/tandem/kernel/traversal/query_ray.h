@@ -10,7 +10,7 @@ namespace tandem {
 /// of the true direction; it grows with t. Proposal::limit() and start() bound it.
 ///
 /// With u = 2^-24, every component of the direction is within 2 u of its own size of a line in the true direction, up
-/// to a common factor within 5 u of 1. So the point at s is within 9 u s of the true one.
+/// to a common factor within 6 u of 1. So the point at s is within 9 u s of the true one.
 /// `drift` bounds the distance of the origin from the true one, and what the double precision of t and t_offset may
 /// change s by: 8 u S + 3 u t_offset * length for an origin that was moved, where S is the reach of the scene's bounds
 /// (the rounding of the origin is sqrt(3) u S; t errs by 2^-26 of itself at most); 2 u S where an origin in double was

@@ -1,0 +1,121 @@
+/// Which of a few primitives the camera rays of a pixel may hit, from all of them at once. So a pixel of the background
+/// tests nothing, however many samples it takes.
+///
+/// Needs: a camera and primitives within coordinate_limit.
+/// Gives: every primitive that a camera ray of the pixel hits, and perhaps others.
+/// Method: the rays differ little from the one through the pixel's middle. The moment of a line about the primitive's
+///         centre changes by at most |f| dd + do (|d| + dd), where f points from the centre to the middle ray's origin,
+///         and do and dd bound how far origins and directions are from the middle ray's.
+/// Bounds: all in double, whose rounding a relative margin of 2^-30 covers. Rays are rounded to float, by at most 2^-20
+///         of the terms that camera_ray() adds.
+#pragma once
+
+#include "tandem/kernel/camera/camera.h"
+#include "tandem/kernel/traversal/constant_memory_tracer.h"
+
+namespace tandem {
+
+/// The camera rays of a pixel: origins and directions within the spreads, Euclidean lengths, of those of the middle.
+struct RayBundle {
+    Vec3d origin, direction;
+    double origin_spread, direction_spread;
+};
+
+namespace culling_detail {
+
+inline constexpr double camera_rounding = 0x1p-20;
+inline constexpr double margin = 1.0 + 0x1p-30;
+
+TANDEM_HD_INLINE double length_of(const Vec3d& a) { return square_root(dot(a, a)); }
+
+}  // namespace culling_detail
+
+/// `has_lens`: whether rays start on the camera's lens, if it has one.
+TANDEM_HD_INLINE RayBundle bundle_of_pixel(const CameraView& camera, std::uint32_t x, std::uint32_t y, bool has_lens) {
+    using namespace culling_detail;
+    const auto middle = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
+        return start + dx * (x + 0.5) + dy * (y + 0.5);
+    };
+    const auto spread = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
+        return 0.5 * (norm1(dx) + norm1(dy)) +
+               camera_rounding * (norm1(start) + norm1(dx) * (x + 1.0) + norm1(dy) * (y + 1.0));
+    };
+    RayBundle bundle = {middle(camera.origin, camera.origin_dx, camera.origin_dy),
+                        middle(camera.direction, camera.direction_dx, camera.direction_dy),
+                        spread(camera.origin, camera.origin_dx, camera.origin_dy),
+                        spread(camera.direction, camera.direction_dx, camera.direction_dy)};
+    if (has_lens && camera.has_lens) {
+        const double offset = norm1(camera.lens_x) + norm1(camera.lens_y);
+        bundle.origin_spread += offset * (1 + camera_rounding);
+        bundle.direction_spread += offset * camera.inverse_focus * (1 + camera_rounding);
+    }
+    return bundle;
+}
+
+TANDEM_HD_INLINE bool may_hit(const RayBundle& rays, const Sphere& sphere) {
+    using namespace culling_detail;
+    const Vec3d f = rays.origin - widen(sphere.centre);
+    const double longest = length_of(rays.direction) + rays.direction_spread;
+    const double change = length_of(f) * rays.direction_spread + rays.origin_spread * longest;
+    // written so that NaN gives true
+    return !(length_of(cross(f, rays.direction)) > (change + sphere.radius * longest) * margin);
+}
+
+/// Separating axes of a line and a box: direction x each axis.
+TANDEM_HD_INLINE bool may_hit(const RayBundle& rays, const Box& box) {
+    using namespace culling_detail;
+    const Vec3d lower = widen(box.lower), upper = widen(box.upper);
+    const Vec3d half = (upper - lower) * 0.5;
+    const Vec3d f = rays.origin - (lower + upper) * 0.5;
+    const double longest = length_of(rays.direction) + rays.direction_spread;
+    const double change = length_of(f) * rays.direction_spread + rays.origin_spread * longest;
+    const Vec3d moment = cross(f, rays.direction);
+    const double x = absolute(rays.direction.x) + rays.direction_spread;
+    const double y = absolute(rays.direction.y) + rays.direction_spread;
+    const double z = absolute(rays.direction.z) + rays.direction_spread;
+    const bool separated = absolute(moment.x) > (change + half.y * z + half.z * y) * margin ||
+                           absolute(moment.y) > (change + half.z * x + half.x * z) * margin ||
+                           absolute(moment.z) > (change + half.x * y + half.y * x) * margin;
+    return !separated;
+}
+
+/// The slots of ConstantMemoryStructure that a camera ray of the pixel may hit.
+TANDEM_HD_INLINE std::uint32_t slots_in_pixel(const ConstantMemoryStructure& few, const RayBundle& rays) {
+    std::uint32_t slots = 0;
+    TANDEM_KEEP_LOOP
+    for (std::uint32_t i = 0; i < few.scene.sphere_count; ++i) {
+        if (may_hit(rays, few.spheres[i])) slots |= few.slot_of_sphere(i);
+    }
+    TANDEM_KEEP_LOOP
+    for (std::uint32_t i = 0; i < few.scene.box_count; ++i) {
+        if (may_hit(rays, few.scene.boxes[i])) slots |= few.slot_of_box(i);
+    }
+    return slots;
+}
+
+/// Traces camera rays among some of the primitives, and other rays among all.
+struct CulledTracer {
+    static constexpr std::uint32_t kinds = ConstantMemoryStructure::kinds;
+    static constexpr bool has_hierarchy = false;
+
+    const ConstantMemoryTracer& all;
+    std::uint32_t slots;
+
+    template <class Real, class From>
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+        if constexpr (std::is_same_v<From, NoSource>) {
+            Closest<Real> best = no_hit<Real>();
+            if (active) all.find_among<Search::nearest>(slots, ray, source, best);
+            return best;
+        } else {
+            return all.closest(ray, source, active);
+        }
+    }
+    template <class Real>
+    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+                                   bool active) const {
+        return all.occluded(ray, t_max, source, active);
+    }
+};
+
+}  // namespace tandem
