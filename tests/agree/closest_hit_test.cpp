@@ -250,5 +250,21 @@ TEST_P(ClosestHit, AnswersForAnEmptySceneAndForNoRays) {
 
 INSTANTIATE_TEST_SUITE_P(Backends, ClosestHit, ::testing::ValuesIn(test::exact_renderers()), test::test_name);
 
+TEST(CpuInstructionSets, AreNamedWhereOneIsUnknown) {
+    const std::vector<std::string> sets = cpu_instruction_sets();
+    ASSERT_FALSE(sets.empty());
+    EXPECT_EQ(sets.front(), "x86-64-v2");
+    BackendOptions options;
+    options.instruction_set = "x86-64-v9";
+    try {
+        (void)make_backend("cpu", options);
+        FAIL() << "no error";
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("x86-64-v9"), std::string::npos) << message;
+        for (const std::string& set : sets) EXPECT_NE(message.find(set), std::string::npos) << message;
+    }
+}
+
 }  // namespace
 }  // namespace tandem
