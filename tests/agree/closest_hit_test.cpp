@@ -7,6 +7,7 @@
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/oracle/oracle.h"
 #include "tandem/scene/named_scenes.h"
