@@ -46,8 +46,8 @@ constexpr std::array<FirstHitKernel*, all_tiers<Isa>.size()> all_first_hits = {
 };
 
 template <class Isa, int level>
-constexpr InstructionSet instruction_set = {
-    Isa::name, [] { return x86_64_level() >= level; }, all_tiers<Isa>.data(), all_first_hits<Isa>.data()};
+constexpr InstructionSet instruction_set = {Isa::name, [] { return x86_64_level() >= level; }, all_tiers<Isa>.data(),
+                                            all_first_hits<Isa>.data()};
 
 constexpr std::array sets = {
 #if defined(TANDEM_HAS_ISA_2)
@@ -97,8 +97,9 @@ std::string why_no_instruction_set() {
     if (sets.front().name == std::string_view(Sse4::name)) {
         return "this processor lacks SSE4.2; the CPU backend needs x86-64-v2 (processors since about 2009)";
     }
-    return fmt::format("this build has kernels for {} and newer processors; build with -DTANDEM_INSTRUCTION_SETS=native",
-                       sets.front().name);
+    return fmt::format(
+        "this build has kernels for {} and newer processors; build with -DTANDEM_INSTRUCTION_SETS=native",
+        sets.front().name);
 }
 
 }  // namespace tandem

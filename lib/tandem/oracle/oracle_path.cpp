@@ -102,7 +102,8 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         const Vector diffuse = material.diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;
         const Real lambert = scene.indirect_light != 0 && is_front ? largest(diffuse) : 0;
-        const Real glossy = material.has_facets && !material.is_hidden ? std::max<Real>(largest(material.f0), Real(0.1)) : 0;
+        const Real glossy =
+            material.has_facets && !material.is_hidden ? std::max<Real>(largest(material.f0), Real(0.1)) : 0;
         if (!(mirror > 0) && !is_glass && !(lambert > 0) && !(glossy > 0)) return radiance;
         const auto random = sample.block(Dimension::scatter, vertex_number);
         const Real total = mirror + glass + lambert + glossy;

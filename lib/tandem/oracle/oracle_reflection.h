@@ -16,10 +16,10 @@ struct Reflectances {
     Real shininess;
     bool has_facets = false;
     bool is_hidden = false;  ///< microfacets on the back of a single-sided surface: they reflect no light source
-    Vector f0{0, 0, 0};    ///< of microfacets: reflectance head-on
-    Real border = 0;       ///< the same of what covers the diffuse base
-    Real alpha = 0;        ///< of GGX: the least of all directions
-    Real alpha_along = 0;  ///< the most, in the direction `along`, which is 0 where both are equal
+    Vector f0{0, 0, 0};      ///< of microfacets: reflectance head-on
+    Real border = 0;         ///< the same of what covers the diffuse base
+    Real alpha = 0;          ///< of GGX: the least of all directions
+    Real alpha_along = 0;    ///< the most, in the direction `along`, which is 0 where both are equal
     Vector along{0, 0, 0};
     Vector to_viewer{};  ///< on the side of the normal for shading
 };
