@@ -69,6 +69,7 @@ namespace {
 
 std::vector<std::string> compiled_instruction_sets() {
     std::vector<std::string> names;
+    names.reserve(sets.size());
     for (const InstructionSet& set : sets) names.emplace_back(set.name);
     return names;
 }
