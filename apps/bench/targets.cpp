@@ -262,6 +262,7 @@ const char* in_words(Verdict verdict) {
 
 void check_ids(const std::vector<std::string>& wanted, const std::vector<Target>& targets) {
     std::vector<std::string> known;
+    known.reserve(targets.size());
     for (const Target& one : targets) known.push_back(one.description.id);
     for (const std::string& id : wanted) {
         if (std::find(known.begin(), known.end(), id) == known.end()) {
