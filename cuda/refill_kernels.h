@@ -9,6 +9,7 @@
 
 namespace tandem::cuda {
 
+/// Whether a tracer decides behind its walk, so that the walk can be a kernel of its own.
 template <class Real, class Tracer>
 inline constexpr bool can_refill = false;
 template <class Real, std::uint32_t kinds>
@@ -59,6 +60,7 @@ inline constexpr int entry_batch = 4;
 /// Rays that a warp takes from the queue at a time.
 inline constexpr std::uint32_t queue_chunk = 128;
 
+/// Walks with all rays, and keeps the candidates of each in job.candidates.
 template <class Real, Ask ask, class Tracer>
 __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
     find_candidates(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
@@ -158,6 +160,7 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
     }
 }
 
+/// Decides about the candidates, one ray a thread.
 template <class Real, Ask ask, class Tracer>
 __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
     decide_candidates(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
@@ -171,9 +174,9 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
     if (first == crowded) [[unlikely]] {
         closest = tracer.template decide_crowd<Search::nearest>(tracer, ray, source, closest, 3e38F);
     } else {
+        // each from memory, because an index into registers would put them there
         TANDEM_KEEP_LOOP
-        for (int k = 0; k < Tracer::most_candidates;
-             ++k) {  // from memory: an index into registers would put them there
+        for (int k = 0; k < Tracer::most_candidates; ++k) {
             const std::uint32_t id = static_cast<const Found*>(job.candidates)[i].id[k];
             if (id != no_primitive) tracer.decide(ray, source, id, closest);
         }

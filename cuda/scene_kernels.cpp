@@ -176,7 +176,7 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
     }
     BvhView bvh = scene.bvh;
     bvh.stack_overflows = &counters->stack_overflows;
-    launch(BvhTracer{scene.scene, bvh});
+    launch(DeferringBvhTracer{scene.scene, bvh});
 }
 
 }  // namespace tandem::cuda

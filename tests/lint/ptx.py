@@ -28,7 +28,7 @@ def units_of(source):
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
-            for tracer in ("ConstantMemoryTracer", "LoopTracer", "BvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
+            for tracer in ("ConstantMemoryTracer", "LoopTracer", "DeferringBvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
 
 
 def main():

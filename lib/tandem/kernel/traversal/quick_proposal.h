@@ -20,7 +20,7 @@ TANDEM_HD_CALL Proposal<float> propose_slowly(Ray<float> ray, StructureFrame fra
     return propose(ray, frame, true);
 }
 
-/// A power of two that brings a normal float between 2^-1 and 2, and its inverse.
+/// The power of two that brings a normal float into [1, 2), and its inverse.
 struct Scaling {
     float down, up;
 };
