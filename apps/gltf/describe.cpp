@@ -88,17 +88,25 @@ Json describe_lights(const Scene& scene) {
     return lights;
 }
 
+/// The numbers of an optional part of a material; null without it.
+template <class Part>
+Json describe_part(const std::optional<Part>& part) {
+    Json numbers;
+    if (!part) return numbers;
+    Part::visit_numbers(*part, [&](const char* name, const auto& value, float, float) {
+        if constexpr (std::is_same_v<decltype(value), const float&>) {
+            numbers[name] = value;
+        } else {
+            numbers[name] = colour(value);
+        }
+    });
+    return numbers;
+}
+
 Json describe_materials(const Scene& scene) {
     Json materials = Json::array();
     for (const Material& material : scene.materials) {
-        Json facets;  // null without microfacets
-        if (material.microfacets) {
-            facets = {{"metallic", material.microfacets->metallic},
-                      {"roughness", material.microfacets->roughness},
-                      {"anisotropy", material.microfacets->anisotropy},
-                      {"rotation", material.microfacets->rotation}};
-        }
-        materials.push_back({{"name", material.name},
+        Json description = {{"name", material.name},
                              {"ambient", colour(material.phong.ambient)},
                              {"diffuse", colour(material.phong.diffuse)},
                              {"specular", colour(material.phong.specular)},
@@ -109,8 +117,10 @@ Json describe_materials(const Scene& scene) {
                              {"ior", material.optics.ior},
                              {"absorption", colour(material.optics.absorption)},
                              {"emission", colour(material.optics.emission)},
-                             {"priority", material.optics.priority},
-                             {"microfacets", facets}});
+                             {"priority", material.optics.priority}};
+#define TANDEM_MATERIAL_PART(Type, member, members, needs, is) description[#member] = describe_part(material.member);
+#include "tandem/kernel/bsdf/lobes.def"
+        materials.push_back(std::move(description));
     }
     return materials;
 }
@@ -198,19 +208,26 @@ std::string line_of_light(const Json& light) {
                        light["casts_shadows"].get<bool>() ? ", casts shadows" : "");
 }
 
+/// ", microfacets: metallic 1, roughness 0.5", without numbers that are 0.
+std::string line_of_part(const char* is, const Json& part) {
+    if (part.is_null()) return {};
+    std::string numbers;
+    for (const auto& [name, value] : part.items()) {
+        if (value == (value.is_array() ? colour({0, 0, 0}) : Json(0.0F))) continue;
+        const std::string text = value.is_array() ? components(value) : fmt::format("{:g}", value.get<float>());
+        numbers += fmt::format("{} {} {}", numbers.empty() ? ":" : ",", name, text);
+    }
+    return fmt::format(", {}{}", is, numbers);
+}
+
 std::string line_of_material(const Json& material) {
     std::string line =
         fmt::format("{}, ambient {}, diffuse {}, specular {}, shininess {:g}{}", quoted(material["name"]),
                     components(material["ambient"]), components(material["diffuse"]), components(material["specular"]),
                     material["shininess"].get<float>(), material["double_sided"].get<bool>() ? ", double-sided" : "");
     const Json black = colour({0, 0, 0});
-    if (!material["microfacets"].is_null()) {
-        line += fmt::format(", metallic {:g}, roughness {:g}", material["microfacets"]["metallic"].get<float>(),
-                            material["microfacets"]["roughness"].get<float>());
-        if (const auto anisotropy = material["microfacets"]["anisotropy"].get<float>(); anisotropy > 0) {
-            line += fmt::format(", anisotropy {:g}", anisotropy);
-        }
-    }
+#define TANDEM_MATERIAL_PART(Type, member, members, needs, is) line += line_of_part(is, material[#member]);
+#include "tandem/kernel/bsdf/lobes.def"
     if (material["mirror"] != black) line += ", mirror " + components(material["mirror"]);
     if (material["transmission"].get<float>() > 0) {
         line += fmt::format(", transmission {:g}, index {:g}, absorption {} per metre, priority {}",

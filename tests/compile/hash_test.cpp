@@ -71,16 +71,6 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"alpha cutoff", [](PreparedScene& s) { s.textures.materials[0].alpha_cutoff = 7; }},
         {"metallic-roughness texture",
          [](PreparedScene& s) { s.textures.materials[0].metallic_roughness.texture = 0; }},
-        {"microfacets", [](PreparedScene& s) { s.microfacets.resize(1); }},
-        {"metal",
-         [](PreparedScene& s) {
-             s.microfacets = {{0.5F, 1}};
-         }},
-        {"roughness",
-         [](PreparedScene& s) {
-             s.microfacets = {{1, 0.5F}};
-         }},
-        {"anisotropy", [](PreparedScene& s) { s.microfacets = {{.anisotropy = 0.5F}}; }},
         {"directions", [](PreparedScene& s) { s.anisotropies.resize(1); }},
         {"slot of directions", [](PreparedScene& s) { s.anisotropies = {{.slot = 1}}; }},
         {"no texture", [](PreparedScene& s) { s.textures = {}; }},
@@ -103,12 +93,32 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"field of view", [](PreparedScene& s) { s.camera.half_height = 7; }},
     };
     std::map<std::string, std::string> name_of;
+    const auto expect_new = [&](const std::string& name, const PreparedScene& scene) {
+        const auto [known, is_new] = name_of.emplace(scene_hash(scene), name);
+        EXPECT_TRUE(is_new) << name << " has the hash of " << known->second;
+    };
     for (const auto& [name, change] : changes) {
         PreparedScene scene = one_of_each();
         change(scene);
-        const auto [known, is_new] = name_of.emplace(scene_hash(scene), name);
-        EXPECT_TRUE(is_new) << name << " has the hash of " << known->second;
+        expect_new(name, scene);
     }
+    // Optional parts of materials: absent, there, and every number of them
+    const auto change_part = [&](const char* name, auto parts) {
+        PreparedScene scene = one_of_each();
+        auto& part = (scene.*parts).emplace_back();
+        expect_new(name, scene);
+        using Part = std::decay_t<decltype(part)>;
+        Part::visit_numbers(part, [&](const char* number, auto& value, float, float) {
+            const auto before = value;
+            value = value * 0.5F + std::decay_t<decltype(value)>(0.25F);
+            expect_new(std::string(name) + " " + number, scene);
+            value = before;
+        });
+        part.is_there = 0;
+        expect_new(std::string("no ") + name, scene);
+    };
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) change_part(is, &PreparedScene::names);
+#include "tandem/kernel/bsdf/lobes.def"
 }
 
 TEST(SceneHash, DoesNotMoveBetweenNeighbouringArrays) {

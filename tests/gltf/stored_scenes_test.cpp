@@ -48,8 +48,10 @@ const StoredScene stored_scenes[] = {
     {"soft-shadows", emissive},
     {"textured", Effect::shadows | Effect::textures | Effect::normal_maps | Effect::cutouts},
     {"motion", Effect::shadows | Effect::motion_blur},
-    {"whitted",
-     all_effects - (Effect::motion_blur | Effect::microfacets | Effect::environment_picture | Effect::anisotropy)},
+    {"whitted", emissive | Effect::inverse_square | Effect::spot_lights | Effect::directional_lights |
+                    Effect::reflection | Effect::refraction | Effect::absorption | Effect::nested_media |
+                    Effect::textures | Effect::normal_maps | Effect::cutouts | Effect::environment_light |
+                    Effect::indirect | Effect::roulette | Effect::lens},
     {"metals", emissive | Effect::microfacets | Effect::textures | Effect::inverse_square | Effect::environment_light |
                    Effect::indirect | Effect::roulette},
 };

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cfloat>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -224,6 +226,33 @@ TEST(FrameCount, CountsToTheLastKeyAndDoesNotOverflow) {
     EXPECT_EQ(frame_count(scene), std::numeric_limits<std::int32_t>::max());
     scene.animation.clear();
     EXPECT_EQ(frame_count(scene), 1);
+}
+
+template <class Part>
+void expect_ranges(std::optional<Part> Material::*part, const std::string& is) {
+    const Part defaults;
+    Part::visit_numbers(defaults, [&](const char* number, const auto&, float least, float most) {
+        for (const float wrong : {nan_f, std::nextafter(least, -FLT_MAX), std::nextafter(most, FLT_MAX)}) {
+            Scene scene = small_scene();
+            Part& of_material = (scene.materials[0].*part).emplace();
+            Part::visit_numbers(of_material, [&](const char* other, auto& value, float, float) {
+                if (std::string(other) == number) value = std::decay_t<decltype(value)>(wrong);
+            });
+            const auto problems = validate(scene);
+            ASSERT_EQ(problems.size(), 1U) << is << ", " << number << " " << wrong;
+            EXPECT_TRUE(contains(problems[0], "has " + is + " whose " + number + " is outside"));
+        }
+    });
+    Scene scene = small_scene();
+    (scene.materials[0].*part).emplace();
+    EXPECT_TRUE(validate(scene).empty()) << is << " by default";
+    scene.materials[0].optics.mirror = {1, 1, 1};
+    EXPECT_EQ(validate(scene).size(), Part::is_opaque ? 1U : 0U) << is;
+}
+
+TEST(ValidateMaterials, CheckEveryNumberOfTheOptionalPartsOfMaterials) {
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) expect_ranges(&Material::name, is);
+#include "tandem/kernel/bsdf/lobes.def"
 }
 
 }  // namespace

@@ -97,6 +97,32 @@ void add_motion(const Scene& scene, const PreparedScene& prepared, Needs& needs)
     }
 }
 
+/// " (metallic 1, roughness 0.5)": those that are not 0.
+template <class Part>
+std::string numbers_of(const Part& part) {
+    std::string text;
+    Part::visit_numbers(part, [&](const char* name, const auto& value, float, float) {
+        if (value == std::decay_t<decltype(value)>{}) return;
+        text += fmt::format("{}{} ", text.empty() ? " (" : ", ", name);
+        if constexpr (std::is_same_v<decltype(value), const float&>) {
+            text += fmt::format("{:g}", value);
+        } else {
+            text += fmt::format("{:g} {:g} {:g}", value.x, value.y, value.z);
+        }
+    });
+    return text.empty() ? text : text + ")";
+}
+
+void add_anisotropy(const PreparedScene& prepared, std::size_t material, const std::string& name, Needs& needs) {
+    if (prepared.anisotropies.empty()) return;
+    const float strength = prepared.microfacets[material].anisotropy;
+    if (!(strength > 0)) return;
+    needs.add(Effect::anisotropy, fmt::format("{} has an anisotropy of {:g}", name, strength));
+    if (prepared.anisotropies[material].texture.texture != no_texture) {
+        needs.add(Effect::textures, name + " has an anisotropy texture");
+    }
+}
+
 void add_material(const Optics& optics, const std::string& name, Needs& needs) {
     const float radiance = std::max({optics.emission.x, optics.emission.y, optics.emission.z});
     if (optics.unlit != 0) needs.add(Effect::emission, name + " is unlit");
@@ -136,17 +162,12 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         const std::string name = label("material", scene.materials[i].name, i);
         add_material(prepared.optics[i], name, needs);
         add_pictures(prepared.textures, i, name, coloured, needs);
-        if (!prepared.microfacets.empty() && prepared.microfacets[i].is_there != 0) {
-            const Microfacets& facets = prepared.microfacets[i];
-            needs.add(Effect::microfacets, fmt::format("{} has roughness {:g} and is {:.3g} % metal", name,
-                                                       facets.roughness, facets.metallic * 100));
-            if (facets.anisotropy > 0) {
-                needs.add(Effect::anisotropy, fmt::format("{} has an anisotropy of {:g}", name, facets.anisotropy));
-                if (prepared.anisotropies[i].texture.texture != no_texture) {
-                    needs.add(Effect::textures, name + " has an anisotropy texture");
-                }
-            }
-        }
+#define TANDEM_MATERIAL_PART(Type, member, members, effect, is)                     \
+    if (!prepared.members.empty() && prepared.members[i].is_there != 0) {           \
+        needs.add(effect, name + " has " is + numbers_of(prepared.members[i]));     \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
+        add_anisotropy(prepared, i, name, needs);
     }
     if (prepared.culled_node != PreparedScene::never) {
         const std::uint32_t node = prepared.culled_node;
@@ -207,7 +228,9 @@ Scene without_effects(Scene scene, EffectMask off) {
     }
     for (Material& material : scene.materials) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
-        if (off.has(Effect::microfacets)) material.microfacets.reset();
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) \
+    if (off.has(needs)) material.name.reset();
+#include "tandem/kernel/bsdf/lobes.def"
         if (off.has(Effect::anisotropy)) {
             if (material.microfacets) material.microfacets->anisotropy = material.microfacets->rotation = 0;
             material.anisotropy_texture.reset();

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "tandem/base/error.h"
 #include "tandem/compile/area_lights.h"
@@ -125,7 +128,8 @@ class Preparer {
             result_.materials.push_back(material.phong);
             result_.optics.push_back(material.optics);
         }
-        add_microfacets();
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) add_parts(&Material::name, result_.names);
+#include "tandem/kernel/bsdf/lobes.def"
         result_.textures =
             prepare_textures(scene_, result_.materials, result_.optics, result_.microfacets, result_.anisotropies);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
@@ -168,12 +172,14 @@ class Preparer {
     }
 
   private:
-    /// For every material, if any has microfacets.
-    void add_microfacets() {
-        const auto has_them = [](const Material& material) { return material.microfacets && !material.unlit; };
-        if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_them)) return;
+    /// The optional part `part`, for every material, if any has it.
+    template <class Part>
+    void add_parts(std::optional<Part> Material::*part, std::vector<Part>& parts) {
+        const auto has_it = [part](const Material& material) { return material.*part && !material.unlit; };
+        if (std::none_of(scene_.materials.begin(), scene_.materials.end(), has_it)) return;
+        constexpr auto absent = std::bit_cast<Part>(std::array<std::byte, sizeof(Part)>{});
         for (const Material& material : scene_.materials) {
-            result_.microfacets.push_back(has_them(material) ? *material.microfacets : Microfacets{0, 0, 0});
+            parts.push_back(has_it(material) ? *(material.*part) : absent);
         }
     }
 

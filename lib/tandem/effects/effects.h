@@ -10,13 +10,11 @@ namespace tandem {
 enum class Effect : std::uint32_t {
 #define TANDEM_EFFECT(name, adds) name,
 #include "tandem/effects/effects.def"
-#undef TANDEM_EFFECT
 };
 
 inline constexpr std::uint32_t effect_count = 0
 #define TANDEM_EFFECT(name, adds) +1
 #include "tandem/effects/effects.def"
-#undef TANDEM_EFFECT
     ;
 
 /// A set of effects.
@@ -85,8 +83,10 @@ TANDEM_HD constexpr bool simulates(EffectMask any_of) {
 }
 
 /// The effects that continue a path beyond its first vertex.
-inline constexpr EffectMask bouncing_effects =
-    Effect::reflection | Effect::refraction | Effect::cutouts | Effect::indirect | Effect::microfacets;
+inline constexpr EffectMask bouncing_effects = EffectMask()
+#define TANDEM_BOUNCING_EFFECT(name, adds) | Effect::name
+#include "tandem/effects/effects.def"
+    ;
 
 /// The effects that send rays from surfaces: without them there is one ray per sample.
 inline constexpr EffectMask counted_ray_effects = bouncing_effects | Effect::shadows;

@@ -34,7 +34,6 @@ const std::vector<EffectName>& effect_names() {
     static const std::vector<EffectName> names = {
 #define TANDEM_EFFECT(name, adds) {Effect::name, #name, adds},
 #include "tandem/effects/effects.def"
-#undef TANDEM_EFFECT
     };
     return names;
 }

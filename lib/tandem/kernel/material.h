@@ -1,20 +1,10 @@
 /// From a material, and what its textures say at a point, to the lobes of a surface.
 #pragma once
 
-#include "tandem/kernel/bsdf/metallic_roughness.h"
 #include "tandem/kernel/surface_lobes.h"
 #include "tandem/kernel/view/scene_view.h"
 
 namespace tandem {
-
-/// What the textures of a material say at a point; 1 where it has none.
-template <class Real>
-struct MaterialTexels {
-    Rgba<Real> base_colour = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
-    Rgba<Real> metallic_roughness = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
-    Vec3<Real> emission = {Real(1.0F), Real(1.0F), Real(1.0F)};
-    Real anisotropy = Real(1.0F);
-};
 
 /// How a surface reflects: its BSDF, and the reflectance of ambient light, ka of Phong's model.
 template <class Real>
@@ -23,7 +13,7 @@ struct Reflectance {
     Vec3<Real> ambient;
 };
 
-/// That of a material. A new kind of material is read here.
+/// That of a material.
 /// `from_inside`: where the ray is inside the solid.
 template <class Effects, class Real>
 TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t number,
@@ -41,21 +31,13 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
         lobes.diffuse.reflectance = lobes.diffuse.reflectance * factor;
     }
 
-    // Metals and polished surfaces
-    if (Effects::has(Effect::microfacets) && scene.microfacet_count > 0 && scene.microfacets[number].is_there != 0) {
-        const Microfacets& facets = scene.microfacets[number];
-        const Real metallic = Real(facets.metallic) * texels.metallic_roughness.b;
-        const Real roughness = Real(facets.roughness) * texels.metallic_roughness.g;
-        Real anisotropy(0.0F);
-        if (Effects::has(Effect::anisotropy)) anisotropy = Real(facets.anisotropy) * texels.anisotropy;
-        const MetallicRoughnessLobes<Real> both =
-            lobes_of<Real>({lobes.diffuse.reflectance, metallic, roughness, Real(optics.ior), anisotropy});
-        result.ambient = result.ambient * (Real(1.0F) - metallic);
-        lobes.microfacets = both.specular;
-        lobes.coated = both.diffuse;
-        lobes.diffuse = {};
-        lobes.phong.specular = black<Real>();
+    // Optional parts
+    const MaterialPoint<Real> at = {optics, texels};
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                        \
+    if (Effects::has(needs) && scene.names##_count > 0 && scene.names[number].is_there != 0) {    \
+        apply<Effects>(scene.names[number], at, result);                                          \
     }
+#include "tandem/kernel/bsdf/lobes.def"
 
     // Mirrors and clear solids: a dielectric takes its share of the light from the diffuse lobes, and there are no
     // highlights on the inside

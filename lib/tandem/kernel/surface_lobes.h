@@ -14,7 +14,6 @@ template <class Real>
 struct SurfaceLobes {
 #define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name;
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 };
 
 /// The index of each lobe in lobes.def.
@@ -22,7 +21,6 @@ struct LobePlace {
     enum Place : int {
 #define TANDEM_LOBE(Type, name, needs, follows, is) name,
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
         count
     };
 };
@@ -38,7 +36,6 @@ inline constexpr LobeUse use_of;
     template <>                                     \
     inline constexpr LobeUse use_of<LobePlace::name> = {needs, follows};
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 
 }  // namespace lobes_detail
 
@@ -63,7 +60,6 @@ constexpr EffectMask effects_of(EffectMask LobeUse::*column, bool (*is_meant)(Lo
         mask |= use_of<LobePlace::name>.*column;                                              \
     }
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
     return mask;
 }
 
@@ -100,7 +96,6 @@ constexpr int glossy_lobes_before(int end) {
 #define TANDEM_LOBE(Type, name, needs, follows, is) \
     if (LobePlace::name < end && has(Type<float>::flags, LobeFlags::glossy)) ++count;
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
     return count;
 }
 
@@ -120,7 +115,6 @@ TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
         if (simulates<Effects>(needs)) visit(lobes.name, std::integral_constant<int, LobePlace::name>{}); \
     }
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 }
 
 /// Whether paths of any kernel continue along the lobe at `place`.
@@ -174,7 +168,6 @@ TANDEM_HD void keep(const Mask<Real>& mask, const SurfaceLobes<Real>& lobes, Sur
         if (simulates<Effects>(needs)) kept.name = select(mask, lobes.name, kept.name); \
     }
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 }
 
 /// The lanes whose surface transmits light.

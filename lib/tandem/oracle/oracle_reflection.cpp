@@ -7,7 +7,7 @@ namespace tandem::oracle {
 namespace {
 
 bool is_of_facets(const SceneView& scene, const Vertex& vertex) {
-    return scene.microfacet_count > 0 && scene.microfacets[vertex.material].is_there != 0;
+    return scene.microfacets_count > 0 && scene.microfacets[vertex.material].is_there != 0;
 }
 
 Vector colour_of(const Vertex& vertex) { return {vertex.picture.r, vertex.picture.g, vertex.picture.b}; }

@@ -75,7 +75,7 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     const Optics& optics = scene.optics[vertex.material];
     vertex.shines = !vertex.from_inside || double_sided || optics.unlit != 0;
     vertex.emission = to_vector(optics.emission);
-    if (scene.microfacet_count > 0) {
+    if (scene.microfacets_count > 0) {
         vertex.roughness = scene.microfacets[vertex.material].roughness;
         vertex.metal = scene.microfacets[vertex.material].metallic;
     }

@@ -119,14 +119,33 @@ class Problems {
         require(positive(optics.emission.x) && positive(optics.emission.y) && positive(optics.emission.z), where,
                 "has an emission that is not three finite numbers >= 0");
         require(optics.priority <= 127, where, "has a dielectric priority above 127");
-        if (!material.microfacets) return;
-        const auto is_part = [](float a) { return a >= 0 && a <= 1; };
-        require(is_part(material.microfacets->metallic), where, "has a metalness outside [0, 1]");
-        require(is_part(material.microfacets->roughness), where, "has a roughness outside [0, 1]");
-        require(is_part(material.microfacets->anisotropy), where, "has an anisotropy outside [0, 1]");
-        require(std::isfinite(material.microfacets->rotation), where, "has an anisotropy whose rotation is not finite");
-        require(optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0}, where,
-                "has microfacets and is also a dielectric or a mirror; use one or the other");
+        const bool scatters_alone = optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0};
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                                           \
+    if (material.name) {                                                                                             \
+        check_numbers(*material.name, where, is);                                                                    \
+        require(!Type::is_opaque || scatters_alone, where,                                                           \
+                "has " is " and is also a dielectric or a mirror; use one or the other");                            \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
+    }
+
+    /// `is`: the part, in words.
+    template <class Part>
+    void check_numbers(const Part& part, const std::string& where, const char* is) {
+        const auto is_between = [](float least, const Vec3f& value, float most) {
+            return value.x >= least && value.y >= least && value.z >= least && value.x <= most && value.y <= most &&
+                   value.z <= most;
+        };
+        Part::visit_numbers(part, [&](const char* number, const auto& value, float least, float most) {
+            bool good = false;
+            if constexpr (std::is_same_v<decltype(value), const float&>) {
+                good = value >= least && value <= most;
+            } else {
+                good = is_between(least, value, most);
+            }
+            if (good) return;
+            found_.push_back(fmt::format("{} has {} whose {} is outside [{:g}, {:g}]", where, is, number, least, most));
+        });
     }
 
     void check_mesh(std::size_t index) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tandem/images/display.h"
-#include "tandem/kernel/bsdf/microfacets.h"
+#include "tandem/kernel/bsdf/material_parts.h"
 #include "tandem/kernel/bsdf/optics.h"
 #include "tandem/kernel/bsdf/phong.h"
 #include "tandem/kernel/camera/lens.h"
@@ -126,9 +126,9 @@ struct Material {
     std::optional<TextureReference> diffuse_texture{};   ///< multiplies the diffuse and the ambient reflectance
     std::optional<TextureReference> normal_texture{};    ///< normal map, as in glTF 2.0 (kernel/texture/normal_map.h)
     std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
-    /// Metallic-roughness, as in glTF 2.0: the base colour is the diffuse reflectance with its texture. Replaces
-    /// Phong's diffuse and specular terms. Not allowed with a mirror or with transmission.
-    std::optional<Microfacets> microfacets{};
+    // Optional parts, each described in its header: `microfacets` is the metallic-roughness model of glTF 2.0
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) std::optional<Type> name{};
+#include "tandem/kernel/bsdf/lobes.def"
     /// Linear: green multiplies the roughness, blue the metalness.
     std::optional<TextureReference> metallic_roughness_texture{};
     /// Linear: red and green are the direction in which microfacets are rougher, blue multiplies the anisotropy.

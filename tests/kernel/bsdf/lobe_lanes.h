@@ -18,7 +18,6 @@ inline constexpr int numbers_of_a_lobe = 16;
 inline constexpr int lobe_count = 0
 #define TANDEM_LOBE(type, ...) +1
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
     ;
 struct LobeBits {
     std::uint64_t number[lobe_count][numbers_of_a_lobe];

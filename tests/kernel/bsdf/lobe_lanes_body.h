@@ -1,8 +1,8 @@
 /// The functions behind lobe_lanes.h, as templates over Real; also for nvcc.
 #pragma once
 
+#include "kernel/bsdf/lobe_examples.h"
 #include "kernel/bsdf/lobe_lanes.h"
-#include "tandem/kernel/bsdf/lobes.h"
 #include "tandem/math/fast_float.h"
 
 namespace tandem::test {
@@ -12,8 +12,7 @@ template <class Real>
 struct LobeNumbers {
     using D = Double<Real>;
     Vec3<D> wo, wi, u;
-    Vec3<Real> colour;
-    D roughness[2], eta;
+    LobeParameters<Real> of_lobe;
 };
 
 /// T with make(i) in lane i.
@@ -39,38 +38,13 @@ TANDEM_HD LobeNumbers<Real> load(const LobeInput* in) {
         result.wo[k] = fill<D>([=](int i) { return in[i].wo[k]; });
         result.wi[k] = fill<D>([=](int i) { return in[i].wi[k]; });
         result.u[k] = fill<D>([=](int i) { return in[i].u[k]; });
-        result.colour[k] = to_real<Real>(fill<D>([=](int i) { return in[i].colour[k]; }));
+        result.of_lobe.colour[k] = to_real<Real>(fill<D>([=](int i) { return in[i].colour[k]; }));
     }
     for (int k = 0; k < 2; ++k) {
-        result.roughness[k] = fill<D>([=](int i) { return in[i].roughness[k]; });
+        result.of_lobe.roughness[k] = fill<D>([=](int i) { return in[i].roughness[k]; });
     }
-    result.eta = fill<D>([=](int i) { return in[i].eta; });
+    result.of_lobe.eta = fill<D>([=](int i) { return in[i].eta; });
     return result;
-}
-
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, Mirror<Real>& lobe) {
-    lobe = {n.colour};
-}
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, Lambert<Real>& lobe) {
-    lobe = {n.colour};
-}
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, Dielectric<Real>& lobe) {
-    lobe = {n.colour.x, n.eta};
-}
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, CoatedDiffuse<Real>& lobe) {
-    lobe = {{n.colour}, n.colour.x};
-}
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, PhongLobe<Real>& lobe) {
-    lobe = {n.colour, to_real<Real>(n.roughness[0] * Double<Real>(1000.0))};
-}
-template <class Real>
-TANDEM_HD void make(const LobeNumbers<Real>& n, GgxReflection<Real>& lobe) {
-    lobe = {n.colour, Real(1.0F), Ggx<Real>(n.roughness[0], n.roughness[1])};
 }
 
 TANDEM_HD std::uint64_t bits_of_number(float v) { return bits_of(v); }
@@ -101,7 +75,7 @@ struct LobeWriter {
 template <class Real, class L>
 TANDEM_HD void run_lobe(const LobeNumbers<Real>& n, LobeBits* out, int at) {
     L lobe;
-    make(n, lobe);
+    make(n.of_lobe, lobe);
     LobeWriter<Real> to{out, at};
     to.add(lobe.f(n.wo, n.wi));
     to.add(lobe.pdf(n.wo, n.wi));
@@ -120,7 +94,6 @@ TANDEM_HD void run_lobes(const LobeInput* in, LobeBits* out) {
     int at = 0;
 #define TANDEM_LOBE(type, ...) run_lobe<Real, type<Real>>(numbers, out, at++);
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 }
 
 #if !TANDEM_COMPILING_CUDA

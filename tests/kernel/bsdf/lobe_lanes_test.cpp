@@ -13,7 +13,6 @@ namespace {
 constexpr const char* lobe_names[] = {
 #define TANDEM_LOBE(type, ...) #type,
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE
 };
 
 void compare(const LobeRunner& packet, const LobeRunner& single, const char* tier) {

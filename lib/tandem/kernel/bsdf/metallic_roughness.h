@@ -1,8 +1,11 @@
 /// From glTF's metallic-roughness parameters to lobes.
 #pragma once
 
+#include "tandem/effects/effects.h"
 #include "tandem/kernel/bsdf/coated_diffuse.h"
 #include "tandem/kernel/bsdf/ggx_reflection.h"
+#include "tandem/kernel/bsdf/material_point.h"
+#include "tandem/kernel/bsdf/microfacets.h"
 
 namespace tandem {
 
@@ -41,6 +44,23 @@ TANDEM_HD_INLINE MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<R
     const D alpha = roughness * roughness;
     const D along = alpha + (D(1.0F) - alpha) * (strength * strength);
     return {{mixed, one, Ggx<Real>(along, alpha)}, {{material.base_colour * dielectric}, f0}};
+}
+
+/// Replaces the diffuse and the specular term of Phong's model, and leaves metals no ambient light.
+template <class Effects, class Real, class Reflectance>
+TANDEM_HD void apply(const Microfacets& facets, const MaterialPoint<Real>& at, Reflectance& surface) {
+    auto& lobes = surface.lobes;
+    const Real metallic = Real(facets.metallic) * at.texels.metallic_roughness.b;
+    const Real roughness = Real(facets.roughness) * at.texels.metallic_roughness.g;
+    Real anisotropy(0.0F);
+    if (Effects::has(Effect::anisotropy)) anisotropy = Real(facets.anisotropy) * at.texels.anisotropy;
+    const MetallicRoughnessLobes<Real> both =
+        lobes_of<Real>({lobes.diffuse.reflectance, metallic, roughness, Real(at.optics.ior), anisotropy});
+    surface.ambient = surface.ambient * (Real(1.0F) - metallic);
+    lobes.microfacets = both.specular;
+    lobes.coated = both.diffuse;
+    lobes.diffuse = {};
+    lobes.phong.specular = black<Real>();
 }
 
 }  // namespace tandem

@@ -1,7 +1,7 @@
 /// The window through which kernels see a prepared scene, on the CPU and on the GPU.
 #pragma once
 
-#include "tandem/kernel/bsdf/microfacets.h"
+#include "tandem/kernel/bsdf/material_parts.h"
 #include "tandem/kernel/bsdf/optics.h"
 #include "tandem/kernel/bsdf/phong.h"
 #include "tandem/kernel/camera/camera.h"
@@ -53,6 +53,14 @@ TANDEM_HD_INLINE std::uint32_t primitive_count(const SceneView& scene) {
 #include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
     return count;
+}
+
+/// Has a material optional parts?
+TANDEM_HD_INLINE bool has_material_parts(const SceneView& scene) {
+    std::uint32_t count = 0;
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is) count += scene.names##_count;
+#include "tandem/kernel/bsdf/lobes.def"
+    return count > 0;
 }
 
 /// Sets of kinds, as bits. A tracer that serves some kinds only has the code for the others left out.
