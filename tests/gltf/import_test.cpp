@@ -262,6 +262,38 @@ TEST_F(Import, ReadsAnisotropy) {
     EXPECT_FALSE(expect_note("ignored: " + path + "the material has no microfacets").microfacets);
 }
 
+TEST_F(Import, ReadsSheen) {
+    TestFile file = small_file();
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_materials_sheen"};
+    Json& material = file.json["materials"][0];
+    material = {{"pbrMetallicRoughness", {{"roughnessFactor", 0.5}}}};
+    Json& sheen = material["extensions"]["KHR_materials_sheen"];
+    sheen = {{"sheenColorFactor", {0.5, 0.25, 1}}, {"sheenRoughnessFactor", 0.75}};
+    const auto expect_note = [&](const std::string& note) {
+        const ImportResult result = import(file);
+        const std::string all = test::sentences(result.report);
+        EXPECT_TRUE(test::contains(all, note)) << all;
+        return result.scene;
+    };
+    const std::string path = "KHR_materials_sheen at materials[0].extensions.KHR_materials_sheen: ";
+    const Scene read = expect_note("rendered: " + path + "a layer of fibres");
+    ASSERT_TRUE(read.materials[0].sheen);
+    EXPECT_EQ(read.materials[0].sheen->colour, Vec3f(0.5F, 0.25F, 1));
+    EXPECT_EQ(read.materials[0].sheen->roughness, 0.75F);
+    EXPECT_TRUE(prepare(read).effects.has(Effect::sheen));
+    sheen["sheenRoughnessFactor"] = 7;
+    EXPECT_EQ(expect_note("KHR_materials_sheen.sheenRoughnessFactor: ").materials[0].sheen->roughness, 1);
+    sheen = Json::object();
+    EXPECT_FALSE(expect_note("rendered: " + path + "its colour is black").materials[0].sheen);
+    sheen = {{"sheenColorFactor", {1, 1, 1}}};
+    EXPECT_EQ(expect_note("rendered: " + path).materials[0].sheen->roughness, 0) << "the default of glTF";
+    material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
+    EXPECT_FALSE(expect_note("ignored: " + path + "mirrors and dielectrics").materials[0].sheen);
+    material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 0}};
+    material["extensions"]["KHR_materials_unlit"] = Json::object();
+    EXPECT_FALSE(expect_note("ignored: " + path + "an unlit material").materials[0].sheen);
+}
+
 TEST_F(Import, GlassAndUnlitMaterialsHaveNoMicrofacets) {
     TestFile file = small_file();
     file.json["materials"][0] = {{"pbrMetallicRoughness", {{"metallicFactor", 0.5}, {"roughnessFactor", 0.5}}}};

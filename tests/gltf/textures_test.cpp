@@ -130,6 +130,26 @@ TEST_F(Textures, OfAnisotropyHaveATransformAndASet) {
     EXPECT_TRUE(contains(sentences(none.report), "ignored: anisotropy texture at " + path));
 }
 
+TEST_F(Textures, OfSheenMultiplyItsColourAndRoughness) {
+    TestFile file = textured_file();
+    file.json["materials"][0].erase("extensions");
+    Json& sheen = file.json["materials"][0]["extensions"]["KHR_materials_sheen"];
+    sheen = {{"sheenColorFactor", {1, 1, 1}},
+             {"sheenColorTexture", {{"index", 0}}},
+             {"sheenRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}};
+    const ImportResult result = import(file);
+    ASSERT_TRUE(result.scene.materials[0].sheen_colour_texture);
+    ASSERT_TRUE(result.scene.materials[0].sheen_roughness_texture);
+    EXPECT_EQ(result.scene.materials[0].sheen_roughness_texture->texcoord, 1U);
+    const std::string path = "materials[0].extensions.KHR_materials_sheen.";
+    EXPECT_TRUE(contains(sentences(result.report), "rendered: sheen colour texture at " + path + "sheenColorTexture"));
+    sheen["sheenColorFactor"] = {0, 0, 0};
+    const ImportResult none = import(file);
+    EXPECT_FALSE(none.scene.materials[0].sheen_colour_texture);
+    EXPECT_TRUE(contains(sentences(none.report),
+                         "ignored: sheen roughness texture at " + path + "sheenRoughnessTexture: the material has no"));
+}
+
 TEST_F(Textures, AreMovedByKhrTextureTransform) {
     TestFile file = textured_file();
     file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_texture_transform"};

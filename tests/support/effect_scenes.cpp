@@ -288,6 +288,20 @@ Scene brushed_and_worn() {
     scene.materials[3].normal_texture.reset();
     return scene;
 }
+/// Adds a sheen to every material that has no mirror and transmits no light. Some have textures, one at a second set of
+/// coordinates where there is one.
+Scene of_cloth(Scene scene) {
+    float roughness = 0.9F;
+    for (Material& material : scene.materials) {
+        if (material.optics.transmission > 0 || norm1(material.optics.mirror) > 0) continue;
+        material.sheen = Sheen{{roughness, 0.8F, 0.5F}, roughness};
+        roughness *= 0.6F;
+        if (scene.textures.empty()) continue;
+        material.sheen_colour_texture = TextureReference{0, {0.3F, 0.1F}, 0.2F, {2, 1}};
+        material.sheen_roughness_texture = TextureReference{1};
+    }
+    return scene;
+}
 Scene in_daylight(Scene scene, bool illuminates, bool indirect) {
     scene.environment = {{0.2F, 0.15F, 0.1F}, {0.6F, 0.8F, 1}, {0, 0, 0}, illuminates ? 1U : 0U};
     scene.indirect_light = indirect;
@@ -392,6 +406,13 @@ std::vector<EffectScene> make_scenes() {
         {"brushed metal without coordinates", lit(with_meshes(brushed(polished_scene())), plain), grooves});
     scenes.push_back({"brushed and worn metal", in_daylight(lit(brushed_and_worn(), {}), true, false),
                       shadows | grooves | Effect::textures | Effect::normal_maps | Effect::environment_light});
+    scenes.push_back({"cloth, lamps", with_lamps(of_cloth(diffuse_scene())), lamps | Effect::sheen});
+    scenes.push_back({"cloth over metal, lamps, indirect",
+                      in_daylight(with_lamps(of_cloth(polished_scene())), true, true),
+                      lamps | facets | Effect::sheen | Effect::environment_light | Effect::indirect | Effect::roulette});
+    scenes.push_back(
+        {"worn cloth", in_daylight(lit(of_cloth(worn_scene()), {}), true, false),
+         shadows | facets | Effect::sheen | Effect::textures | Effect::normal_maps | Effect::environment_light});
     const EffectMask surroundings = shadows | Effect::environment_light | Effect::environment_picture;
     scenes.push_back(
         {"picture behind", within_picture(lit(diffuse_scene(), plain), false, false), Effect::environment_picture});
@@ -408,6 +429,7 @@ std::vector<EffectScene> make_scenes() {
     everything.materials[0] = pictures.materials[1];
     everything.materials[0].microfacets = Microfacets{.metallic = 0.6F, .roughness = 0.5F, .anisotropy = 0.5F};
     everything.materials[0].metallic_roughness_texture = TextureReference{1};
+    everything.materials[0].sheen = Sheen{{0.3F, 0.2F, 0.1F}, 0.4F};
     everything = through(everything, {0.03, 3});
     everything.materials[3].optics.mirror = {0.2F, 0.1F, 0.1F};
     everything.materials[2].optics.transmission = 0.7F;

@@ -167,6 +167,11 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         needs.add(effect, name + " has " is + numbers_of(prepared.members[i]));     \
     }
 #include "tandem/kernel/bsdf/lobes.def"
+#define TANDEM_PART_TEXTURE(part, effect, member, members, space, is)                                       \
+    if (!prepared.members.empty() && prepared.members[i].texture != no_texture) {                        \
+        needs.add(Effect::textures, name + " has a " is);                                                \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
         add_anisotropy(prepared, i, name, needs);
     }
     if (prepared.culled_node != PreparedScene::never) {
@@ -230,6 +235,8 @@ Scene without_effects(Scene scene, EffectMask off) {
         if (off.has(Effect::reflection)) material.optics.mirror = {0, 0, 0};
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) \
     if (off.has(needs)) material.name.reset();
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    if (off.has_any(needs | Effect::textures)) material.name.reset();
 #include "tandem/kernel/bsdf/lobes.def"
         if (off.has(Effect::anisotropy)) {
             if (material.microfacets) material.microfacets->anisotropy = material.microfacets->rotation = 0;

@@ -130,8 +130,7 @@ class Preparer {
         }
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) add_parts(&Material::name, result_.names);
 #include "tandem/kernel/bsdf/lobes.def"
-        result_.textures =
-            prepare_textures(scene_, result_.materials, result_.optics, result_.microfacets, result_.anisotropies);
+        prepare_textures(scene_, result_);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             if (scene_.materials[i].unlit) make_unlit(result_.materials[i], result_.optics[i]);
         }
@@ -163,6 +162,9 @@ class Preparer {
         for (const Anisotropy& anisotropy : result_.anisotropies) {
             result_.several_slots = result_.several_slots || (anisotropy.slot | anisotropy.texture.slot) != 0;
         }
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    for (const TextureUse& use : result_.names) result_.several_slots = result_.several_slots || use.slot != 0;
+#include "tandem/kernel/bsdf/lobes.def"
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
         if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
         if (settings_.roulette && scene_.indirect_light) result_.roulette_from = first_roulette;
@@ -326,7 +328,11 @@ class Preparer {
     /// grooves of a brushed surface.
     bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
         const bool is_brushed = !result_.anisotropies.empty() && result_.microfacets[material].anisotropy > 0;
-        return !(is_brushed || has_texture(result_.textures, material)) || is_upright(world_from_object.linear);
+        bool has_picture = has_texture(result_.textures, material);
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    has_picture = has_picture || (!result_.names.empty() && result_.names[material].texture != no_texture);
+#include "tandem/kernel/bsdf/lobes.def"
+        return !(is_brushed || has_picture) || is_upright(world_from_object.linear);
     }
 
     /// `size`: scale from the unit solid to the shape.

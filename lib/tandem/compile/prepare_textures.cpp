@@ -55,27 +55,30 @@ bool has_picture(const MaterialTextures& m) {
 
 class Preparer {
   public:
-    Preparer(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
-             std::vector<Microfacets>& microfacets, std::vector<Anisotropy>& anisotropies)
+    Preparer(const Scene& scene, PreparedScene& prepared)
         : scene_(scene),
-          phong_(phong),
-          optics_(optics),
-          microfacets_(microfacets),
-          anisotropies_(anisotropies),
+          prepared_(prepared),
+          phong_(prepared.materials),
+          optics_(prepared.optics),
+          microfacets_(prepared.microfacets),
+          anisotropies_(prepared.anisotropies),
           slots_(corner_slots(scene)) {
         result_.levels = texture_levels();
     }
 
-    PreparedTextures run() {
+    void run() {
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) add(i);
         if (std::none_of(microfacets_.begin(), microfacets_.end(), [](const auto& m) { return m.anisotropy > 0; })) {
             anisotropies_.clear();
         }
-        const bool needed = std::any_of(result_.materials.begin(), result_.materials.end(),
+        bool needed = false;
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) needed = keep_if_used(prepared_.names) || needed;
+#include "tandem/kernel/bsdf/lobes.def"
+        needed = needed || std::any_of(result_.materials.begin(), result_.materials.end(),
                                         [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; }) ||
                             std::any_of(anisotropies_.begin(), anisotropies_.end(),
                                         [](const auto& a) { return a.texture.texture != no_texture; });
-        return needed ? std::move(result_) : PreparedTextures{};
+        if (needed) prepared_.textures = std::move(result_);
     }
 
   private:
@@ -125,6 +128,23 @@ class Preparer {
         result_.materials.push_back(prepared);
         anisotropies_.emplace_back();
         if (is_anisotropic(material)) add_anisotropy(material, slots, index);
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    prepared_.names.push_back(use_of(material.part && !material.unlit, material.name, ColourSpace::space, slots));
+#include "tandem/kernel/bsdf/lobes.def"
+    }
+
+    TextureUse use_of(bool has_part, const std::optional<TextureReference>& reference, ColourSpace space,
+                      const CornerSlots& slots) {
+        if (!has_part || !reference) return {};
+        return with_transform(*reference, add(*reference, space, false), slots);
+    }
+
+    /// Clears the textures, by material, if there is none.
+    static bool keep_if_used(std::vector<TextureUse>& uses) {
+        const bool used =
+            std::any_of(uses.begin(), uses.end(), [](const TextureUse& use) { return use.texture != no_texture; });
+        if (!used) uses.clear();
+        return used;
     }
 
     /// Facts about all texels of an image.
@@ -226,6 +246,7 @@ class Preparer {
     }
 
     const Scene& scene_;
+    PreparedScene& prepared_;
     std::vector<PhongMaterial>& phong_;
     std::vector<Optics>& optics_;
     std::vector<Microfacets>& microfacets_;
@@ -257,9 +278,6 @@ bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
                         [](std::uint32_t t) { return (t & rgb) == rgb; });
 }
 
-PreparedTextures prepare_textures(const Scene& scene, std::vector<PhongMaterial>& phong, std::vector<Optics>& optics,
-                                  std::vector<Microfacets>& microfacets, std::vector<Anisotropy>& anisotropies) {
-    return Preparer(scene, phong, optics, microfacets, anisotropies).run();
-}
+void prepare_textures(const Scene& scene, PreparedScene& prepared) { Preparer(scene, prepared).run(); }
 
 }  // namespace tandem

@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* unlit_name = "KHR_materials_unlit";
 constexpr const char* anisotropy_name = "KHR_materials_anisotropy";
+constexpr const char* sheen_name = "KHR_materials_sheen";
 
 /// A diffuse surface of that colour with the highlight of a dielectric of index 1.5, which reflects 4 % at normal
 /// incidence: approximates the opaque part of dielectrics, and microfacets that are not simulated.
@@ -66,6 +67,24 @@ void read_anisotropy(const Json& read, const std::string& path, Material& materi
                                         : "its strength is 0, so the reflection is as without it");
 }
 
+/// `material`: with the rest of what is read of it.
+void read_sheen(const Json& read, const std::string& path, Material& material, ImportReport& report) {
+    const Json* sheen = find_extension(read, sheen_name);
+    if (sheen == nullptr) return;
+    const std::string where = fmt::format("{}.extensions.{}", path, sheen_name);
+    const bool is_clear = material.optics.transmission > 0 || norm1(material.optics.mirror) > 0;
+    if (material.unlit || is_clear) {
+        report.add(Treatment::ignored, sheen_name, where,
+                   is_clear ? "mirrors and dielectrics have none" : "an unlit material reflects no light");
+        return;
+    }
+    const Sheen read_sheen = {read_colour(*sheen, "sheenColorFactor", {0, 0, 0}),
+                              sheen->value("sheenRoughnessFactor", 0.0F)};
+    const bool shows = norm1(read_sheen.colour) > 0;
+    if (shows) material.sheen = read_sheen;
+    report.add(Treatment::rendered, sheen_name, where, shows ? "a layer of fibres" : "its colour is black: no sheen");
+}
+
 }  // namespace
 
 Vec3f read_colour(const Json& object, const char* member, const Vec3f& absent) {
@@ -104,6 +123,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
             read_metallic_roughness(pbr, path, material, report);
         }
         read_anisotropy(read, path, material, report);
+        read_sheen(read, path, material, report);
         // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
         if (material.unlit) {

@@ -90,6 +90,7 @@ class TextureReader {
             }
         }
         read_anisotropy(read, path, material);
+        read_sheen(read, path, material);
         read_alpha(read, path, material);
     }
 
@@ -105,6 +106,26 @@ class TextureReader {
         } else {
             report_.add(Treatment::ignored, "anisotropy texture", where, "the material is not anisotropic");
         }
+    }
+
+    void read_sheen(const Json& read, const std::string& path, Material& material) {
+        const Json* sheen = find_extension(read, "KHR_materials_sheen");
+        if (sheen == nullptr) return;
+        const auto read_one = [&](const char* member, const char* feature, const char* reason) {
+            const Json* info = find(*sheen, member);
+            const std::string where = fmt::format("{}.extensions.KHR_materials_sheen.{}", path, member);
+            std::optional<TextureReference> use;
+            if (info != nullptr && material.sheen) {
+                use = read_use(*info, where, feature, reason);
+            } else if (info != nullptr) {
+                report_.add(Treatment::ignored, feature, where, "the material has no sheen");
+            }
+            return use;
+        };
+        material.sheen_colour_texture =
+            read_one("sheenColorTexture", "sheen colour texture", "sRGB; multiplies the colour of the sheen");
+        material.sheen_roughness_texture = read_one("sheenRoughnessTexture", "sheen roughness texture",
+                                                    "linear; alpha multiplies the roughness of the sheen");
     }
 
     void read_alpha(const Json& read, const std::string& path, Material& material) {

@@ -13,13 +13,13 @@ struct Reflectance {
     Vec3<Real> ambient;
 };
 
-/// That of a material.
-/// `from_inside`: where the ray is inside the solid.
+/// That of a material at a point. `from_inside`: where the ray is inside the solid.
 template <class Effects, class Real>
-TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t number,
-                                           const MaterialTexels<Real>& texels, const Mask<Real>& from_inside) {
+TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t number, const MaterialPoint<Real>& at,
+                                           const Mask<Real>& from_inside) {
+    const MaterialTexels<Real>& texels = at.texels;
     const PhongMaterial& material = scene.materials[number];
-    const Optics& optics = scene.optics[number];
+    const Optics& optics = at.optics;
     Reflectance<Real> result{};
     SurfaceLobes<Real>& lobes = result.lobes;
     result.ambient = broadcast<Real>(material.ambient);
@@ -32,7 +32,6 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
     }
 
     // Optional parts
-    const MaterialPoint<Real> at = {optics, texels};
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                        \
     if (Effects::has(needs) && scene.names##_count > 0 && scene.names[number].is_there != 0) {    \
         apply<Effects>(scene.names[number], at, result);                                          \

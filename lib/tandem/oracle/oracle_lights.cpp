@@ -146,13 +146,13 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
     if (scene.area_lights_cast_shadows != 0) {
-        const bool shared = scene.indirect_light != 0 || material.has_facets;
+        const bool shared = scene.indirect_light != 0 || material.has_facets || !material.broad.empty();
         if (has_picture(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
         if (is_blocked(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
     }
     Vector reflected{0, 0, 0};
-    if (has_picture(scene) && material.is_hidden) return reflected;
-    if (ends.diffuse) reflected = material.diffuse * (inner(direction, vertex.normal) * uncovered(material, direction));
+    if (has_picture(scene) && material.has_facets && material.is_hidden) return reflected;
+    if (ends.diffuse) reflected = scattered(material, direction) * inner(direction, vertex.normal);
     if (ends.facets) reflected = reflected + facets(material, vertex, direction);
     return times(reflected, background_towards(scene, direction)) * 2;
 }

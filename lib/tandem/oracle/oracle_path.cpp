@@ -99,9 +99,8 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
 
         // Choose a lobe
         const Reflectances material = reflectances(scene, vertex);
-        const Vector diffuse = material.diffuse;
         const Real mirror = largest(to_vector(optics.mirror)), glass = optics.transmission;
-        const Real lambert = scene.indirect_light != 0 && is_front ? largest(diffuse) : 0;
+        const Real lambert = scene.indirect_light != 0 && is_front ? most_scattered(material) : 0;
         const Real glossy =
             material.has_facets && !material.is_hidden ? std::max<Real>(largest(material.f0), Real(0.1)) : 0;
         if (!(mirror > 0) && !is_glass && !(lambert > 0) && !(glossy > 0)) return radiance;
@@ -139,8 +138,8 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         } else {
             onward = on_hemisphere(normal, chance);
             if (!(inner(onward, facing) > 0)) return radiance;
-            throughput = times(throughput,
-                               diffuse * (2 * inner(onward, normal) * uncovered(material, onward) * total / lambert));
+            throughput = times(throughput, scattered(material, onward) *
+                                               (2 * inner(onward, normal) * total / lambert));
         }
         if (!through && !was_scattered && !takes_glossy) {
             onward = mirrored(vertex.direction, normal);

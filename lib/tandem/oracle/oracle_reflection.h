@@ -1,7 +1,9 @@
-/// Reflection by the formulas of the papers: Phong, and GGX by angles.
+/// Reflection by the formulas of the papers: Phong, and GGX and the sheen of cloth by angles.
 #pragma once
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include "tandem/oracle/oracle_chance.h"
 #include "tandem/oracle/oracle_vertex.h"
@@ -10,18 +12,26 @@ namespace tandem::oracle {
 
 inline Real largest(const Vector& a) { return std::max({a.x, a.y, a.z}); }
 
+/// A diffuse lobe over the base of a surface.
+struct BroadLobe {
+    Vector colour;
+    std::function<Vector(const Vector& l)> value;  ///< pi f for light from l, above the surface
+};
+
 /// Phong's reflectances at a vertex; or those of microfacets, which have no specular one.
 struct Reflectances {
     Vector ambient, diffuse, specular;
     Real shininess;
     bool has_facets = false;
-    bool is_hidden = false;  ///< microfacets on the back of a single-sided surface: they reflect no light source
+    bool is_hidden = false;  ///< microfacets and fibres on the back of a single-sided surface reflect no light source
     Vector f0{0, 0, 0};      ///< of microfacets: reflectance head-on
+    Real f90 = 1;            ///< the same at grazing angles
     Real border = 0;         ///< the same of what covers the diffuse base
     Real alpha = 0;          ///< of GGX: the least of all directions
     Real alpha_along = 0;    ///< the most, in the direction `along`, which is 0 where both are equal
     Vector along{0, 0, 0};
-    Vector to_viewer{};  ///< on the side of the normal for shading
+    std::vector<BroadLobe> broad{};  ///< beside the diffuse base
+    Vector to_viewer{};              ///< on the side of the normal for shading
 };
 
 /// The reflectances at a vertex.
@@ -30,8 +40,11 @@ struct Reflectances {
 /// GGX by angles, as Walter and others write it; times pi and the cosine of the light.
 [[nodiscard]] Vector facets(const Reflectances& material, const Vertex& vertex, const Vector& l);
 
-/// The share of light from l that passes the interface to the diffuse base and back to the viewer.
-[[nodiscard]] Real uncovered(const Reflectances& material, const Vector& l);
+/// pi f of the diffuse lobes for light from l, on the side of the normal: the base, through what covers it, and others.
+[[nodiscard]] Vector scattered(const Reflectances& material, const Vector& l);
+
+/// The largest channel of their colours.
+[[nodiscard]] Real most_scattered(const Reflectances& material);
 
 /// Whether microfacets receive area lights by sampling points on them. Otherwise paths find the lights.
 inline bool samples_lights(const Reflectances& material) { return material.alpha > Real(0.3); }

@@ -92,6 +92,12 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     const Texel facets = sample_texture(scene, textures.metallic_roughness, at(textures.metallic_roughness.slot));
     vertex.roughness *= facets.g;
     vertex.metal *= facets.b;
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    if (scene.names##_count > 0) {                               \
+        const TextureUse& use = scene.names[vertex.material];    \
+        vertex.name = sample_texture(scene, use, at(use.slot));  \
+    }
+#include "tandem/kernel/bsdf/lobes.def"
     const Texel emission =
         optics.unlit != 0 ? vertex.picture : sample_texture(scene, textures.emission, at(textures.emission.slot));
     vertex.emission = times(vertex.emission, {emission.r, emission.g, emission.b});

@@ -20,6 +20,9 @@ std::vector<std::uint32_t> texcoord_sets(const Material& material) {
                                   &material.metallic_roughness_texture, &material.anisotropy_texture}) {
         if (*reference) sets.push_back((*reference)->texcoord);
     }
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    if (material.name) sets.push_back(material.name->texcoord);
+#include "tandem/kernel/bsdf/lobes.def"
     return once_each(std::move(sets));
 }
 

@@ -128,6 +128,7 @@ struct Material {
     std::optional<TextureReference> emissive_texture{};  ///< multiplies the emission
     // Optional parts, each described in its header: `microfacets` is the metallic-roughness model of glTF 2.0
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) std::optional<Type> name{};
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) std::optional<TextureReference> name{};
 #include "tandem/kernel/bsdf/lobes.def"
     /// Linear: green multiplies the roughness, blue the metalness.
     std::optional<TextureReference> metallic_roughness_texture{};

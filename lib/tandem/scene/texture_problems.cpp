@@ -58,6 +58,9 @@ class Finder {
         if (material.metallic_roughness_texture)
             check_reference(*material.metallic_roughness_texture, where + ", metallic-roughness texture,");
         if (material.anisotropy_texture) check_reference(*material.anisotropy_texture, where + ", anisotropy texture,");
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    if (material.name) check_reference(*material.name, where + ", " is ",");
+#include "tandem/kernel/bsdf/lobes.def"
         require(std::isfinite(material.normal_scale), where, "has a normal scale that is not finite");
         require(material.alpha >= 0 && material.alpha <= 1, where, "has an alpha outside [0, 1]");
         require(material.alpha_cutoff >= 0 && std::isfinite(material.alpha_cutoff), where,

@@ -83,7 +83,8 @@ struct AnyLobe {
     std::string name;
     Chart chart;
     double roundoff;  ///< of the Real
-    bool is_reciprocal = true, gains_energy = false;  ///< LobeExamples
+    bool is_reciprocal = true;
+    double most_albedo = 1, most_weight = 1;  ///< LobeExamples
     std::function<Vec3d(const Vec3d&, const Vec3d&)> f;
     std::function<double(const Vec3d&, const Vec3d&)> pdf;
     std::function<LobeSample<double>(const Vec3d&, const Vec3d&)> sample;
@@ -92,14 +93,15 @@ struct AnyLobe {
 
 template <class Real, template <class> class L>
 AnyLobe any_lobe(const std::string& name, const Chart& chart, const L<Real>& lobe, bool is_reciprocal = true,
-                 bool gains_energy = false) {
+                 double most_albedo = 1, double most_weight = 1) {
     static_assert(std::is_same_v<Double<Real>, double>);
     const auto doubles = [](const Vec3<Real>& v) { return Vec3d{v.x, v.y, v.z}; };
     return {name + (std::is_same_v<Real, float> ? ", strict" : ", precise"),
             chart,
             std::is_same_v<Real, float> ? 0x1p-24 : 0x1p-53,
             is_reciprocal,
-            gains_energy,
+            most_albedo,
+            most_weight,
             [=](const Vec3d& wo, const Vec3d& wi) { return doubles(lobe.f(wo, wi)); },
             [=](const Vec3d& wo, const Vec3d& wi) { return lobe.pdf(wo, wi); },
             [=](const Vec3d& wo, const Vec3d& u) -> LobeSample<double> {

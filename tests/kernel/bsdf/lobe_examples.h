@@ -40,6 +40,11 @@ TANDEM_HD void make(const LobeParameters<Real>& n, GgxReflection<Real>& lobe) {
     lobe = {n.colour, Real(1.0F), Ggx<Real>(n.roughness[0], n.roughness[1])};
 }
 
+template <class Real>
+TANDEM_HD void make(const LobeParameters<Real>& n, SheenLobe<Real>& lobe) {
+    lobe = {n.colour, to_real<Real>(n.roughness[0])};
+}
+
 /// How narrow a lobe is, so that integrals over it are fine where it is: by the slopes of microfacets in x and y, or by
 /// 1 - cos of the angle around the mirror direction.
 struct LobeSpread {
@@ -50,15 +55,17 @@ constexpr LobeSpread all_around = {false, 1e3, 1e3};
 
 /// What all_lobes_test.cpp tries of a lobe that is not specular: pairs of `roughness`, and
 ///
-/// spread(roughness)        how narrow it is then
-/// gains_energy(roughness)  whether its contract says that a white one may reflect more than comes
-/// is_reciprocal            whether f is, or f |cos|
+/// spread(roughness)       how narrow it is then
+/// most_albedo(roughness)  the most that a white one reflects, by its contract
+/// most_weight(roughness)  the most of a sample's weight
+/// is_reciprocal           whether f is, or f |cos|
 template <template <class> class Lobe>
 struct LobeExamples;
 
 struct OrdinaryLobe {
     static constexpr bool is_reciprocal = true;
-    static bool gains_energy(const double*) { return false; }
+    static double most_albedo(const double*) { return 1; }
+    static double most_weight(const double*) { return 1; }
 };
 
 template <>
@@ -72,10 +79,18 @@ struct LobeExamples<CoatedDiffuse> : OrdinaryLobe {
     static LobeSpread spread(const double*) { return all_around; }
 };
 template <>
+struct LobeExamples<SheenLobe> : OrdinaryLobe {
+    static constexpr double roughness[][2] = {{0, 0}, {0.2, 0}, {0.5, 0}, {1, 0}};
+    static LobeSpread spread(const double*) { return all_around; }
+    static double most_albedo(const double* r) { return r[0] == 0 ? 1.95 : r[0] == 0.2 ? 1.15 : 0.95; }
+    static double most_weight(const double* r) { return r[0] == 0 ? 260 : r[0] == 0.2 ? 75 : 25; }
+};
+template <>
 struct LobeExamples<PhongLobe> : OrdinaryLobe {
     static constexpr double roughness[][2] = {{0, 0}, {0.001, 0}, {0.032, 0}, {10, 0}, {1000, 0}};
     static constexpr bool is_reciprocal = false;
-    static bool gains_energy(const double* n) { return n[0] == 0; }
+    static double most_albedo(const double* n) { return n[0] == 0 ? 2 : 1; }
+    static double most_weight(const double* n) { return n[0] == 0 ? 2 : 1; }
     static LobeSpread spread(const double* n) {
         const double width = 1 / (1 + 1000 * n[0]);
         return {false, width, width};

@@ -3,7 +3,6 @@
 
 #define TANDEM_LOBE_HEADERS
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_LOBE_HEADERS
 
 namespace tandem {
 

@@ -7,9 +7,17 @@
 
 #define TANDEM_MATERIAL_PART_HEADERS
 #include "tandem/kernel/bsdf/lobes.def"
-#undef TANDEM_MATERIAL_PART_HEADERS
 
 namespace tandem {
+
+namespace material_parts_detail {
+
+struct AnyVisitor {  // nvcc takes no lambda in a concept
+    template <class Number>
+    constexpr void operator()(const char*, const Number&, float, float) const {}
+};
+
+}  // namespace material_parts_detail
 
 /// A part is a plain struct without undefined bytes, because scene_hash() reads all of them. It has
 ///
@@ -24,7 +32,7 @@ concept MaterialPart = std::is_trivially_copyable_v<Part> &&
                        requires(Part& part) {
                            { Part::is_opaque } -> std::convertible_to<bool>;
                            { part.is_there } -> std::convertible_to<std::uint32_t>;
-                           Part::visit_numbers(part, [](const char*, const auto&, float, float) {});
+                           Part::visit_numbers(part, material_parts_detail::AnyVisitor{});
                        };
 
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) static_assert(MaterialPart<Type>);

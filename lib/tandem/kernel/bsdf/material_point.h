@@ -3,6 +3,7 @@
 
 #include "tandem/kernel/bsdf/optics.h"
 #include "tandem/kernel/texture/texture_view.h"
+#include "tandem/math/inverse_square_root.h"
 
 namespace tandem {
 
@@ -13,6 +14,9 @@ struct MaterialTexels {
     Rgba<Real> metallic_roughness = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
     Vec3<Real> emission = {Real(1.0F), Real(1.0F), Real(1.0F)};
     Real anisotropy = Real(1.0F);
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
+    Rgba<Real> name = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};
+#include "tandem/kernel/bsdf/lobes.def"
 };
 
 /// A point of a surface.
@@ -20,6 +24,17 @@ template <class Real>
 struct MaterialPoint {
     const Optics& optics;
     const MaterialTexels<Real>& texels;
+    const Vec3<Double<Real>>& normal;  ///< for shading, of any length
+    const Vec3<Real>& direction;       ///< of the ray that hits the surface, of any length
+
+    /// The cosine of the angle between the normal and the direction to the viewer, on either side of the surface.
+    [[nodiscard]] TANDEM_HD Double<Real> view_cosine() const {
+        using D = Double<Real>;
+        const Vec3<D> way = widen(direction);
+        const D height = dot(way, normal);
+        const D side = select(height < D(0.0F), -height, height);
+        return side * inverse_square_root(dot(way, way) * dot(normal, normal));
+    }
 };
 
 }  // namespace tandem
