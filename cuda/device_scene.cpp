@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tandem/base/seconds.h"
-#include "tandem/compile/build_bvh.h"
+#include "cuda/build_bvh.h"
 
 namespace tandem::cuda {
 
@@ -46,12 +45,6 @@ class Layout {
     std::size_t bytes_ = 0;
 };
 
-Aabb scene_bounds(const SceneView& scene) {
-    Aabb bounds;
-    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) bounds = merge(bounds, primitive_bounds(scene, id));
-    return bounds;
-}
-
 }  // namespace
 
 DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
@@ -62,14 +55,6 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
       dropped_primitives_(scene.dropped_primitives),
       dropped_lights_(scene.dropped_lights) {
     const SceneView host = tandem::view(scene);
-    Bvh bvh;
-    if (primitive_count(scene) > loop_limit) {
-        const Stopwatch watch;
-        view_.bvh.frame = make_structure_frame(scene_bounds(host));
-        bvh = build_bvh(host, view_.bvh.frame.margin);
-        build_seconds_ = watch.seconds();
-    }
-
     view_.scene = host;
     Layout layout;
 #define TANDEM_SCENE_ARRAY(Type, names) layout.add(scene.names, view_.scene.names);
@@ -78,13 +63,6 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 #define TANDEM_TEXTURE_ARRAY(Type, names) layout.add(scene.textures.names, view_.scene.textures.names);
 #include "tandem/kernel/texture/texture_arrays.def"
 #undef TANDEM_TEXTURE_ARRAY
-    }
-    if (!bvh.nodes.empty()) {
-        layout.add(bvh.nodes, view_.bvh.nodes);
-        layout.add(bvh.entry_spheres, view_.bvh.entry_spheres);
-        layout.add(bvh.entry_ids, view_.bvh.entry_ids);
-        layout.add(bvh.placements, view_.bvh.placements);
-        layout.add(bvh.entry_triangles, view_.bvh.entry_triangles);
     }
     bytes_ = layout.bytes();
     memory_->device.reserve(bytes_);
@@ -100,12 +78,18 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
               "uploading the scene");
     }
     memory_->upload_end.record(stream.get());
+    if (primitive_count(scene) > loop_limit) {
+        const BuiltBvh built = build_bvh(view_.scene, memory_->tree, stream.get());
+        view_.bvh = built.view;
+        bvh_nodes_ = built.node_count;
+    }
+    memory_->build_end.record(stream.get());
 }
 
 PhaseTimes DeviceScene::load_times() const {
-    memory_->upload_end.wait();
+    memory_->build_end.wait();
     PhaseTimes times;
-    times.build = build_seconds_;
+    times.build = seconds_between(memory_->upload_end, memory_->build_end);
     times.upload = seconds_between(memory_->upload_start, memory_->upload_end);
     return times;
 }

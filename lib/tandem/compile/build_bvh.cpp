@@ -95,12 +95,14 @@ class Builder {
 
 }  // namespace
 
+void check_bvh_size(std::uint32_t primitives) {
+    if (primitives <= max_bvh_primitives) return;
+    throw InputError(
+        fmt::format("the scene has {} primitives; the BVH takes {} at most", primitives, max_bvh_primitives));
+}
+
 Bvh build_bvh(const SceneView& scene, float margin) {
-    const std::uint32_t count = primitive_count(scene);
-    if (count > max_bvh_primitives) {
-        throw InputError(
-            fmt::format("the scene has {} primitives; the BVH takes {} at most", count, max_bvh_primitives));
-    }
+    check_bvh_size(primitive_count(scene));
     return Builder(scene, margin).run();
 }
 

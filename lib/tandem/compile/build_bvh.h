@@ -11,9 +11,6 @@
 
 namespace tandem {
 
-/// Behind the entries of all primitives, those that children that are not there may name.
-inline constexpr int spare_entries = bvh_width - 1;
-
 /// A BVH in host memory. An entry is the bounding sphere of a primitive (of a sphere, the sphere itself), which rejects
 /// most rays, and the primitive's id.
 struct Bvh {
@@ -27,6 +24,9 @@ struct Bvh {
 /// Surface area heuristic; deterministic. `margin`: padding of every box (kernel/traversal/proposal.h). Throws
 /// InputError for more than max_bvh_primitives. The scene must not be empty.
 [[nodiscard]] Bvh build_bvh(const SceneView& scene, float margin);
+
+/// Throws InputError for more primitives than max_bvh_primitives.
+void check_bvh_size(std::uint32_t primitives);
 
 /// What is wrong with a BVH (a primitive missing or twice, a box that does not contain its child, too deep); empty if
 /// nothing is. For tests and debugging.

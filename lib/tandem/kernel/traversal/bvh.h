@@ -12,6 +12,8 @@
 namespace tandem {
 
 inline constexpr int bvh_width = 4;
+/// Behind the entries of all primitives, those that children that are not there may name.
+inline constexpr int spare_entries = bvh_width - 1;
 
 /// The planes of the children's boxes are multiples of the node's steps, from its corner: 48 bytes, three loads of 16.
 /// Inner children come first. A child that is not there has an empty box; rounding may let a ray enter it, so its

@@ -1,0 +1,35 @@
+/// Builds the BVH of a scene on the GPU.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "cuda/memory.h"
+#include "tandem/kernel/traversal/bvh_walk.h"
+
+namespace tandem::cuda {
+
+/// A BVH in GPU memory, as kernels read it.
+struct BuiltBvh {
+    BvhView view;
+    std::uint32_t node_count = 0;
+    std::uint32_t levels = 0;  ///< of nodes; at most max_bvh_depth
+};
+
+/// Builds the BVH of a scene whose arrays are in GPU memory. `tree` receives it; other memory is freed at the end. Waits
+/// for the stream.
+///
+/// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Then neighbours on the curve merge, pair
+///         by pair and in parallel, if each is the other's nearest within a radius; nearest means the smallest area of
+///         the common box. Ties go to the pair whose places differ least in their high bits, which is the same for
+///         both, so that something merges in every round. If the number of rounds could exceed the depth limit,
+///         neighbours merge whatever their areas. At last the binary tree becomes nodes of four children
+///         (kernel/traversal/collapse.h), level by level. All places come from prefix sums, so the same scene always
+///         gives the same bytes.
+/// Source: D. Meister, J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction",
+///         IEEE TVCG 24(3), 2018.
+/// Throws InputError for more than max_bvh_primitives, and EnvironmentError if the GPU lacks the memory, about 250 bytes
+/// a primitive. The scene must not be empty. Tested by tests/cuda/build_bvh_test.cpp.
+[[nodiscard]] BuiltBvh build_bvh(const SceneView& scene, Buffer<DeviceMemory>& tree, cudaStream_t stream);
+
+}  // namespace tandem::cuda
