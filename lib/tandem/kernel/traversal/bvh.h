@@ -28,7 +28,7 @@ struct alignas(16) BvhNode {
 static_assert(sizeof(BvhNode) == 48);
 
 inline constexpr int least_step_exponent = -100;  ///< of two: 128 such steps are a normal float
-inline constexpr std::uint32_t frame_exponent(int step_exponent) {
+TANDEM_HD_INLINE constexpr std::uint32_t frame_exponent(int step_exponent) {
     return static_cast<std::uint32_t>(step_exponent + 7 + 127);
 }
 TANDEM_HD_INLINE std::uint32_t inner_count(const BvhNode& node) { return node.frame >> 24; }

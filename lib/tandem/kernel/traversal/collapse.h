@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "tandem/kernel/traversal/bvh.h"
-#include "tandem/math/real.h"
+#include "tandem/math/aabb.h"
 
 namespace tandem {
 

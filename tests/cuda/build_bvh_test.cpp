@@ -1,0 +1,206 @@
+// BVHs that the GPU builds: every primitive once, in boxes that contain it; the same bytes every time; as good as the
+// host's.
+#include "cuda/build_bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "cuda/cuda_backend.h"
+#include "cuda/device_scene.h"
+#include "support/random.h"
+#include "tandem/compile/build_bvh.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/kernel/traversal/collapse.h"
+#include "tandem/scene/named_scenes.h"
+
+namespace tandem::cuda {
+namespace {
+
+using test::Random;
+
+template <class T>
+std::vector<T> download(const T* from, std::size_t count) {
+    std::vector<T> values(from == nullptr ? 0 : count);
+    if (values.empty()) return values;
+    check(cudaMemcpy(values.data(), from, count * sizeof(T), cudaMemcpyDeviceToHost), "downloading a BVH");
+    return values;
+}
+
+Bvh download(const BuiltBvh& built, const SceneView& scene) {
+    const std::size_t entries = primitive_count(scene) + spare_entries;
+    return {download(built.view.nodes, built.node_count), download(built.view.entry_spheres, entries),
+            download(built.view.entry_ids, entries),
+            download(built.view.placements, scene.ellipsoid_count + scene.parallelepiped_count),
+            download(built.view.entry_triangles, entries)};
+}
+
+PreparedScene with_material(PreparedScene scene) {
+    scene.material_of.assign(scene.spheres.size() + scene.boxes.size() + scene.triangles.size() + scene.quads.size(),
+                             0);
+    scene.materials.emplace_back();
+    scene.optics.emplace_back();
+    return scene;
+}
+
+PreparedScene of_spheres(std::vector<Sphere> spheres) {
+    PreparedScene scene;
+    scene.spheres = std::move(spheres);
+    return with_material(std::move(scene));
+}
+
+PreparedScene named(const char* name) { return prepare(named_scene(name)); }
+
+/// A scene, and its arrays on the GPU.
+class OnGpu {
+  public:
+    explicit OnGpu(PreparedScene scene)
+        : scene_(std::move(scene)),
+          memory_(std::make_shared<SceneMemory>()),
+          resident_(scene_, Tier::strict, memory_, stream_) {
+        check(cudaStreamSynchronize(stream_.get()), "uploading the scene");
+    }
+    [[nodiscard]] Bvh build() {
+        built_ = build_bvh(resident_.view().scene, memory_->tree, stream_.get());
+        return download(built_, view(scene_));
+    }
+    [[nodiscard]] const BuiltBvh& built() const { return built_; }
+    [[nodiscard]] std::string defect() {
+        const Bvh bvh = build();
+        if (built_.levels > max_bvh_depth) return "too deep";
+        return find_bvh_defect(bvh, view(scene_), built_.view.frame.margin);
+    }
+    [[nodiscard]] const PreparedScene& scene() const { return scene_; }
+
+  private:
+    PreparedScene scene_;
+    Stream stream_;
+    std::shared_ptr<SceneMemory> memory_;
+    DeviceScene resident_;
+    BuiltBvh built_{};
+};
+
+class BuildBvhOn : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (!why_cuda_unavailable().empty()) GTEST_SKIP() << why_cuda_unavailable();
+    }
+};
+
+TEST_F(BuildBvhOn, TheGpuHoldsScenesOfAnySize) {
+    Random random(1);
+    std::vector<Sphere> spheres;
+    for (int count = 1; count <= 600; count += count < 40 ? 1 : 37) {
+        while (spheres.size() < static_cast<std::size_t>(count)) {
+            spheres.push_back({{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)},
+                               random.log_uniform(-12.0, -2.0)});
+        }
+        ASSERT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << count << " spheres";
+    }
+}
+
+TEST_F(BuildBvhOn, TheGpuHoldsEveryKind) {
+    for (const char* name : {"spheres/20000", "boxes/20000", "mixed/20000", "triangles/20000", "quads/20000",
+                             "icosphere/5", "hard/planet"}) {
+        EXPECT_EQ(OnGpu(named(name)).defect(), "") << name;
+    }
+}
+
+TEST_F(BuildBvhOn, TheGpuHoldsWhatIsHardToSort) {
+    Random random(2);
+    const auto anywhere = [&] {
+        return Vec3f{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)};
+    };
+    // Equal primitives, far more than depth and radius
+    EXPECT_EQ(OnGpu(of_spheres(std::vector<Sphere>(70'001, {{1, 2, 3}, 0.5F}))).defect(), "") << "equal";
+    EXPECT_EQ(OnGpu(of_spheres(std::vector<Sphere>(1000, {{1, 2, 3}, 0}))).defect(), "") << "equal points";
+    // Concentric: areas that favour one merge at a time
+    std::vector<Sphere> spheres;
+    for (int i = 0; i < 20'000; ++i) spheres.push_back({{0, 0, 0}, 1 + static_cast<float>(i) * 1e-3F});
+    EXPECT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << "concentric";
+    // Each half as big and half as far as the one before
+    spheres.clear();
+    float x = 1e15F;
+    for (int i = 0; i < 150; ++i, x *= 0.5F) spheres.push_back({{x, 0, 0}, 0.1F * x});
+    EXPECT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << "halves";
+    // One huge among many small
+    spheres = {{{0, -1e6F, 0}, 1e6F}};
+    for (int i = 0; i < 30'000; ++i) spheres.push_back({anywhere(), 0.01F});
+    EXPECT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << "huge";
+    // A line, a tiny scene, and one far away
+    spheres.clear();
+    for (int i = 0; i < 5000; ++i) spheres.push_back({{static_cast<float>(i), 0, 0}, 0.6F});
+    EXPECT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << "line";
+    for (const float scale : {1e-25F, 1e17F}) {
+        spheres.clear();
+        for (int i = 0; i < 5000; ++i) spheres.push_back({anywhere() * scale, 0.01F * scale});
+        EXPECT_EQ(OnGpu(of_spheres(spheres)).defect(), "") << "scale " << scale;
+    }
+    // Triangles as thin as hair
+    PreparedScene hair;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3f root = anywhere();
+        hair.triangles.push_back({root, root + Vec3f{1e-6F, 0, 0}, root + anywhere()});
+    }
+    EXPECT_EQ(OnGpu(with_material(std::move(hair))).defect(), "") << "hair";
+}
+
+TEST_F(BuildBvhOn, TheGpuGivesTheSameBytesEveryTime) {
+    OnGpu scene(named("mixed/100000"));
+    const Bvh first = scene.build();
+    for (int round = 0; round < 5; ++round) {
+        const Bvh again = scene.build();
+        ASSERT_EQ(first.nodes.size(), again.nodes.size());
+        ASSERT_EQ(std::memcmp(first.nodes.data(), again.nodes.data(), first.nodes.size() * sizeof(BvhNode)), 0);
+        ASSERT_EQ(first.entry_ids, again.entry_ids);
+    }
+}
+
+/// The cost of a tree by the surface area heuristic, with the weights of collapse.h, from the bounds of what it holds.
+class Cost {
+  public:
+    Cost(const Bvh& bvh, const SceneView& scene) : bvh_(bvh), scene_(scene) {
+        const Aabb all = add_node(0);
+        sum_ /= wide_half_area(all);
+    }
+    [[nodiscard]] double value() const { return sum_; }
+
+  private:
+    Aabb add_node(std::int32_t index) {
+        const BvhNode& node = bvh_.nodes[static_cast<std::size_t>(index)];
+        Aabb all;
+        for (int child = 0; child < bvh_width; ++child) {
+            const bool is_there =
+                (node.lower_x >> (8 * child) & 255U) <= (node.upper_x >> (8 * child) & 255U);
+            if (!is_there) continue;
+            const std::int32_t code = child_of(node, child);
+            const Aabb box = code >= 0 ? add_node(code)
+                                       : primitive_bounds(scene_, bvh_.entry_ids[static_cast<std::size_t>(~code)]);
+            if (code < 0) sum_ += 0.6 * wide_half_area(box);
+            all = merge(all, box);
+        }
+        sum_ += wide_half_area(all);
+        return all;
+    }
+
+    const Bvh& bvh_;
+    const SceneView& scene_;
+    double sum_ = 0;
+};
+
+TEST_F(BuildBvhOn, TheGpuCostsLittleMoreThanTheHosts) {
+    for (const char* name : {"spheres/100000", "boxes/100000", "triangles/100000", "icosphere/6", "mixed/100000"}) {
+        OnGpu scene(named(name));
+        const Bvh ours = scene.build();
+        const SceneView host_view = view(scene.scene());
+        const Bvh host = tandem::build_bvh(host_view, scene.built().view.frame.margin);
+        const double ratio = Cost(ours, host_view).value() / Cost(host, host_view).value();
+        RecordProperty(std::string("cost over the host's, ") + name, std::to_string(ratio));
+        std::printf("%s: cost %.4f of the host's tree, %u levels\n", name, ratio, scene.built().levels);
+        EXPECT_LT(ratio, 1.10) << name;
+    }
+}
+
+}  // namespace
+}  // namespace tandem::cuda
