@@ -98,7 +98,7 @@ struct SheenLobe {
         const D inverse = D(1.0F) / alpha;
         const Vec3<D> h = wo + wi;
         const D across = h.x * h.x + h.y * h.y;
-        const D sine2 = greater(across / (across + h.z * h.z), D(0x1p-100F));
+        const D sine2 = greater(across / greater(across + h.z * h.z, D(0x1p-120F)), D(0x1p-100F));
         const D density = (D(2.0F) + inverse) * power<Real>(sine2, inverse * D(0.5F)) * constant<D>(inverse_pi / 2);
         const D straight = (D(1.0F) - alpha) * (D(1.0F) - alpha);
         const auto bounded = [](const D& cosine) { return lesser(greater(cosine, D(least_cosine)), D(1.0F)); };
