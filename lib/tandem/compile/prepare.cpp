@@ -136,16 +136,7 @@ class Preparer {
         }
         result_.environment = scene_.environment;
         result_.indirect_light = scene_.indirect_light;
-        std::size_t count = 0;
-        for (const Node& node : scene_.nodes) {
-            for (const Geometry& geometry : node.geometry) {
-                count += primitives_in(geometry.shape) * std::max<std::size_t>(1, geometry.instances.size());
-            }
-        }
-        if (count >= no_primitive_limit) {
-            throw InputError(
-                fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
-        }
+        reserve_solids();
         result_.camera_node = camera_node(scene_, options_.camera);
         const Camera& camera = *scene_.nodes[result_.camera_node].camera;
         set_camera(camera, result_.camera_node);
@@ -174,6 +165,32 @@ class Preparer {
     }
 
   private:
+    /// Reserves memory for spheres and boxes, which may become either of two kinds. Untouched memory costs nothing.
+    /// Throws InputError if the scene has too many primitives.
+    void reserve_solids() {
+        std::size_t count = 0, spheres = 0, boxes = 0;
+        for (const Node& node : scene_.nodes) {
+            for (const Geometry& geometry : node.geometry) {
+                const std::size_t instances = std::max<std::size_t>(1, geometry.instances.size());
+                count += primitives_in(geometry.shape) * instances;
+                if (std::holds_alternative<SphereShape>(geometry.shape)) spheres += instances;
+                if (std::holds_alternative<BoxShape>(geometry.shape)) boxes += instances;
+            }
+        }
+        if (count >= no_primitive_limit) {
+            throw InputError(
+                fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
+        }
+        balls_.reserve(spheres);
+        placed_balls_.reserve(spheres);
+        spheres_.reserve(spheres);
+        ellipsoids_.reserve(spheres);
+        blocks_.reserve(boxes);
+        placed_boxes_.reserve(boxes);
+        boxes_.reserve(boxes);
+        parallelepipeds_.reserve(boxes);
+    }
+
     /// The optional part `part`, for every material, if any has it.
     template <class Part>
     void add_parts(std::optional<Part> Material::*part, std::vector<Part>& parts) {
@@ -511,6 +528,10 @@ class Preparer {
         void add(std::uint32_t m, std::size_t n, std::size_t count = 1) {
             material.insert(material.end(), count, m);
             node.insert(node.end(), count, static_cast<std::uint32_t>(n));
+        }
+        void reserve(std::size_t count) {
+            material.reserve(count);
+            node.reserve(count);
         }
     };
 
