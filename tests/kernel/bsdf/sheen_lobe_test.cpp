@@ -42,7 +42,8 @@ TEST(SheenLobe, IsTheFormulaOfTheExtension) {
         ASSERT_NEAR(f.y, 0.5 * expected, slack) << "case " << number;
         ASSERT_EQ(f.z, 0) << "case " << number;
         const SheenLobe<float> strict{{1, 1, 1}, static_cast<float>(roughness)};
-        if (expected > 1e-30) ASSERT_NEAR(strict.f(wo, wi).x / expected, 1, 2e-4 / alpha) << "case " << number;
+        if (!(expected > 1e-30)) continue;  // less than a float holds
+        ASSERT_NEAR(strict.f(wo, wi).x / expected, 1, 2e-4 / alpha) << "case " << number;
     }
 }
 
