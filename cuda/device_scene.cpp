@@ -79,7 +79,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     }
     memory_->upload_end.record(stream.get());
     if (primitive_count(scene) > loop_limit) {
-        const BuiltBvh built = build_bvh(view_.scene, memory_->tree, stream.get());
+        const BuiltBvh built = build_bvh(view_.scene, memory_->tree, stream.get(),
+                                         effort_for(static_cast<std::uint32_t>(primitive_count(scene))));
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;
     }

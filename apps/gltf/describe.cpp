@@ -107,17 +107,17 @@ Json describe_materials(const Scene& scene) {
     Json materials = Json::array();
     for (const Material& material : scene.materials) {
         Json description = {{"name", material.name},
-                             {"ambient", colour(material.phong.ambient)},
-                             {"diffuse", colour(material.phong.diffuse)},
-                             {"specular", colour(material.phong.specular)},
-                             {"shininess", material.phong.shininess},
-                             {"double_sided", material.sides == FaceSides::double_sided},
-                             {"mirror", colour(material.optics.mirror)},
-                             {"transmission", material.optics.transmission},
-                             {"ior", material.optics.ior},
-                             {"absorption", colour(material.optics.absorption)},
-                             {"emission", colour(material.optics.emission)},
-                             {"priority", material.optics.priority}};
+                            {"ambient", colour(material.phong.ambient)},
+                            {"diffuse", colour(material.phong.diffuse)},
+                            {"specular", colour(material.phong.specular)},
+                            {"shininess", material.phong.shininess},
+                            {"double_sided", material.sides == FaceSides::double_sided},
+                            {"mirror", colour(material.optics.mirror)},
+                            {"transmission", material.optics.transmission},
+                            {"ior", material.optics.ior},
+                            {"absorption", colour(material.optics.absorption)},
+                            {"emission", colour(material.optics.emission)},
+                            {"priority", material.optics.priority}};
 #define TANDEM_MATERIAL_PART(Type, member, members, needs, is) description[#member] = describe_part(material.member);
 #include "tandem/kernel/bsdf/lobes.def"
         materials.push_back(std::move(description));

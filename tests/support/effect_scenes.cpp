@@ -407,9 +407,9 @@ std::vector<EffectScene> make_scenes() {
     scenes.push_back({"brushed and worn metal", in_daylight(lit(brushed_and_worn(), {}), true, false),
                       shadows | grooves | Effect::textures | Effect::normal_maps | Effect::environment_light});
     scenes.push_back({"cloth, lamps", with_lamps(of_cloth(diffuse_scene())), lamps | Effect::sheen});
-    scenes.push_back({"cloth over metal, lamps, indirect",
-                      in_daylight(with_lamps(of_cloth(polished_scene())), true, true),
-                      lamps | facets | Effect::sheen | Effect::environment_light | Effect::indirect | Effect::roulette});
+    scenes.push_back(
+        {"cloth over metal, lamps, indirect", in_daylight(with_lamps(of_cloth(polished_scene())), true, true),
+         lamps | facets | Effect::sheen | Effect::environment_light | Effect::indirect | Effect::roulette});
     scenes.push_back(
         {"worn cloth", in_daylight(lit(of_cloth(worn_scene()), {}), true, false),
          shadows | facets | Effect::sheen | Effect::textures | Effect::normal_maps | Effect::environment_light});

@@ -21,11 +21,7 @@ struct Bin {
 
 class Builder {
   public:
-    Builder(const SceneView& scene, float margin) {
-        const std::uint32_t count = primitive_count(scene);
-        boxes_.reserve(count);
-        for (std::uint32_t id = 0; id < count; ++id) boxes_.push_back(pad(primitive_bounds(scene, id), margin));
-        order_.resize(count);
+    explicit Builder(std::vector<Aabb> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
         std::iota(order_.begin(), order_.end(), 0U);
     }
 
@@ -140,6 +136,14 @@ class Builder {
 
 }  // namespace
 
-BinaryTree build_binary_tree(const SceneView& scene, float margin) { return Builder(scene, margin).run(); }
+BinaryTree build_binary_tree(std::vector<Aabb> boxes) { return Builder(std::move(boxes)).run(); }
+
+BinaryTree build_binary_tree(const SceneView& scene, float margin) {
+    const std::uint32_t count = primitive_count(scene);
+    std::vector<Aabb> boxes;
+    boxes.reserve(count);
+    for (std::uint32_t id = 0; id < count; ++id) boxes.push_back(pad(primitive_bounds(scene, id), margin));
+    return build_binary_tree(std::move(boxes));
+}
 
 }  // namespace tandem

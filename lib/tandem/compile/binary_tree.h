@@ -27,4 +27,7 @@ struct BinaryTree {
 /// every box (kernel/traversal/proposal.h). The scene must not be empty.
 [[nodiscard]] BinaryTree build_binary_tree(const SceneView& scene, float margin);
 
+/// The same over boxes; `order` has their indices.
+[[nodiscard]] BinaryTree build_binary_tree(std::vector<Aabb> boxes);
+
 }  // namespace tandem

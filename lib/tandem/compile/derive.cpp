@@ -162,14 +162,14 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
         const std::string name = label("material", scene.materials[i].name, i);
         add_material(prepared.optics[i], name, needs);
         add_pictures(prepared.textures, i, name, coloured, needs);
-#define TANDEM_MATERIAL_PART(Type, member, members, effect, is)                     \
-    if (!prepared.members.empty() && prepared.members[i].is_there != 0) {           \
-        needs.add(effect, name + " has " is + numbers_of(prepared.members[i]));     \
+#define TANDEM_MATERIAL_PART(Type, member, members, effect, is)                 \
+    if (!prepared.members.empty() && prepared.members[i].is_there != 0) {       \
+        needs.add(effect, name + " has " is + numbers_of(prepared.members[i])); \
     }
 #include "tandem/kernel/bsdf/lobes.def"
-#define TANDEM_PART_TEXTURE(part, effect, member, members, space, is)                                       \
-    if (!prepared.members.empty() && prepared.members[i].texture != no_texture) {                        \
-        needs.add(Effect::textures, name + " has a " is);                                                \
+#define TANDEM_PART_TEXTURE(part, effect, member, members, space, is)             \
+    if (!prepared.members.empty() && prepared.members[i].texture != no_texture) { \
+        needs.add(Effect::textures, name + " has a " is);                         \
     }
 #include "tandem/kernel/bsdf/lobes.def"
         add_anisotropy(prepared, i, name, needs);

@@ -74,10 +74,11 @@ class Preparer {
         bool needed = false;
 #define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) needed = keep_if_used(prepared_.names) || needed;
 #include "tandem/kernel/bsdf/lobes.def"
-        needed = needed || std::any_of(result_.materials.begin(), result_.materials.end(),
-                                        [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; }) ||
-                            std::any_of(anisotropies_.begin(), anisotropies_.end(),
-                                        [](const auto& a) { return a.texture.texture != no_texture; });
+        needed = needed ||
+                 std::any_of(result_.materials.begin(), result_.materials.end(),
+                             [](const auto& m) { return has_picture(m) || m.alpha_cutoff > 0; }) ||
+                 std::any_of(anisotropies_.begin(), anisotropies_.end(),
+                             [](const auto& a) { return a.texture.texture != no_texture; });
         if (needed) prepared_.textures = std::move(result_);
     }
 

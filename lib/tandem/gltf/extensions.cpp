@@ -8,14 +8,16 @@ namespace tandem::gltf {
 namespace {
 
 constexpr std::string_view rendered[] = {
-    "EXT_implicit_geometry",  "EXT_mesh_gpu_instancing",    "KHR_implicit_shapes",
-    "KHR_lights_punctual",    "KHR_materials_anisotropy",   "KHR_materials_emissive_strength",
-    "KHR_materials_ior",      "KHR_materials_sheen",        "KHR_materials_transmission",
-    "KHR_materials_unlit",    "KHR_materials_volume",       "KHR_mesh_quantization",
-    "KHR_texture_transform",
-    "TANDEM_camera_lens",     "TANDEM_camera_shutter",      "TANDEM_display",
-    "TANDEM_environment",     "TANDEM_lights_phong",        "TANDEM_materials_dielectric",
-    "TANDEM_materials_phong",
+    "EXT_implicit_geometry",       "EXT_mesh_gpu_instancing",
+    "KHR_implicit_shapes",         "KHR_lights_punctual",
+    "KHR_materials_anisotropy",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",           "KHR_materials_sheen",
+    "KHR_materials_transmission",  "KHR_materials_unlit",
+    "KHR_materials_volume",        "KHR_mesh_quantization",
+    "KHR_texture_transform",       "TANDEM_camera_lens",
+    "TANDEM_camera_shutter",       "TANDEM_display",
+    "TANDEM_environment",          "TANDEM_lights_phong",
+    "TANDEM_materials_dielectric", "TANDEM_materials_phong",
 };
 
 struct Reason {
@@ -34,7 +36,8 @@ constexpr std::array<Reason, 14> reasons = {{
     {"EXT_meshopt_", for_triangles},
     {"KHR_meshopt_", for_triangles},
     {"KHR_materials_variants", "materials stay as the primitives name them"},
-    {"KHR_materials_", "Tandem renders base colour, metal and roughness, anisotropy, sheen, dielectrics and emission only"},
+    {"KHR_materials_",
+     "Tandem renders base colour, metal and roughness, anisotropy, sheen, dielectrics and emission only"},
     {"KHR_texture_", for_textures},
     {"EXT_texture_", for_textures},
     {"MSFT_texture_", for_textures},

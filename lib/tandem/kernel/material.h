@@ -32,9 +32,9 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
     }
 
     // Optional parts
-#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                        \
-    if (Effects::has(needs) && scene.names##_count > 0 && scene.names[number].is_there != 0) {    \
-        apply<Effects>(scene.names[number], at, result);                                          \
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                     \
+    if (Effects::has(needs) && scene.names##_count > 0 && scene.names[number].is_there != 0) { \
+        apply<Effects>(scene.names[number], at, result);                                       \
     }
 #include "tandem/kernel/bsdf/lobes.def"
 

@@ -192,10 +192,10 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
                 textures.metallic_roughness.texture != no_texture) {
                 texels.metallic_roughness = values.texture(textures.metallic_roughness);
             }
-#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is)                          \
+#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is)                            \
     if (Effects::has(needs) && Effects::has(Effect::textures) && scene.names##_count > 0 && \
-        scene.names[number].texture != no_texture) {                                      \
-        texels.name = values.texture(scene.names[number]);                                \
+        scene.names[number].texture != no_texture) {                                        \
+        texels.name = values.texture(scene.names[number]);                                  \
     }
 #include "tandem/kernel/bsdf/lobes.def"
         }
@@ -217,8 +217,8 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
 
         // Reflectance and emission
         surface.normal = select(here, normal, surface.normal);
-        const auto reflectance = reflectance_of<Effects, Real>(
-            scene, number, {optics, texels, normal, ray.direction}, own.from_inside);
+        const auto reflectance =
+            reflectance_of<Effects, Real>(scene, number, {optics, texels, normal, ray.direction}, own.from_inside);
         surface.reflectance.ambient = select(here, reflectance.ambient, surface.reflectance.ambient);
         keep<Effects>(here, reflectance.lobes, surface.reflectance.lobes);
         if (has_bounces<Effects>()) surface.material = select(here, UInt<Real>(number), surface.material);

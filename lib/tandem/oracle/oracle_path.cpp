@@ -138,8 +138,7 @@ Vector trace_path(const SceneView& scene, const PathLimits& limits, const Sample
         } else {
             onward = on_hemisphere(normal, chance);
             if (!(inner(onward, facing) > 0)) return radiance;
-            throughput = times(throughput, scattered(material, onward) *
-                                               (2 * inner(onward, normal) * total / lambert));
+            throughput = times(throughput, scattered(material, onward) * (2 * inner(onward, normal) * total / lambert));
         }
         if (!through && !was_scattered && !takes_glossy) {
             onward = mirrored(vertex.direction, normal);

@@ -95,10 +95,10 @@ void cover_with_fibres(const SceneView& scene, const Vertex& vertex, Reflectance
     for (Vector* part : {&material.ambient, &material.diffuse, &material.specular, &material.f0}) *part = *part * rest;
     material.f90 = rest;
     const Real alpha = std::pow(std::max<Real>(roughness, Real{fit.least_roughness}), 2), least = fit.least_cosine;
-    material.broad.push_back({colour, [=, hidden = material.is_hidden, n = vertex.normal, v = material.to_viewer](
-                                          const Vector& l) {
-                                  return hidden ? Vector{0, 0, 0} : colour * fibres(alpha, least, n, v, l);
-                              }});
+    material.broad.push_back(
+        {colour, [=, hidden = material.is_hidden, n = vertex.normal, v = material.to_viewer](const Vector& l) {
+             return hidden ? Vector{0, 0, 0} : colour * fibres(alpha, least, n, v, l);
+         }});
 }
 
 /// The share of light from l that passes the interface to the diffuse base and back to the viewer.

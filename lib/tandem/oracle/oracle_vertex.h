@@ -40,7 +40,7 @@ struct Vertex {
     Real anisotropy = 0;            ///< of microfacets: its strength
 #define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) Texel name{1, 1, 1, 1};
 #include "tandem/kernel/bsdf/lobes.def"
-    Vector along{0, 0, 0};          ///< where that is above 0: unit, the direction in which they are rougher
+    Vector along{0, 0, 0};  ///< where that is above 0: unit, the direction in which they are rougher
 };
 
 /// The vertex at a hit of the line.

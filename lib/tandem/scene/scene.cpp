@@ -120,11 +120,11 @@ class Problems {
                 "has an emission that is not three finite numbers >= 0");
         require(optics.priority <= 127, where, "has a dielectric priority above 127");
         const bool scatters_alone = optics.transmission == 0 && optics.mirror == Vec3f{0, 0, 0};
-#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                                           \
-    if (material.name) {                                                                                             \
-        check_numbers(*material.name, where, is);                                                                    \
-        require(!Type::is_opaque || scatters_alone, where,                                                           \
-                "has " is " and is also a dielectric or a mirror; use one or the other");                            \
+#define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                \
+    if (material.name) {                                                                  \
+        check_numbers(*material.name, where, is);                                         \
+        require(!Type::is_opaque || scatters_alone, where,                                \
+                "has " is " and is also a dielectric or a mirror; use one or the other"); \
     }
 #include "tandem/kernel/bsdf/lobes.def"
     }

@@ -87,10 +87,9 @@ TEST(SheenLobe, TakesFromTheRestWhatItReflects) {
         EXPECT_EQ(covered.lobes.sheen.tint, Vec3d(0.5, 0.5, 0));
         EXPECT_NEAR(covered.lobes.sheen.roughness, 0.3, 1e-7);
         const double rest = 1 - 0.5 * covered.lobes.sheen.white_albedo(std::abs(height));
-        for (const Vec3d& part :
-             {covered.ambient, covered.lobes.diffuse.reflectance, covered.lobes.microfacets.f0,
-              covered.lobes.phong.specular, covered.lobes.coated.base.reflectance,
-              Vec3d(covered.lobes.microfacets.f90)}) {
+        for (const Vec3d& part : {covered.ambient, covered.lobes.diffuse.reflectance, covered.lobes.microfacets.f0,
+                                  covered.lobes.phong.specular, covered.lobes.coated.base.reflectance,
+                                  Vec3d(covered.lobes.microfacets.f90)}) {
             EXPECT_NEAR(part.x, rest, 1e-9) << height;
             EXPECT_EQ(part.x, part.z) << height;
         }

@@ -28,12 +28,11 @@ struct AnyVisitor {  // nvcc takes no lambda in a concept
 ///
 /// apply(part, at, surface), in the header of its lobes, makes the lobes from it (material.h).
 template <class Part>
-concept MaterialPart = std::is_trivially_copyable_v<Part> &&
-                       requires(Part& part) {
-                           { Part::is_opaque } -> std::convertible_to<bool>;
-                           { part.is_there } -> std::convertible_to<std::uint32_t>;
-                           Part::visit_numbers(part, material_parts_detail::AnyVisitor{});
-                       };
+concept MaterialPart = std::is_trivially_copyable_v<Part> && requires(Part& part) {
+    { Part::is_opaque } -> std::convertible_to<bool>;
+    { part.is_there } -> std::convertible_to<std::uint32_t>;
+    Part::visit_numbers(part, material_parts_detail::AnyVisitor{});
+};
 
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) static_assert(MaterialPart<Type>);
 #include "tandem/kernel/bsdf/lobes.def"

@@ -5,8 +5,8 @@
 
 namespace tandem {
 
-/// As in glTF 2.0. Of such a material Phong's diffuse reflectance is the base colour, Phong's highlight is replaced by a reflection
-/// from GGX microfacets, and Optics::ior is the index of its dielectric part (metallic_roughness.h).
+/// As in glTF 2.0. Of such a material Phong's diffuse reflectance is the base colour, Phong's highlight is replaced by
+/// a reflection from GGX microfacets, and Optics::ior is the index of its dielectric part (metallic_roughness.h).
 struct Microfacets {
     static constexpr bool is_opaque = true;
 

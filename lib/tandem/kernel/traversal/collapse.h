@@ -10,7 +10,7 @@
 namespace tandem {
 
 /// The cheapest forests of k wide trees over the primitives below a binary node, for k < bvh_width.
-struct Forests {
+struct alignas(16) Forests {
     float cost[bvh_width - 1];          ///< by k - 1, relative to the area of the root
     std::uint8_t for_first[bvh_width];  ///< by k - 1: how many go to the first child; 0: k - 1 of them are as cheap
 };

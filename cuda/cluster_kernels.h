@@ -1,0 +1,161 @@
+/// The kernels that make a binary tree over the primitives: build_bvh.h has method and source. Included by
+/// build_bvh.cu.
+#pragma once
+
+#include "cuda/build_tree.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem::cuda {
+
+inline constexpr unsigned int build_block = 256;  ///< threads
+inline constexpr int merge_radius = 12;           ///< places on the curve, to either side
+
+// Floats as integers of the same order, for atomic minima and maxima.
+__host__ __device__ inline std::uint32_t ordered_bits(float a) {
+    const std::uint32_t bits = bits_of(a);
+    return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+}
+__host__ __device__ inline float from_ordered_bits(std::uint32_t bits) {
+    return float_of((bits & 0x80000000U) != 0 ? bits & 0x7FFFFFFFU : ~bits);
+}
+
+/// The bounds of all primitives, as ordered bits.
+struct OrderedBounds {
+    std::uint32_t lower[3], upper[3];
+};
+
+static __global__ void bounds_kernel(SceneView scene, std::uint32_t count, OrderedBounds* bounds) {
+    Aabb box;
+    for (std::uint32_t id = thread_number(); id < count; id += gridDim.x * blockDim.x) {
+        box = merge(box, primitive_bounds(scene, id));
+    }
+    const float lower[] = {box.lower.x, box.lower.y, box.lower.z}, upper[] = {box.upper.x, box.upper.y, box.upper.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        std::uint32_t least = ordered_bits(lower[axis]), most = ordered_bits(upper[axis]);
+        for (int distance = 16; distance > 0; distance /= 2) {
+            least = min(least, __shfl_xor_sync(~0U, least, distance));
+            most = max(most, __shfl_xor_sync(~0U, most, distance));
+        }
+        if (threadIdx.x % 32 == 0) {
+            atomicMin(&bounds->lower[axis], least);
+            atomicMax(&bounds->upper[axis], most);
+        }
+    }
+}
+
+/// The low 21 bits of x, two zeros between each and the next.
+__device__ inline std::uint64_t spread(std::uint64_t x) {
+    x = (x | x << 32) & 0x001F00000000FFFFULL;
+    x = (x | x << 16) & 0x001F0000FF0000FFULL;
+    x = (x | x << 8) & 0x100F00F00F00F00FULL;
+    x = (x | x << 4) & 0x10C30C30C30C30C3ULL;
+    x = (x | x << 2) & 0x1249249249249249ULL;
+    return x;
+}
+
+/// Cells are cubes, so that they fit boxes of any shape. `cells`: per metre.
+static __global__ void codes_kernel(SceneView scene, std::uint32_t count, Vec3f lower, double cells,
+                                    std::uint64_t* codes, std::uint32_t* ids) {
+    const std::uint32_t id = thread_number();
+    if (id >= count) return;
+    const Aabb box = primitive_bounds(scene, id);
+    const auto cell = [&](float a, float b, float from) {
+        const double place = ((widen(a) + widen(b)) * 0.5 - widen(from)) * cells;
+        return static_cast<std::uint64_t>(lesser(greater(place, 0.0), 2097151.0));
+    };
+    codes[id] = spread(cell(box.lower.x, box.upper.x, lower.x)) << 2 |
+                spread(cell(box.lower.y, box.upper.y, lower.y)) << 1 | spread(cell(box.lower.z, box.upper.z, lower.z));
+    ids[id] = id;
+}
+
+static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, float margin, BuildTree tree,
+                                     std::uint32_t* list) {
+    const std::uint32_t place = thread_number();
+    if (place >= tree.leaves) return;
+    const std::uint32_t id = ids[place];
+    tree.nodes[place] = {pad(primitive_bounds(scene, id), margin), id, 0};
+    list[place] = place;
+}
+
+/// For each place on the list, the place of the cluster to merge with.
+static __global__ void nearest_kernel(const BuildNode* nodes, const std::uint32_t* list, std::uint32_t count,
+                                      std::uint32_t* nearest) {
+    __shared__ Aabb boxes[build_block + 2 * merge_radius];
+    const std::int64_t start = std::int64_t{blockIdx.x} * build_block - merge_radius;
+    for (unsigned int i = threadIdx.x; i < build_block + 2 * merge_radius; i += build_block) {
+        const std::int64_t place = start + i;
+        if (place >= 0 && place < count) boxes[i] = nodes[list[place]].box;
+    }
+    __syncthreads();
+    const std::uint32_t place = thread_number();
+    if (place >= count) return;
+    const Aabb own = boxes[threadIdx.x + merge_radius];
+    std::uint64_t least = ~std::uint64_t{0};
+    std::uint32_t best = place;
+    for (int offset = -merge_radius; offset <= merge_radius; ++offset) {
+        const std::int64_t other = std::int64_t{place} + offset;
+        if (offset == 0 || other < 0 || other >= count) continue;
+        const auto at = static_cast<std::uint32_t>(other);
+        const float area = half_area(merge(own, boxes[static_cast<int>(threadIdx.x) + merge_radius + offset]));
+        const std::uint64_t key = std::uint64_t{bits_of(area)} << 32 | (place ^ at);
+        if (key < least) {
+            least = key;
+            best = at;
+        }
+    }
+    nearest[place] = best;
+}
+
+static __global__ void gather_boxes_kernel(const BuildNode* nodes, const std::uint32_t* list, std::uint32_t count,
+                                           Aabb* boxes) {
+    const std::uint32_t place = thread_number();
+    if (place < count) boxes[place] = nodes[list[place]].box;
+}
+
+static __global__ void set_parents_kernel(const std::uint32_t* list, const std::uint32_t* parents, std::uint32_t count,
+                                          BuildTree tree) {
+    const std::uint32_t place = thread_number();
+    if (place < count) tree.parents[list[place]] = parents[place];
+}
+
+/// Neighbours, whatever their areas.
+static __global__ void neighbours_kernel(std::uint32_t count, std::uint32_t* nearest) {
+    const std::uint32_t place = thread_number();
+    if (place >= count) return;
+    const std::uint32_t other = place ^ 1U;
+    nearest[place] = other < count ? other : place;
+}
+
+__device__ inline bool is_mutual(const std::uint32_t* nearest, std::uint32_t place) {
+    const std::uint32_t other = nearest[place];
+    return other != place && nearest[other] == place;
+}
+
+/// High: places that become a node with another one; low: places that stay on the list. One more element for the sum.
+static __global__ void merge_counts_kernel(const std::uint32_t* nearest, std::uint32_t count, Counts* sums) {
+    const std::uint32_t place = thread_number();
+    if (place > count) return;
+    const bool mutual = place < count && is_mutual(nearest, place);
+    const bool is_first = place < count && place < nearest[place];
+    sums[place] = place == count ? 0 : counts(mutual && is_first ? 1 : 0, mutual && !is_first ? 0 : 1);
+}
+
+static __global__ void merge_kernel(BuildTree tree, const std::uint32_t* nearest, const Counts* sums,
+                                    std::uint32_t count, std::uint32_t first_node, const std::uint32_t* list,
+                                    std::uint32_t* next_list) {
+    const std::uint32_t place = thread_number();
+    if (place >= count) return;
+    const bool mutual = is_mutual(nearest, place);
+    const std::uint32_t other = nearest[place];
+    if (mutual && other < place) return;
+    std::uint32_t node = list[place];
+    if (mutual) {
+        const std::uint32_t first = node, second = list[other];
+        node = first_node + high_of(sums[place]);
+        tree.nodes[node] = {merge(tree.nodes[first].box, tree.nodes[second].box), first, second};
+        tree.parents[first] = tree.parents[second] = node;
+    }
+    next_list[low_of(sums[place])] = node;
+}
+
+}  // namespace tandem::cuda
