@@ -36,8 +36,8 @@ class Arena {
 
 class Builder {
   public:
-    Builder(const SceneView& scene, Buffer<DeviceMemory>& tree, cudaStream_t stream, const BuildEffort& effort)
-        : scene_(scene), count_(primitive_count(scene)), effort_(effort), result_(tree), stream_(stream) {
+    Builder(const SceneView& scene, BuildMemory& memory, cudaStream_t stream, const BuildEffort& effort)
+        : scene_(scene), count_(primitive_count(scene)), effort_(effort), memory_(memory), stream_(stream) {
         reserve();
     }
 
@@ -75,10 +75,10 @@ class Builder {
               doing);
         cub_bytes_ = sort_bytes > scan_bytes ? sort_bytes : scan_bytes;
         const auto cub_memory = arena.add<std::byte>(cub_bytes_);
-        scratch_.reserve(arena.bytes());
+        memory_.scratch.reserve(arena.bytes());
         word_.reserve(sizeof(OrderedBounds));
         const auto at = [&]<class T>(std::size_t offset, T*& pointer) {
-            pointer = reinterpret_cast<T*>(scratch_.data() + offset);
+            pointer = reinterpret_cast<T*>(memory_.scratch.data() + offset);
         };
         at(bounds, device_bounds_);
         at(nodes, tree_.nodes);
@@ -271,8 +271,8 @@ class Builder {
         const auto ids = arena.add<std::uint32_t>(entries);
         const auto triangles = arena.add<EntryTriangle>(only_triangles ? entries : 0);
         const auto rough = arena.add<RoughPlacement>(placements);
-        result_.reserve(arena.bytes());
-        std::byte* base = result_.data();
+        memory_.tree.reserve(arena.bytes());
+        std::byte* base = memory_.tree.data();
         const TreeArrays to = {reinterpret_cast<BvhNode*>(base + nodes), reinterpret_cast<Sphere*>(base + spheres),
                                reinterpret_cast<std::uint32_t*>(base + ids),
                                only_triangles ? reinterpret_cast<EntryTriangle*>(base + triangles) : nullptr,
@@ -295,9 +295,8 @@ class Builder {
     SceneView scene_;
     std::uint32_t count_;
     BuildEffort effort_;
-    Buffer<DeviceMemory>& result_;
+    BuildMemory& memory_;
     cudaStream_t stream_;
-    Buffer<DeviceMemory> scratch_;
     Buffer<PinnedMemory> word_;
     BuiltBvh built_{};
     Aabb bounds_;
@@ -317,11 +316,11 @@ class Builder {
 
 }  // namespace
 
-BuiltBvh build_bvh(const SceneView& scene, Buffer<DeviceMemory>& tree, cudaStream_t stream, const BuildEffort& effort) {
+BuiltBvh build_bvh(const SceneView& scene, BuildMemory& memory, cudaStream_t stream, const BuildEffort& effort) {
     check_bvh_size(primitive_count(scene));
-    const BuiltBvh built = Builder(scene, tree, stream, effort).run();
+    const BuiltBvh built = Builder(scene, memory, stream, effort).run();
     // the top and moves may make a tree deeper than rays can walk
-    return built.levels <= max_bvh_depth ? built : Builder(scene, tree, stream, {1, 0}).run();
+    return built.levels <= max_bvh_depth ? built : Builder(scene, memory, stream, {1, 0}).run();
 }
 
 }  // namespace tandem::cuda

@@ -24,17 +24,21 @@ struct BuildEffort {
 
 /// For a scene of that many primitives. Chosen by measurement (docs/performance.md).
 [[nodiscard]] constexpr BuildEffort effort_for(std::uint32_t primitives) {
-    return {4096, primitives <= 2'000'000 ? 4 : 0};
+    return primitives <= 2'000'000 ? BuildEffort{4096, 4} : BuildEffort{1024, 0};
 }
 
-/// Builds the BVH of a scene whose arrays are in GPU memory. `tree` receives it; other memory is freed at the end.
-/// Waits for the stream.
+/// What a build needs of GPU memory.
+struct BuildMemory {
+    Buffer<DeviceMemory> tree;     ///< receives the BVH
+    Buffer<DeviceMemory> scratch;  ///< about 190 bytes a primitive; free after the build
+};
+
+/// Builds the BVH of a scene whose arrays are in GPU memory. Waits for the stream.
 ///
 /// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Then neighbours on the curve merge,
-/// pair
-///         by pair and in parallel, if each is the other's nearest within a radius; nearest means the smallest area of
-///         the common box. Ties go to the pair whose places differ least in their high bits, which is the same for
-///         both, so that something merges in every round. If the number of rounds could exceed the depth limit,
+///         pair by pair and in parallel, if each is the other's nearest within a radius; nearest means the smallest
+///         area of the common box. Ties go to the pair whose places differ least in their high bits, which is the same
+///         for both, so that something merges in every round. If the number of rounds could exceed the depth limit,
 ///         neighbours merge whatever their areas. The last few thousand clusters are joined from the top down
 ///         (compile/binary_tree.h): large boxes then overlap less, which the areas alone do not show. Then subtrees
 ///         move to better places (reinsertion_kernels.h). At last the binary tree becomes nodes of four children
@@ -42,9 +46,9 @@ struct BuildEffort {
 ///         gains, so the same scene always gives the same bytes.
 /// Source: D. Meister, J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction",
 ///         IEEE TVCG 24(3), 2018.
-/// Throws InputError for more than max_bvh_primitives, and EnvironmentError if the GPU lacks the memory, about 240
-/// bytes a primitive. The scene must not be empty. Tested by tests/cuda/build_bvh_test.cpp.
-[[nodiscard]] BuiltBvh build_bvh(const SceneView& scene, Buffer<DeviceMemory>& tree, cudaStream_t stream,
+/// Throws InputError for more than max_bvh_primitives, and EnvironmentError if the GPU lacks the memory. The scene must
+/// not be empty. Tested by tests/cuda/build_bvh_test.cpp.
+[[nodiscard]] BuiltBvh build_bvh(const SceneView& scene, BuildMemory& memory, cudaStream_t stream,
                                  const BuildEffort& effort);
 
 }  // namespace tandem::cuda

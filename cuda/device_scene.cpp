@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "cuda/build_bvh.h"
-
 namespace tandem::cuda {
 
 namespace {
@@ -45,6 +43,13 @@ class Layout {
     std::size_t bytes_ = 0;
 };
 
+/// Memory that the next frame needs again is kept unless it is much of what the GPU has.
+void release_if_large(Buffer<DeviceMemory>& scratch) {
+    std::size_t free = 0, all = 0;
+    check(cudaMemGetInfo(&free, &all), "asking for the GPU's memory");
+    if (scratch.capacity() > all / 16) scratch = {};
+}
+
 }  // namespace
 
 DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
@@ -79,8 +84,9 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     }
     memory_->upload_end.record(stream.get());
     if (primitive_count(scene) > loop_limit) {
-        const BuiltBvh built = build_bvh(view_.scene, memory_->tree, stream.get(),
-                                         effort_for(static_cast<std::uint32_t>(primitive_count(scene))));
+        const auto count = static_cast<std::uint32_t>(primitive_count(scene));
+        const BuiltBvh built = build_bvh(view_.scene, memory_->bvh, stream.get(), effort_for(count));
+        release_if_large(memory_->bvh.scratch);
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;
     }

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cuda/build_bvh.h"
 #include "cuda/kernels.h"
 #include "cuda/memory.h"
 #include "cuda/stream.h"
@@ -13,7 +14,7 @@ namespace tandem::cuda {
 /// Memory for one scene: on the GPU, its arrays and its BVH; and page-locked staging memory on the host.
 struct SceneMemory {
     Buffer<DeviceMemory> device;
-    Buffer<DeviceMemory> tree;
+    BuildMemory bvh;
     Buffer<PinnedMemory> staging;
     Event upload_start;
     Event upload_end;

@@ -63,7 +63,7 @@ class OnGpu {
         check(cudaStreamSynchronize(stream_.get()), "uploading the scene");
     }
     [[nodiscard]] Bvh build(const BuildEffort& effort) {
-        built_ = build_bvh(resident_.view().scene, memory_->tree, stream_.get(), effort);
+        built_ = build_bvh(resident_.view().scene, memory_->bvh, stream_.get(), effort);
         return download(built_, view(scene_));
     }
     [[nodiscard]] const BuiltBvh& built() const { return built_; }
