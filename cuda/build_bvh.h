@@ -24,7 +24,7 @@ struct BuildEffort {
 
 /// For a scene of that many primitives. Chosen by measurement (docs/performance.md).
 [[nodiscard]] constexpr BuildEffort effort_for(std::uint32_t primitives) {
-    return primitives <= 2'000'000 ? BuildEffort{4096, 4} : BuildEffort{1024, 0};
+    return primitives <= 2'000'000 ? BuildEffort{4096, 8} : BuildEffort{1024, 0};
 }
 
 /// What a build needs of GPU memory.
