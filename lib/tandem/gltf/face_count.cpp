@@ -14,7 +14,7 @@ namespace tandem::gltf {
 namespace {
 
 /// Memory limits: for a small file, and for each byte of data of a larger one.
-constexpr double most_bytes = 3.8e8, bytes_per_byte = 190;
+constexpr double most_scene_bytes = 3.8e8, bytes_per_byte = 190;
 /// Memory of a face: in the prepared scene and in an acceleration structure, and for the values at its corners.
 constexpr double bytes_per_face = 235, bytes_of_normals = 36, bytes_of_texcoords = 24, bytes_of_colours = 48;
 /// Primitives without faces, and shapes, cost time too.
@@ -85,7 +85,7 @@ void check_face_count(const Source& source, const std::vector<std::optional<std:
         ++shown;
     }
     const auto bytes = static_cast<double>(data_bytes(source));
-    const double limit = std::max(most_bytes, bytes_per_byte * bytes);
+    const double limit = std::max(most_scene_bytes, bytes_per_byte * bytes);
     if (sum.bytes <= limit) return;
     source.document.refuse(
         "nodes", fmt::format("{} of them show the equivalent of {:.0f} faces, which takes {:.2f} GB of memory; a file "

@@ -14,7 +14,7 @@ namespace tandem::gltf {
 namespace {
 
 /// Size limit of an image file: that of an uncompressed texture of the largest size.
-constexpr std::uintmax_t most_bytes = std::uintmax_t{5} << 28;
+constexpr std::uintmax_t most_image_bytes = std::uintmax_t{5} << 28;
 
 class ImageReader {
   public:
@@ -69,7 +69,7 @@ class ImageReader {
 
     void in_file(const std::string& uri) {
         const LocatedFile located = locate_beside(document_, result_.json_path, uri);
-        if (located.bytes > most_bytes) {
+        if (located.bytes > most_image_bytes) {
             document_.fail(result_.json_path,
                            fmt::format("has {} bytes, more than an image may have; make it smaller", located.bytes));
         }
