@@ -11,6 +11,7 @@
 #include "paper.h"
 #include "parity.h"
 #include "ray_sets.h"
+#include "scale.h"
 #include "targets.h"
 #include "versus.h"
 
@@ -35,6 +36,7 @@ struct Everything {
     TargetOptions targets;
     HardOptions hard;
     EffectsOptions effects;
+    ScaleOptions scale;
     bool list_targets = false;
 };
 
@@ -184,6 +186,35 @@ CLI::App* add_effects(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_scale(CLI::App& app, Everything& all) {
+    CLI::App* command =
+        app.add_subcommand("scale", "Measure how times grow with the number of primitives and of threads");
+    command->add_option("--kinds", all.scale.kinds, "Kinds of named scenes: spheres, boxes, triangles, quads, mixed")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--from", all.scale.least, "The least number of primitives")->capture_default_str();
+    command->add_option("--to", all.scale.most, "The largest number of primitives, up to 1e8")->capture_default_str();
+    command->add_option("--steps", all.scale.steps, "Numbers of primitives per factor of ten")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10));
+    command->add_option("--rays", all.scale.rays, "Sets of rays: coherent, random, bounce, shadow")
+        ->delimiter(',')
+        ->capture_default_str();
+    add_backends_option(*command, all.scale);
+    command->add_option("--threads", all.scale.threads, "CPU threads, each number measured; 0 is one per core")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--tier", all.scale.tier, "Accuracy tier: fast, strict or precise")->capture_default_str();
+    command->add_option("--ray-edge", all.scale.ray_edge, "Rays per side of a square: trace this number squared")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16384));
+    command->add_option("--repetitions", all.scale.repetitions, "Rounds of measurements")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1000));
+    return command;
+}
+
 /// The command line as it can be typed again.
 std::string command_line(int count, const char* const* words) {
     std::string line = "tandem-bench";
@@ -223,6 +254,7 @@ int run(int count, char** words) {
     const CLI::App* targets = add_targets(app, all);
     const CLI::App* hard = add_hard(app, all);
     const CLI::App* effects = add_effects(app, all);
+    const CLI::App* scale = add_scale(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -262,6 +294,8 @@ int run(int count, char** words) {
     } else if (effects->parsed()) {
         take_texts(all.texts, all.effects);
         satisfied = run_effects(all.effects, source, report);
+    } else if (scale->parsed()) {
+        satisfied = run_scale(all.scale, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;

@@ -1,0 +1,268 @@
+#include "scale.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "output.h"
+#include "ray_sets.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/gltf/load_scene.h"
+#include "tandem/report/format_number.h"
+
+namespace tandem::bench {
+
+namespace {
+
+/// From this number on growth is judged: with fewer primitives the set-up of a ray dominates.
+constexpr double first_judged = 1000;
+
+/// Rays of one set, as a job needs them.
+struct Rays {
+    std::vector<Ray<float>> rays;
+    std::vector<RaySource> sources;
+    std::vector<RayEnd> ends;
+
+    [[nodiscard]] TraceJob job(std::vector<Hit>& hits, RenderCounters& counters) const {
+        return {.rays = rays, .hits = hits, .sources = sources, .ends = ends, .counters = &counters};
+    }
+};
+
+/// The rays of a second vertex: from where `first` hit, in random directions on the side that it came from, or towards
+/// one point light. A ray that missed gives a random ray.
+Rays second_rays(const std::vector<Ray<float>>& first, const std::vector<Hit>& hits, int edge, bool shadow) {
+    const Vec3d light = {0.8, 3, 2};
+    Rays result{make_rays(RaySet::random, edge), {}, {}};
+    result.sources.resize(first.size());
+    if (shadow) result.ends.resize(first.size(), {1, no_primitive});
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (hits[i].primitive == no_primitive) continue;
+        const Vec3d way = widen(first[i].direction);
+        const Vec3d point = widen(first[i].origin) + way * double{hits[i].t};
+        Vec3d direction = light - point;
+        if (!shadow) {
+            direction = widen(result.rays[i].direction);
+            if (dot(direction, way) > 0) direction = -direction;
+        }
+        result.rays[i] = {narrow(point), narrow(direction)};
+        result.sources[i].primitive = hits[i].primitive;
+    }
+    return result;
+}
+
+/// A backend with a number of threads; one line of every plot.
+struct Contender {
+    std::string name, label;
+    int threads;
+    std::unique_ptr<Backend> backend;
+};
+
+std::vector<Contender> make_contenders(const ScaleOptions& options, const BackendSource& source, Report& report) {
+    std::vector<Contender> contenders;
+    for (const std::string& name : available_backends(source, options.backends, report)) {
+        const bool has_threads = name != "cuda";
+        for (const int threads : has_threads ? options.threads : std::vector<int>{0}) {
+            const std::string suffix = threads == 0 ? "" : fmt::format(", {} threads", threads);
+            contenders.push_back({name, name + suffix, threads, source.make(name, {threads, 16, {}})});
+            describe_backend(*contenders.back().backend, report);
+        }
+    }
+    if (contenders.empty()) throw EnvironmentError("none of the backends can run here");
+    return contenders;
+}
+
+std::vector<double> numbers_of_primitives(const ScaleOptions& options) {
+    std::vector<double> counts;
+    for (int i = 0;; ++i) {
+        const double count = std::round(options.least * std::pow(10.0, i / double(options.steps)));
+        if (count > options.most * (1 + 1e-9)) break;
+        if (counts.empty() || count > counts.back()) counts.push_back(count);
+    }
+    return counts;
+}
+
+bool same(const Hit& a, const Hit& b) {
+    return a.primitive == b.primitive && std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t);
+}
+
+/// What a plot shows: a value by the number of primitives, for each line.
+using Lines = std::map<std::string, std::vector<Point>>;
+
+LinePlot plot_of(const std::string& title, const std::string& unit, const Lines& lines) {
+    LinePlot plot{title, {"primitives", true}, {unit, true}, {}, {}};
+    for (const auto& [label, points] : lines) plot.lines.push_back({label, points});
+    return plot;
+}
+
+/// One kind of primitive in scenes of growing size.
+class KindScale {
+  public:
+    KindScale(const ScaleOptions& options, std::string kind, std::vector<Contender>& contenders, Report& report)
+        : options_(options), kind_(std::move(kind)), contenders_(contenders), report_(report) {
+        table_.caption = fmt::format("{}, {}: median times of {} rounds", kind_, options_.tier, options_.repetitions);
+        table_.columns = {{"Primitives", true}, {"Row"}, {"Build", true}, {"Primitives/s", true}};
+        for (const std::string& set : options_.rays) table_.columns.push_back({set + ", rays/s", true});
+    }
+
+    /// The number of hits that differ between backends.
+    std::size_t run() {
+        report_.blocks.emplace_back(Heading{kind_});
+        for (const double count : numbers_of_primitives(options_)) measure(count);
+        report_.blocks.emplace_back(std::move(table_));
+        report_.blocks.emplace_back(plot_of(kind_ + ": rays per second", "rays/s", rates_));
+        report_.blocks.emplace_back(plot_of(kind_ + ": build", "seconds", builds_));
+        add_growth();
+        return differing_;
+    }
+
+  private:
+    void measure(double count) {
+        const std::string name = fmt::format("named:{}/{:.0f}", kind_, count);
+        log_progress(fmt::format("scale: {}", name));
+        // the rays are made in world space
+        const PreparedScene scene = prepare(load_scene(name), {0, {}, Vec3d{0, 0, 0}});
+        std::map<std::string, Rays> sets;
+        std::map<std::string, std::vector<Hit>> first_hits;
+        for (const Contender& contender : contenders_) {
+            const auto resident = contender.backend->load(scene, parse_tier(options_.tier));
+            const double build = resident->load_times().build;
+            std::vector<std::string> cells = {format_count(count), contender.label, format_seconds(build),
+                                              build > 0 ? format_count(count / build) : "-"};
+            builds_[contender.label].push_back({count, build});
+            if (sets.empty()) make_sets(contender, *resident, sets);
+            for (const std::string& set : options_.rays) {
+                BenchmarkRow row = row_of(name, contender, set);
+                phase(row, "build").seconds = {build};
+                phase(row, "upload").seconds = {resident->load_times().upload};
+                std::vector<Hit> hits(sets.at(set).rays.size());
+                const TraceJob job = sets.at(set).job(hits, row.counters);
+                (void)contender.backend->trace(*resident, job);  // warms up
+                for (int round = 0; round < options_.repetitions; ++round) {
+                    row.seconds.push_back(contender.backend->trace(*resident, job));
+                    row.rounds.push_back(round);
+                }
+                const auto [first, is_first] = first_hits.try_emplace(set, hits);
+                for (std::size_t i = 0; i < hits.size() && !is_first; ++i) {
+                    differing_ += same(hits[i], first->second[i]) ? 0 : 1;
+                }
+                cells.push_back(format_count(rays_per_second(row)));
+                const std::string line = contender.label + ", " + set;
+                rates_[line].push_back({count, rays_per_second(row)});
+                times_[line].push_back({count, row.rays / rays_per_second(row)});
+                report_.rows.push_back(std::move(row));
+            }
+            table_.rows.push_back(std::move(cells));
+        }
+    }
+
+    /// The rays of a second vertex start where the first contender finds the coherent ones to hit.
+    void make_sets(const Contender& contender, ResidentScene& resident, std::map<std::string, Rays>& sets) const {
+        const std::vector<Ray<float>> coherent = make_rays(RaySet::coherent, options_.ray_edge);
+        std::vector<Hit> hits(coherent.size());
+        (void)contender.backend->trace(resident, {.rays = coherent, .hits = hits});
+        for (const std::string& set : options_.rays) {
+            if (set == "bounce" || set == "shadow") {
+                sets[set] = second_rays(coherent, hits, options_.ray_edge, set == "shadow");
+            } else {
+                sets[set] = {make_rays(parse_ray_set(set), options_.ray_edge), {}, {}};
+            }
+        }
+    }
+
+    [[nodiscard]] BenchmarkRow row_of(const std::string& scene, const Contender& contender,
+                                      const std::string& set) const {
+        BenchmarkRow row;
+        row.label = fmt::format("{}, {}, {}", scene, contender.label, set);
+        row.scene = fmt::format("{}, {} rays", scene, set);
+        row.backend = contender.name;
+        row.tier = options_.tier;
+        row.threads = contender.threads;
+        row.rays = static_cast<double>(options_.ray_edge) * options_.ray_edge;
+        return row;
+    }
+
+    void add_growth() {
+        Table growth{
+            fmt::format(
+                "Growth of the time per ray from {:.0f} primitives on: the exponent e of n^e, and the most over "
+                "log n. 1 or less grows no faster than log n",
+                first_judged),
+            {{"Rays"}, {"e", true}, {"Over log n", true}},
+            {}};
+        for (const auto& [label, points] : times_) {
+            std::vector<Point> judged;
+            std::copy_if(points.begin(), points.end(), std::back_inserter(judged),
+                         [](const Point& p) { return p.x >= first_judged; });
+            if (judged.size() < 2) continue;
+            growth.rows.push_back({label, fmt::format("{:.3f}", fitted_exponent(judged)),
+                                   fmt::format("{:.2f}", growth_over_log(judged))});
+        }
+        if (!growth.rows.empty()) report_.blocks.emplace_back(std::move(growth));
+    }
+
+    const ScaleOptions& options_;
+    std::string kind_;
+    std::vector<Contender>& contenders_;
+    Report& report_;
+    Table table_;
+    Lines rates_, times_, builds_;
+    std::size_t differing_ = 0;
+};
+
+}  // namespace
+
+double fitted_exponent(const std::vector<Point>& times) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    const auto n = static_cast<double>(times.size());
+    for (const Point& p : times) {
+        const double lx = std::log(p.x), ly = std::log(p.y);
+        x += lx, y += ly, xx += lx * lx, xy += lx * ly;
+    }
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+double growth_over_log(const std::vector<Point>& times) {
+    double most = 0;
+    for (const Point& p : times) {
+        most = std::max(most, p.y / times.front().y / (std::log(p.x) / std::log(times.front().x)));
+    }
+    return most;
+}
+
+bool run_scale(const ScaleOptions& options, const BackendSource& source, Report& report) {
+    if (!(options.least >= 1) || !(options.most >= options.least)) {
+        throw InputError(
+            "--from and --to must be numbers of primitives, the first at least 1 and not above the second");
+    }
+    for (const std::string& set : options.rays) {
+        if (set != "bounce" && set != "shadow") (void)parse_ray_set(set);
+    }
+    report.title = "Scale";
+    report.summary = fmt::format("Times of {} from {:.0f} to {:.0f} primitives, tier {}.",
+                                 fmt::join(options.kinds, ", "), options.least, options.most, options.tier);
+    std::vector<Contender> contenders = make_contenders(options, source, report);
+    std::size_t differing = 0;
+    for (const std::string& kind : options.kinds) differing += KindScale(options, kind, contenders, report).run();
+    report.blocks.emplace_back(Paragraph{
+        "Coherent rays are those of a camera, random ones start anywhere in the scene. Bounce rays start where the "
+        "coherent "
+        "ones hit, in random directions on the side that these came from; shadow rays go from there to a light, and "
+        "ask "
+        "for any hit. Where a coherent ray misses, both have a random ray. Scenes have random places and sizes that "
+        "shrink with the number of primitives."});
+    const bool must_agree = parse_tier(options.tier) != Tier::fast;
+    if (contenders.size() > 1) {
+        report.blocks.emplace_back(differing == 0
+                                       ? Callout{Callout::Kind::good, "All hits are equal, bit for bit."}
+                                       : Callout{must_agree ? Callout::Kind::bad : Callout::Kind::note,
+                                                 fmt::format("{} hits differ between backends.", differing)});
+    }
+    return differing == 0 || !must_agree;
+}
+
+}  // namespace tandem::bench
