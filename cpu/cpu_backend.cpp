@@ -176,9 +176,12 @@ class CpuBackend final : public Backend {
         : set_(choose_instruction_set(options.instruction_set)), tile_size_(checked_tile_size(options.tile_size)) {
         const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
         if (options.threads < 0) throw InputError("the number of threads must be 0 (one per core) or more");
-        // more threads than cores are allowed: results do not depend on their number, as tests check
-        parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                             static_cast<std::size_t>(threads));
+        // More threads than cores are allowed: results do not depend on their number, as tests check. Only for these,
+        // because the least value of all backends counts for the whole process.
+        if (threads > tbb::info::default_concurrency()) {
+            parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                                 static_cast<std::size_t>(threads));
+        }
         arena_.initialize(threads);
         // TBB starts here, before Embree's first commit can set flush-to-zero in its workers
         arena_.execute([] { tbb::parallel_for(0, 64, [](int) { const DefaultFpEnvironment guard; }); });
@@ -313,7 +316,7 @@ class CpuBackend final : public Backend {
 
     const InstructionSet& set_;
     int tile_size_;
-    std::unique_ptr<tbb::global_control> parallelism_;
+    std::unique_ptr<tbb::global_control> parallelism_;  ///< null unless there are more threads than cores
     mutable tbb::task_arena arena_;
     EmbreeDevice device_;
 };

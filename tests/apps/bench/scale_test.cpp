@@ -1,6 +1,8 @@
 #include "scale.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <cmath>
 
@@ -56,6 +58,16 @@ TEST(Scale, StepsThroughTheNumbersOfPrimitives) {
     EXPECT_TRUE(run_scale(options, loop_source(nothing), report));
     ASSERT_EQ(report.rows.size(), 3U);
     EXPECT_EQ(report.rows[1].scene, "named:spheres/3, shadow rays");
+}
+
+// Both are alive at once where several numbers of threads are measured.
+TEST(Scale, ABackendWithOneThreadDoesNotLimitOthers) {
+    const auto one = make_backend("cpu", {1, 16, {}});
+    const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    EXPECT_GE(allowed, static_cast<std::size_t>(tbb::info::default_concurrency()));
+    const auto many = make_backend("cpu", {tbb::info::default_concurrency() + 3, 16, {}});
+    EXPECT_EQ(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
+              static_cast<std::size_t>(tbb::info::default_concurrency()) + 3);
 }
 
 TEST(Scale, FitsExponents) {
