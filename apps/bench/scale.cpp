@@ -67,7 +67,8 @@ std::vector<Contender> make_contenders(const ScaleOptions& options, const Backen
     for (const std::string& name : available_backends(source, options.backends, report)) {
         const bool has_threads = name != "cuda";
         for (const int threads : has_threads ? options.threads : std::vector<int>{0}) {
-            const std::string suffix = threads == 0 ? "" : fmt::format(", {} threads", threads);
+            const std::string suffix =
+                threads == 0 ? "" : fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
             contenders.push_back({name, name + suffix, threads, source.make(name, {threads, 16, {}})});
             describe_backend(*contenders.back().backend, report);
         }

@@ -36,7 +36,7 @@ TEST(Scale, MeasuresEverySizeBackendThreadsAndSetOfRays) {
         EXPECT_EQ(row.seconds.size(), 2U) << row.label;
         EXPECT_EQ(row.rays, 144) << row.label;
     }
-    EXPECT_EQ(report.rows.front().label, "named:spheres/2, cpu, 1 threads, coherent");
+    EXPECT_EQ(report.rows.front().label, "named:spheres/2, cpu, 1 thread, coherent");
     EXPECT_NE(prose_of(report).find("All hits are equal"), std::string::npos) << prose_of(report);
 }
 
