@@ -13,6 +13,8 @@
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/gltf/load_scene.h"
+#include "tandem/math/accurate_functions.h"
+#include "tandem/math/exact_math.h"
 #include "tandem/report/format_number.h"
 
 namespace tandem::bench {
@@ -80,7 +82,7 @@ std::vector<Contender> make_contenders(const ScaleOptions& options, const Backen
 std::vector<double> numbers_of_primitives(const ScaleOptions& options) {
     std::vector<double> counts;
     for (int i = 0;; ++i) {
-        const double count = std::round(options.least * std::pow(10.0, i / double(options.steps)));
+        const double count = std::round(options.least * power<double>(10.0, i / double(options.steps)));
         if (count > options.most * (1 + 1e-9)) break;
         if (counts.empty() || count > counts.back()) counts.push_back(count);
     }
@@ -221,7 +223,7 @@ double fitted_exponent(const std::vector<Point>& times) {
     double x = 0, y = 0, xx = 0, xy = 0;
     const auto n = static_cast<double>(times.size());
     for (const Point& p : times) {
-        const double lx = std::log(p.x), ly = std::log(p.y);
+        const double lx = accurate_log(p.x), ly = accurate_log(p.y);
         x += lx, y += ly, xx += lx * lx, xy += lx * ly;
     }
     return (n * xy - x * y) / (n * xx - x * x);
@@ -230,7 +232,7 @@ double fitted_exponent(const std::vector<Point>& times) {
 double growth_over_log(const std::vector<Point>& times) {
     double most = 0;
     for (const Point& p : times) {
-        most = std::max(most, p.y / times.front().y / (std::log(p.x) / std::log(times.front().x)));
+        most = std::max(most, p.y / times.front().y / (accurate_log(p.x) / accurate_log(times.front().x)));
     }
     return most;
 }
