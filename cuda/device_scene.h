@@ -23,8 +23,7 @@ struct SceneMemory {
 
 class DeviceScene final : public ResidentScene {
   public:
-    /// Starts the upload on `stream`. For a scene of many primitives, then builds a BVH; for
-    /// one of a few thousand, the host builds it before.
+    /// Starts the upload on `stream`. For a scene of many primitives, then builds a BVH.
     DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream);
 
     /// Waits for upload and build, to measure their times.
@@ -52,7 +51,6 @@ class DeviceScene final : public ResidentScene {
     DeviceSceneView view_{};
     std::size_t bytes_ = 0;
     std::uint32_t bvh_nodes_ = 0;
-    double host_build_seconds_ = 0;
     std::vector<PrimitiveCopy> copies_;
 };
 
