@@ -126,7 +126,7 @@ class Builder {
     void sort_leaves() {
         const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
         const double largest = greater(greater(extent.x, extent.y), extent.z);
-        const double cells = largest > 0 ? 2097152.0 / largest : 0;  // 0 for an extent beyond 1e-302 as well
+        const double cells = largest > 0 ? 2097152.0 / largest : 0;  // 0 for a single point
         run_kernel(codes_kernel, count_, scene_, count_, bounds_.lower, cells, codes_, lists_);
         cub::DoubleBuffer<std::uint64_t> codes(codes_, codes_ + count_);
         cub::DoubleBuffer<std::uint32_t> ids(lists_, lists_ + count_);

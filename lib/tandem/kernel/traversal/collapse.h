@@ -16,7 +16,7 @@ struct alignas(16) Forests {
 };
 static_assert(sizeof(Forests) == 16);
 
-/// Twice the area that a ray meets, in double, so that it is a number in scenes of any size.
+/// Half of the surface area, in double, so that it is a number in scenes of any size.
 TANDEM_HD_INLINE double wide_half_area(const Aabb& box) {
     const Vec3d extent = widen(box.upper) - widen(box.lower);
     return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
