@@ -74,7 +74,7 @@ void add_surroundings(const Scene& scene, const PreparedScene& prepared, Needs& 
     }
     if (scene.environment.illuminates != 0) {
         needs.add(Effect::environment_light, "the environment lights surfaces");
-        const bool by_samples = !scene.indirect_light || scene.environment_image;
+        const bool by_samples = !scene.indirect_light || has_environment(scene);
         const bool by_shadow_rays = by_samples && prepared.area_light_shadows;
         if (by_shadow_rays) needs.add(Effect::shadows, "the environment casts shadows");
     }
@@ -146,11 +146,9 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
     std::vector<bool> used(scene.materials.size(), false);
     for (const std::uint32_t material : prepared.material_of) used[material] = true;
     add_motion(scene, prepared, needs);
-    if (scene.environment_image) {
-        const FloatImage& picture = scene.environment_image->picture;
-        needs.add(Effect::environment_picture,
-                  fmt::format("the environment is a picture with {} x {} texels", picture.width, picture.height));
-    }
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, effect, is) \
+    if (scene.authored) needs.add(effect, "the environment is " + in_words(*scene.authored));
+#include "tandem/kernel/lights/lights.def"
     if (prepared.material_of.empty()) return needs.take();  // nothing receives light
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
@@ -263,7 +261,9 @@ Scene without_effects(Scene scene, EffectMask off) {
     if (off.has(Effect::textures)) {
         for (Mesh& mesh : scene.meshes) mesh.colours.clear();
     }
-    if (off.has(Effect::environment_picture)) scene.environment_image.reset();
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    if (off.has(needs)) scene.authored.reset();
+#include "tandem/kernel/lights/lights.def"
     if (off.has(Effect::environment_light)) scene.environment.illuminates = 0;
     if (off.has(Effect::indirect)) scene.indirect_light = false;
     return scene;

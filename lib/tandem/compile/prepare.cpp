@@ -13,7 +13,7 @@
 #include "tandem/compile/area_lights.h"
 #include "tandem/compile/cutout_kinds.h"
 #include "tandem/compile/derive.h"
-#include "tandem/compile/environment_tables.h"
+#include "tandem/compile/environments.h"
 #include "tandem/compile/media.h"
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/prepare_textures.h"
@@ -157,7 +157,9 @@ class Preparer {
     for (const TextureUse& use : result_.names) result_.several_slots = result_.several_slots || use.slot != 0;
 #include "tandem/kernel/bsdf/lobes.def"
         result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
-        if (scene_.environment_image) add_environment_picture(result_, *scene_.environment_image);
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    if (scene_.authored) prepare_environment(*scene_.authored, result_);
+#include "tandem/kernel/lights/lights.def"
         if (settings_.roulette && scene_.indirect_light) result_.roulette_from = first_roulette;
         if (settings_.solids_are_disjoint) result_.media_overlap = false;
         result_.effects = (mask_of(derive_effects(scene_, result_)) | options_.effects.on) - host_effects;

@@ -26,7 +26,9 @@ SceneView view(const PreparedScene& scene) {
         .media_overlap = scene.media_overlap ? 1U : 0U,
         .camera_media = scene.camera_media,
         .environment = scene.environment,
-        .environment_picture = scene.environment_picture};
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) .name = scene.name,
+#include "tandem/kernel/lights/lights.def"
+    };
 }
 
 CameraView camera_view(const PreparedCamera& camera, int width, int height) {
@@ -87,7 +89,9 @@ std::string scene_hash(const PreparedScene& scene) {
     hash.update_value(scene.camera.lens.focus_distance);
     hash.update_value(scene.camera.lens.blades);
     hash.update_value(scene.camera.lens.rotation);
-    if (scene.environment_picture.width != 0) hash.update_value(scene.environment_picture);
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    if (is_there(scene.name)) hash.update_value(scene.name);
+#include "tandem/kernel/lights/lights.def"
     if (!scene.textures.materials.empty()) {  // scenes without textures keep their older hash
         add(scene.textures.texels);
         add(scene.textures.textures);

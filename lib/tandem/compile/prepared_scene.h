@@ -12,7 +12,6 @@
 #include "tandem/kernel/camera/lens.h"
 #include "tandem/kernel/camera/shutter.h"
 #include "tandem/kernel/lights/environment.h"
-#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/view/scene_view.h"
@@ -50,7 +49,8 @@ struct PreparedScene {
     bool media_overlap = false;  ///< dielectric solids may overlap, or touch, other primitives
     Environment environment;
     bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
-    EnvironmentPicture environment_picture{};
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) Type name{};
+#include "tandem/kernel/lights/lights.def"
     EffectMask effects;  ///< the effects to simulate: those that the scene needs, and those forced on
     /// Primitives of the Scene that no ray can hit: degenerate faces, solids that their transforms hide (scale 0), and
     /// primitives that their alpha mask removes completely.

@@ -1,6 +1,6 @@
 #include "tandem/gltf/schema_property.h"
 #include "tandem/images/display.h"
-#include "tandem/scene/environment_image.h"
+#include "tandem/scene/scene.h"
 
 namespace tandem::gltf::schema {
 

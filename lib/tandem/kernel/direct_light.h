@@ -18,8 +18,7 @@ TANDEM_HD std::uint32_t count_lights(const SceneView& scene) {
     if constexpr (can_simulate<Effects>(needs)) {                                     \
         if (simulates<Effects>(needs)) count += Type::template count<Effects>(scene); \
     }
-#include "tandem/kernel/lights.def"
-#undef TANDEM_LIGHT
+#include "tandem/kernel/lights/lights.def"
     return count;
 }
 
@@ -35,8 +34,7 @@ TANDEM_HD IncidentLight<Real> sample_light(const SceneView& scene, std::uint32_t
             number -= of_family;                                                                      \
         }                                                                                             \
     }
-#include "tandem/kernel/lights.def"
-#undef TANDEM_LIGHT
+#include "tandem/kernel/lights/lights.def"
     return {black<Real>(), black<Real>()};
 }
 

@@ -1,15 +1,22 @@
-/// The environment as a light at a vertex of a path: its picture or its gradient.
+/// The environment as a light at a vertex of a path: one of the kinds of lights.def, or the gradient.
 #pragma once
+
+#include <concepts>
+#include <type_traits>
 
 #include "tandem/kernel/incident_light.h"
 #include "tandem/kernel/sampler/warp.h"
 
 namespace tandem {
 
-/// Whether a picture takes the place of the gradient.
+/// Whether a simulated kind of environment takes the place of the gradient.
 template <class Effects>
-TANDEM_HD bool has_environment_picture(const SceneView& scene) {
-    return Effects::has(Effect::environment_picture) && scene.environment_picture.width != 0;
+TANDEM_HD bool shows_environment(const SceneView& scene) {
+    bool has = false;
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    has = has || (Effects::has(needs) && is_there(scene.name));
+#include "tandem/kernel/lights/lights.def"
+    return has;
 }
 
 /// Whether the environment lights surfaces.
@@ -18,15 +25,36 @@ TANDEM_HD bool has_environment_light(const SceneView& scene) {
     return Effects::has(Effect::environment_light) && scene.environment.illuminates != 0;
 }
 
-/// A direction sampled in proportion to the brightness of the picture, weighted against paths that follow a lobe. Phong
-/// highlights do not show the picture, nor the gradient.
-/// Source: kernel/lights/environment_picture.h.
-template <class Effects, class Real>
-TANDEM_HD_STAGE IncidentLight<Real> sample_environment_picture(const SceneView& scene, const LitVertex<Real>& at) {
+/// What kernels read of a kind of environment is a plain struct without undefined bytes, because scene_hash() reads all
+/// of them. Value-initialised it means that the scene has no such environment. It has
+///
+/// is_there(kind)         whether the scene has it
+/// view_of(kind, scene)   the same with the arrays that it reads: a view, which has
+///
+/// sample_environment<Real>(view, random)   an EnvironmentSample by the four words of a Philox block
+/// see_environment<Real>(view, direction)   an EnvironmentSight along a direction whose length is within [1e-15, 1e15]
+///
+/// The density that both give is that of the samples, so that samples and paths share the light without bias.
+template <class Kind>
+concept EnvironmentKind = std::is_trivially_copyable_v<Kind> && requires(const Kind& kind, const SceneView& scene) {
+    { is_there(kind) } -> std::convertible_to<bool>;
+    {
+        sample_environment<float>(view_of(kind, scene), PhiloxBlock<std::uint32_t>{})
+        } -> std::same_as<EnvironmentSample<float>>;
+    { see_environment<float>(view_of(kind, scene), Vec3<double>{}) } -> std::same_as<EnvironmentSight<float>>;
+};
+
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) static_assert(EnvironmentKind<Type>);
+#include "tandem/kernel/lights/lights.def"
+
+/// A direction sampled by the environment `view`, weighted against paths that follow a lobe. Phong highlights do not
+/// show the environment, nor the gradient.
+template <class Effects, class Real, class View>
+TANDEM_HD_STAGE IncidentLight<Real> sample_environment_light(const SceneView& scene, const View& view,
+                                                             const LitVertex<Real>& at) {
     using D = Double<Real>;
     const D zero(0.0);
-    const auto drawn = sample_environment<Real>(environment_picture(scene),
-                                                at.sample.block_at_vertex(Dimension::environment, at.number));
+    const auto drawn = sample_environment<Real>(view, at.sample.block_at_vertex(Dimension::environment, at.number));
     IncidentLight<Real> result = {black<Real>(), to_real<Real>(drawn.direction)};
     result.is_far = Mask<Real>(true);
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
@@ -45,16 +73,18 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_environment_picture(const SceneView& 
     return result;
 }
 
-struct EnvironmentPictureLight {
+/// A kind of environment as a family of lights; `kind` is the member of SceneView.
+template <auto kind>
+struct EnvironmentLight {
     template <class Effects>
     TANDEM_HD static std::uint32_t count(const SceneView& scene) {
-        return has_environment_picture<Effects>(scene) && has_environment_light<Effects>(scene) ? 1 : 0;
+        return is_there(scene.*kind) && has_environment_light<Effects>(scene) ? 1 : 0;
     }
 
     template <class Effects, class Real>
     TANDEM_HD static IncidentLight<Real> sample(const SceneView& scene, std::uint32_t, const LitVertex<Real>& at,
                                                 const Mask<Real>&) {
-        return sample_environment_picture<Effects>(scene, at);
+        return sample_environment_light<Effects>(scene, view_of(scene.*kind, scene), at);
     }
 };
 
@@ -80,7 +110,7 @@ struct EnvironmentGradientLight {
     template <class Effects>
     TANDEM_HD static std::uint32_t count(const SceneView& scene) {
         const bool samples = has_environment_light<Effects>(scene) && !has_indirect_light<Effects>(scene);
-        return samples && !has_environment_picture<Effects>(scene) ? 1 : 0;
+        return samples && !shows_environment<Effects>(scene) ? 1 : 0;
     }
 
     template <class Effects, class Real>

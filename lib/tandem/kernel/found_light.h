@@ -49,13 +49,13 @@ TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, R
     return select(shared, to_real<Real>(share), whole);
 }
 
-/// The environment picture for a path that leaves the scene, with its MIS weight against the sample of the previous
+/// The environment `view` for a path that leaves the scene, with its MIS weight against the sample of the previous
 /// vertex.
-template <class Effects, class Real, bool bounces>
-TANDEM_HD_STAGE Vec3<Real> seen_environment_picture(const SceneView& scene,
-                                                    const PathState<Effects, Real, bounces>& path) {
+template <class Effects, class Real, bool bounces, class View>
+TANDEM_HD_STAGE Vec3<Real> found_environment(const SceneView& scene, const View& view,
+                                             const PathState<Effects, Real, bounces>& path) {
     using D = Double<Real>;
-    const auto sight = see_environment<Real>(environment_picture(scene), widen(path.ray.direction));
+    const auto sight = see_environment<Real>(view, widen(path.ray.direction));
     if constexpr (bounces) {
         const bool scatters = Effects::has_any(effects_of_scattering_lobes);
         if (!scatters || !has_environment_light<Effects>(scene)) return sight.radiance;
@@ -68,14 +68,23 @@ TANDEM_HD_STAGE Vec3<Real> seen_environment_picture(const SceneView& scene,
     }
 }
 
+/// The environment of the scene, or the gradient, for a path that leaves it.
+template <class Effects, class Real, bool bounces>
+TANDEM_HD Vec3<Real> found_background(const SceneView& scene, const PathState<Effects, Real, bounces>& path) {
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is)      \
+    if (Effects::has(needs) && is_there(scene.name)) {                     \
+        return found_environment(scene, view_of(scene.name, scene), path); \
+    }
+#include "tandem/kernel/lights/lights.def"
+    return background(scene.environment, path.ray.direction);
+}
+
 /// Adds the background to paths that hit nothing, in the lanes of `missed`.
 template <class Effects, class Real, bool bounces>
 TANDEM_HD void see_background(const SceneView& scene, const Mask<Real>& missed, PathState<Effects, Real, bounces>& path,
                               Vec3<Real>& radiance) {
     using D = Double<Real>;
-    const bool picture = has_environment_picture<Effects>(scene);
-    const Vec3<Real> seen = picture ? seen_environment_picture<Effects, Real, bounces>(scene, path)
-                                    : background(scene.environment, path.ray.direction);
+    const Vec3<Real> seen = found_background(scene, path);
     if constexpr (bounces) {
         path.absorb(scene, D(__builtin_huge_val()), UInt<Real>(no_medium), missed);
         Mask<Real> shows = missed;

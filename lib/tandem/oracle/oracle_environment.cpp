@@ -38,10 +38,8 @@ Vector picture_towards(const SceneView& scene, const Vector& d) {
 
 }  // namespace
 
-bool has_picture(const SceneView& scene) { return scene.environment_picture.width != 0; }
-
 Vector background_towards(const SceneView& scene, const Vector& direction) {
-    if (has_picture(scene)) return picture_towards(scene, direction);
+    if (is_there(scene.environment_picture)) return picture_towards(scene, direction);
     const Real m = (unit(direction).y + 1) / 2;
     return to_vector(scene.environment.bottom) * (1 - m) + to_vector(scene.environment.top) * m;
 }

@@ -5,10 +5,7 @@
 
 namespace tandem::oracle {
 
-/// Whether the background is a picture.
-[[nodiscard]] bool has_picture(const SceneView& scene);
-
-/// The radiance of the gradient or the picture along a direction of any length.
+/// The radiance of the background along a direction of any length.
 [[nodiscard]] Vector background_towards(const SceneView& scene, const Vector& direction);
 
 }  // namespace tandem::oracle

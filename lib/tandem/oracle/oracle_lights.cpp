@@ -141,17 +141,17 @@ Vector area_light(const SceneView& scene, const Reflectances& material, const Ve
 }
 
 /// The light of the background from one direction of the hemisphere. Microfacets whose reflection no path follows
-/// receive that of a picture too.
+/// receive that of an environment too.
 Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
     if (scene.area_lights_cast_shadows != 0) {
         const bool shared = scene.indirect_light != 0 || material.has_facets || !material.broad.empty();
-        if (has_picture(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
+        if (has_environment(scene) && shared && !is_in_front(vertex, direction)) return {0, 0, 0};
         if (is_blocked(scene, vertex, direction, HUGE_VALL)) return {0, 0, 0};
     }
     Vector reflected{0, 0, 0};
-    if (has_picture(scene) && material.has_facets && material.is_hidden) return reflected;
+    if (has_environment(scene) && material.has_facets && material.is_hidden) return reflected;
     if (ends.diffuse) reflected = scattered(material, direction) * inner(direction, vertex.normal);
     if (ends.facets) reflected = reflected + facets(material, vertex, direction);
     return times(reflected, background_towards(scene, direction)) * 2;
@@ -171,8 +171,8 @@ Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& en
         sum = sum + times(brought, intensity);
     }
     sum = sum + area_light(scene, material, vertex, ends.facets || samples_lights(material), chance);
-    const bool picture = has_picture(scene);
-    const EndingLobes of_sky = {scene.indirect_light == 0 || (picture && ends.diffuse), picture && ends.facets};
+    const bool sampled = has_environment(scene);
+    const EndingLobes of_sky = {scene.indirect_light == 0 || (sampled && ends.diffuse), sampled && ends.facets};
     if (scene.environment.illuminates != 0 && (of_sky.diffuse || of_sky.facets)) {
         sum = sum + sky(scene, material, vertex, of_sky, chance);
     }

@@ -30,12 +30,12 @@ struct ColourRange {
 Backdrop::Backdrop(const PreparedScene& scene, int width, int height)
     : camera_(camera_view(scene.camera, width, height)),
       environment_(scene.environment),
-      is_picture_(scene.environment_picture.width != 0) {}
+      is_gradient_(!has_environment(view(scene))) {}
 
 FloatImage Backdrop::foreground(const Film& film) const {
     const DefaultFpEnvironment guard;
     FloatImage image = film_to_image(film);
-    if (is_picture_) return image;
+    if (!is_gradient_) return image;
     std::size_t i = 0;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x, ++i) {

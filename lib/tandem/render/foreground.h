@@ -22,7 +22,7 @@ class Backdrop {
   private:
     CameraView camera_;
     Environment environment_;
-    bool is_picture_;
+    bool is_gradient_;
 };
 
 }  // namespace tandem

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tandem/scene/environment_image.h"
+#include "tandem/kernel/lights/environment_image.h"
 
 namespace tandem {
 

@@ -214,29 +214,19 @@ class Problems {
         };
         require(good(scene_.environment.bottom) && good(scene_.environment.top) && good(scene_.environment.ambient),
                 "the environment", "has a colour that is not three finite numbers >= 0");
-        if (scene_.environment_image) check_image(*scene_.environment_image);
+        const auto requires_of = [this](bool condition, const std::string& where, const std::string& problem) {
+            require(condition, where, problem.c_str());
+        };
+        int environments = 0;
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    if (scene_.authored) {                                            \
+        check(*scene_.authored, requires_of);                         \
+        ++environments;                                               \
+    }
+#include "tandem/kernel/lights/lights.def"
+        require(environments <= 1, "the scene", "has several environments; keep one");
         require(std::isfinite(scene_.frames_per_second) && scene_.frames_per_second > 0, "the scene",
                 "has a frame rate that is not positive");
-    }
-
-    void check_image(const EnvironmentImage& image) {
-        const FloatImage& picture = image.picture;
-        const std::string where = "the environment's picture";
-        const auto is_side = [](int texels) { return texels >= 1 && texels <= widest_environment; };
-        require(is_side(picture.width) && is_side(picture.height) && picture.pixels.size() == pixel_count(picture) &&
-                    picture.pixels.size() <= most_environment_texels,
-                where,
-                fmt::format("has {} x {} texels; from 1 x 1 to 2^27 are possible, of at most {} a side, so make it "
-                            "smaller",
-                            picture.width, picture.height, widest_environment)
-                    .c_str());
-        const auto is_light = [](float x) { return x >= 0 && x <= brightest_environment; };
-        require(std::all_of(picture.pixels.begin(), picture.pixels.end(),
-                            [&](const Vec3f& a) { return is_light(a.x) && is_light(a.y) && is_light(a.z); }),
-                where, "has values outside [0, 1.2e30]");
-        require(image.intensity >= 0 && image.intensity <= most_environment_intensity, where,
-                fmt::format("has an intensity outside [0, {:g}]", most_environment_intensity).c_str());
-        require(std::abs(image.rotation) <= 1e6, where, "has a rotation outside [-1e6, 1e6] radians");
     }
 
     std::vector<std::string> take() { return std::move(found_); }
@@ -302,6 +292,32 @@ class Problems {
 };
 
 }  // namespace
+
+bool has_environment(const Scene& scene) {
+    bool has = false;
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) has = has || scene.authored.has_value();
+#include "tandem/kernel/lights/lights.def"
+    return has;
+}
+
+namespace {
+
+/// Leaves the scene without light from all directions.
+void remove_environment(Scene& scene) {
+    scene.environment.ambient = {0, 0, 0};
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) scene.authored.reset();
+#include "tandem/kernel/lights/lights.def"
+}
+
+}  // namespace
+
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
+    void light_by(Scene& scene, Authored environment) {               \
+        remove_environment(scene);                                    \
+        scene.authored = std::move(environment);                      \
+        scene.environment.illuminates = 1;                            \
+    }
+#include "tandem/kernel/lights/lights.def"
 
 void set_shutter_instants(Scene& scene, int instants) {
     for (Node& node : scene.nodes) {

@@ -18,8 +18,10 @@
 #include "tandem/kernel/lights/environment.h"
 #include "tandem/kernel/shapes/face_sides.h"
 #include "tandem/math/transform.h"
-#include "tandem/scene/environment_image.h"
 #include "tandem/scene/texture.h"
+
+#define TANDEM_AUTHORED_ENVIRONMENT_HEADERS
+#include "tandem/kernel/lights/lights.def"
 
 namespace tandem {
 
@@ -185,11 +187,20 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<AnimationChannel> animation;
     Environment environment;
-    bool indirect_light = false;                          ///< diffuse surfaces receive light from other surfaces
-    std::optional<EnvironmentImage> environment_image{};  ///< replaces the gradient
-    Display display{};                                    ///< for 8-bit images; does not affect the film
+    bool indirect_light = false;  ///< diffuse surfaces receive light from other surfaces
+    // each takes the place of the gradient; one at most
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) std::optional<Authored> authored{};
+#include "tandem/kernel/lights/lights.def"
+    Display display{};  ///< for 8-bit images; does not affect the film
     double frames_per_second = 24;
 };
+
+/// Whether the scene has an environment other than the gradient.
+[[nodiscard]] bool has_environment(const Scene& scene);
+
+/// Lights a scene by an environment instead of its background, its ambient light and other environments.
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) void light_by(Scene& scene, Authored environment);
+#include "tandem/kernel/lights/lights.def"
 
 /// Sets the number of instants of the shutter interval for all cameras of the scene.
 void set_shutter_instants(Scene& scene, int instants);

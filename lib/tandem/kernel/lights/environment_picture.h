@@ -12,11 +12,13 @@
 ///
 /// The probabilities of the bands, from top to bottom, and of the cells of each band are integers, in units of 2^-31.
 /// So the probability that divides a sample is exactly the one with which it was chosen, for any ratio of the brightest
-/// texel to the darkest. Every cell that is not black has a probability of at least 2^-62 (environment_tables.h).
+/// texel to the darkest. Every cell that is not black has a probability of at least 2^-62
+/// (compile/environment_picture.cpp).
 ///
 /// Tested by tests/kernel/lights/environment_picture_test.cpp.
 #pragma once
 
+#include "tandem/kernel/lights/environment_sample.h"
 #include "tandem/kernel/sampler/philox.h"
 #include "tandem/kernel/texture/texture_view.h"
 #include "tandem/math/turns.h"
@@ -44,19 +46,14 @@ struct EnvironmentPictureView {
     const std::uint32_t* cell_ends;  ///< the same for the cells of each band, one band after the other
 };
 
-template <class Real>
-struct EnvironmentSample {
-    Vec3<Double<Real>> direction;  ///< unit, towards the environment
-    Vec3<Real> radiance;           ///< RGB, as seen there
-    Double<Real> pdf;              ///< with respect to solid angle, 1/sr; 0 for a black picture
-};
+TANDEM_HD_INLINE bool is_there(const EnvironmentPicture& picture) { return picture.width != 0; }
 
-/// The radiance along a direction, and its density in sample_environment().
-template <class Real>
-struct EnvironmentSight {
-    Vec3<Real> radiance;
-    Double<Real> pdf;
-};
+/// `scene`: a SceneView.
+template <class Scene>
+TANDEM_HD_INLINE EnvironmentPictureView view_of(const EnvironmentPicture& picture, const Scene& scene) {
+    return {picture, scene.environment_texels, scene.environment_borders, scene.environment_band_ends,
+            scene.environment_cell_ends};
+}
 
 namespace environment_detail {
 

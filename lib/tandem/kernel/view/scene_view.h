@@ -7,12 +7,14 @@
 #include "tandem/kernel/camera/camera.h"
 #include "tandem/kernel/lights/area_light.h"
 #include "tandem/kernel/lights/environment.h"
-#include "tandem/kernel/lights/environment_picture.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/quad.h"
 #include "tandem/kernel/texture/anisotropy.h"
 #include "tandem/kernel/texture/texture_set.h"
+
+#define TANDEM_ENVIRONMENT_HEADERS
+#include "tandem/kernel/lights/lights.def"
 
 namespace tandem {
 
@@ -38,13 +40,16 @@ struct SceneView {
     std::uint32_t media_overlap;   ///< 0: bodies of glass lie apart, from each other and from everything else
     CameraMedia camera_media;
     Environment environment;
-    EnvironmentPicture environment_picture;
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) Type name;
+#include "tandem/kernel/lights/lights.def"
 };
 
-/// The picture of the environment; without one, its width is 0.
-TANDEM_HD_INLINE EnvironmentPictureView environment_picture(const SceneView& scene) {
-    return {scene.environment_picture, scene.environment_texels, scene.environment_borders, scene.environment_band_ends,
-            scene.environment_cell_ends};
+/// Whether a kind of environment takes the place of the gradient.
+TANDEM_HD_INLINE bool has_environment(const SceneView& scene) {
+    bool has = false;
+#define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) has = has || is_there(scene.name);
+#include "tandem/kernel/lights/lights.def"
+    return has;
 }
 
 TANDEM_HD_INLINE std::uint32_t primitive_count(const SceneView& scene) {

@@ -1,9 +1,10 @@
-#include "tandem/compile/environment_tables.h"
-
+// The tables by which directions are sampled from an environment picture (kernel/lights/environment_picture.h).
 #include <algorithm>
 #include <numeric>
-#include <utility>
+#include <span>
+#include <vector>
 
+#include "tandem/compile/environments.h"
 #include "tandem/math/fp_environment.h"
 
 namespace tandem {
@@ -36,20 +37,16 @@ void share_out(std::span<const double> weights, std::span<std::uint32_t> ends) {
     }
 }
 
-Vec3d sum_of(std::span<const Vec3f> texels) {
-    Vec3d sum{0, 0, 0};
-    for (const Vec3f& texel : texels) sum += widen(texel);
-    return sum;
-}
-
-}  // namespace
-
-EnvironmentTables make_environment_tables(std::uint32_t width, std::uint32_t height, std::span<const Vec3f> texels) {
-    const DefaultFpEnvironment guard;
-    EnvironmentTables tables;
-    tables.borders = band_borders(height);
-    tables.band_ends.resize(height + 1);
-    tables.cell_ends.resize((std::size_t{height} + 1) * width);
+/// The probabilities of the bands and of the cells of each band.
+///
+/// Gives: probabilities in proportion to the solid angle of a cell times its brightness (r + g) + b, in units of 2^-31.
+///        A cell that is not black has at least one unit, a black one none. They are the same on every machine: sums in
+///        double, in one order, no function of the C library.
+void set_probabilities(PreparedScene& scene) {
+    const std::uint32_t width = scene.environment_picture.width, height = scene.environment_picture.height;
+    const std::span<const Vec3f> texels = scene.environment_texels;
+    scene.environment_band_ends.resize(height + 1);
+    scene.environment_cell_ends.resize((std::size_t{height} + 1) * width);
     std::vector<double> of_columns(width), of_cells(width), of_bands;
     for (std::uint32_t band = 0; band <= height; ++band) {
         const auto row = [&](std::uint32_t y) { return texels.subspan(std::size_t{y} * width, width); };
@@ -57,31 +54,26 @@ EnvironmentTables make_environment_tables(std::uint32_t width, std::uint32_t hei
         const auto brightness = [](const Vec3f& a) { return norm1(widen(a)); };
         for (std::size_t x = 0; x < width; ++x) of_columns[x] = brightness(upper[x]) + brightness(lower[x]);
         for (std::size_t x = 0; x < width; ++x) of_cells[x] = of_columns[x] + of_columns[(x + 1) % width];
-        share_out(of_cells, std::span(tables.cell_ends).subspan(std::size_t{band} * width, width));
+        share_out(of_cells, std::span(scene.environment_cell_ends).subspan(std::size_t{band} * width, width));
 
         const std::uint32_t from_pole = std::min(band, height - band);
-        const double extent = tables.borders[from_pole + 1] - tables.borders[from_pole];  // of the sphere, 1
+        // of the sphere, whose area is 1
+        const double extent = scene.environment_borders[from_pole + 1] - scene.environment_borders[from_pole];
         of_bands.push_back(std::accumulate(of_cells.begin(), of_cells.end(), 0.0) * extent);
-        tables.mean_radiance += (sum_of(upper) + sum_of(lower)) * (extent / (2.0 * width));
     }
-    share_out(of_bands, tables.band_ends);
-    return tables;
+    share_out(of_bands, scene.environment_band_ends);
 }
 
-void add_environment_picture(PreparedScene& scene, const EnvironmentImage& image) {
+}  // namespace
+
+void prepare_environment(const EnvironmentImage& image, PreparedScene& scene) {
+    const DefaultFpEnvironment guard;
     const FloatImage& picture = image.picture;
     const auto width = static_cast<std::uint32_t>(picture.width), height = static_cast<std::uint32_t>(picture.height);
     scene.environment_picture = {image.rotation / (2 * pi), width, height, image.intensity};
     scene.environment_texels = picture.pixels;
-    EnvironmentTables tables = make_environment_tables(width, height, picture.pixels);
-    scene.environment_borders = std::move(tables.borders);
-    scene.environment_band_ends = std::move(tables.band_ends);
-    scene.environment_cell_ends = std::move(tables.cell_ends);
-}
-
-EnvironmentPictureView view_of(const EnvironmentPicture& picture, std::span<const Vec3f> texels,
-                               const EnvironmentTables& tables) {
-    return {picture, texels.data(), tables.borders.data(), tables.band_ends.data(), tables.cell_ends.data()};
+    scene.environment_borders = band_borders(height);
+    set_probabilities(scene);
 }
 
 }  // namespace tandem
