@@ -10,6 +10,7 @@
 
 #include "output.h"
 #include "ray_sets.h"
+#include "second_rays.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/gltf/load_scene.h"
@@ -23,39 +24,6 @@ namespace {
 
 /// From this number on growth is judged: with fewer primitives the set-up of a ray dominates.
 constexpr double first_judged = 1000;
-
-/// Rays of one set, as a job needs them.
-struct Rays {
-    std::vector<Ray<float>> rays;
-    std::vector<RaySource> sources;
-    std::vector<RayEnd> ends;
-
-    [[nodiscard]] TraceJob job(std::vector<Hit>& hits, RenderCounters& counters) const {
-        return {.rays = rays, .hits = hits, .sources = sources, .ends = ends, .counters = &counters};
-    }
-};
-
-/// The rays of a second vertex: from where `first` hit, in random directions on the side that it came from, or towards
-/// one point light. A ray that missed gives a random ray.
-Rays second_rays(const std::vector<Ray<float>>& first, const std::vector<Hit>& hits, int edge, bool shadow) {
-    const Vec3d light = {0.8, 3, 2};
-    Rays result{make_rays(RaySet::random, edge), {}, {}};
-    result.sources.resize(first.size());
-    if (shadow) result.ends.resize(first.size(), {1, no_primitive});
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        if (hits[i].primitive == no_primitive) continue;
-        const Vec3d way = widen(first[i].direction);
-        const Vec3d point = widen(first[i].origin) + way * double{hits[i].t};
-        Vec3d direction = light - point;
-        if (!shadow) {
-            direction = widen(result.rays[i].direction);
-            if (dot(direction, way) > 0) direction = -direction;
-        }
-        result.rays[i] = {narrow(point), narrow(direction)};
-        result.sources[i].primitive = hits[i].primitive;
-    }
-    return result;
-}
 
 /// A backend with a number of threads; one line of every plot.
 struct Contender {
@@ -129,7 +97,7 @@ class KindScale {
         log_progress(fmt::format("scale: {}", name));
         // the rays are made in world space
         const PreparedScene scene = prepare(load_scene(name), {0, {}, Vec3d{0, 0, 0}});
-        std::map<std::string, Rays> sets;
+        std::map<std::string, RaysToTrace> sets;
         std::map<std::string, std::vector<Hit>> first_hits;
         for (const Contender& contender : contenders_) {
             const auto resident = contender.backend->load(scene, parse_tier(options_.tier));
@@ -164,7 +132,8 @@ class KindScale {
     }
 
     /// The rays of a second vertex start where the first contender finds the coherent ones to hit.
-    void make_sets(const Contender& contender, ResidentScene& resident, std::map<std::string, Rays>& sets) const {
+    void make_sets(const Contender& contender, ResidentScene& resident,
+                   std::map<std::string, RaysToTrace>& sets) const {
         const std::vector<Ray<float>> coherent = make_rays(RaySet::coherent, options_.ray_edge);
         std::vector<Hit> hits(coherent.size());
         (void)contender.backend->trace(resident, {.rays = coherent, .hits = hits});

@@ -10,7 +10,7 @@
 namespace tandem::bench {
 
 /// The target for rendering's share of the wall-clock time.
-inline constexpr double least_render_share = 0.8;
+inline constexpr double least_render_share = 0.95;
 
 enum class SequenceOutput {
     none,      ///< films are discarded
