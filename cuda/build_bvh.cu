@@ -57,7 +57,7 @@ class Builder {
     void reserve() {
         Arena arena;
         const std::size_t n = count_;
-        const auto bounds = arena.add<OrderedBounds>(1);
+        const auto bounds = arena.add<OrderedBounds>(1), states = arena.add<MergeState>(2);
         const auto nodes = arena.add<BuildNode>(2 * n), forests = arena.add<Forests>(2 * n);
         const auto parents = arena.add<std::uint32_t>(2 * n);
         const auto codes = arena.add<std::uint64_t>(std::max(2 * n, 3 * std::size_t{effort_.top_clusters}));
@@ -76,11 +76,12 @@ class Builder {
         cub_bytes_ = sort_bytes > scan_bytes ? sort_bytes : scan_bytes;
         const auto cub_memory = arena.add<std::byte>(cub_bytes_);
         memory_.scratch.reserve(arena.bytes());
-        word_.reserve(sizeof(OrderedBounds));
+        memory_.word.reserve(sizeof(OrderedBounds));
         const auto at = [&]<class T>(std::size_t offset, T*& pointer) {
             pointer = reinterpret_cast<T*>(memory_.scratch.data() + offset);
         };
         at(bounds, device_bounds_);
+        at(states, states_);
         at(nodes, tree_.nodes);
         at(forests, tree_.of);
         at(parents, tree_.parents);
@@ -102,10 +103,10 @@ class Builder {
     /// A value from GPU memory.
     template <class T>
     T fetch(const T* from) {
-        check(cudaMemcpyAsync(word_.data(), from, sizeof(T), cudaMemcpyDeviceToHost, stream_), doing);
+        check(cudaMemcpyAsync(memory_.word.data(), from, sizeof(T), cudaMemcpyDeviceToHost, stream_), doing);
         check(cudaStreamSynchronize(stream_), doing);
         T value;
-        std::memcpy(&value, word_.data(), sizeof(T));
+        std::memcpy(&value, memory_.word.data(), sizeof(T));
         return value;
     }
 
@@ -138,32 +139,37 @@ class Builder {
               doing);
     }
 
-    /// Exclusive sums of `count` + 1 elements; returns the last, which is the sum of all.
-    Counts sum(std::uint32_t count) {
-        Counts* to = sums_ + count_ + 1;
-        check(cub::DeviceScan::ExclusiveSum(cub_memory_, cub_bytes_, sums_, to, static_cast<int>(count + 1), stream_),
+    /// Exclusive sums of `count` + 1 elements, of which the last is the sum of all.
+    void scan(std::uint32_t count) {
+        check(cub::DeviceScan::ExclusiveSum(cub_memory_, cub_bytes_, sums_, sums_ + count_ + 1,
+                                            static_cast<int>(count + 1), stream_),
               doing);
-        return fetch(to + count);
     }
     [[nodiscard]] const Counts* summed() const { return sums_ + count_ + 1; }
 
     void merge_clusters() {
-        std::uint32_t clusters = count_, nodes = count_;
+        MergeState state = {count_, count_};
+        check(cudaMemcpyAsync(states_, &state, sizeof(state), cudaMemcpyHostToDevice, stream_), doing);
         std::uint32_t *list = lists_, *next = lists_ + count_;
-        for (int round = 0; clusters > effort_.top_clusters; ++round) {
-            if (round + rounds_of_halving(clusters) < max_bvh_depth) {
-                run_kernel(nearest_kernel, clusters, tree_.nodes, list, clusters, nearest_);
+        MergeState *now = states_, *then = states_ + 1;
+        for (int round = 0; state.clusters > effort_.top_clusters; ++round) {
+            const std::uint32_t most = state.clusters, enough = effort_.top_clusters;
+            if (round + rounds_of_halving(most) < max_bvh_depth) {
+                run_kernel(effort_.far ? nearest_kernel<12> : nearest_kernel<8>, most, tree_.nodes, list, now, enough,
+                           nearest_);
             } else {
-                run_kernel(neighbours_kernel, clusters, clusters, nearest_);
+                run_kernel(neighbours_kernel, most, now, enough, nearest_);
             }
-            run_kernel(merge_counts_kernel, clusters + 1, nearest_, clusters, sums_);
-            const Counts total = sum(clusters);
-            run_kernel(merge_kernel, clusters, tree_, nearest_, summed(), clusters, nodes, list, next);
-            nodes += high_of(total);
-            clusters = low_of(total);
+            run_kernel(merge_counts_kernel, most + 1, nearest_, now, most, sums_);
+            scan(most);
+            run_kernel(merge_kernel, most, tree_, nearest_, summed(), most, now, then, list, next);
             std::swap(list, next);
+            std::swap(now, then);
+            // short rounds follow each other without a look at the number of clusters
+            if (most > long_round || round % rounds_per_look == 0) state = fetch(now);
         }
-        if (clusters > 1) nodes = build_top(list, clusters, nodes, next);
+        std::uint32_t nodes = state.nodes;
+        if (state.clusters > 1) nodes = build_top(list, state.clusters, nodes, next);
         root_ = nodes - 1;
         check(cudaMemsetAsync(tree_.parents + root_, 0xFF, sizeof(std::uint32_t), stream_), doing);
     }
@@ -246,12 +252,14 @@ class Builder {
 
     void plan_nodes() {
         climb(climb_kernel<true>);
-        const WidePlan root = {root_, 0, 0};
+        WidePlan root{};
+        root.child[0] = root_;
         check(cudaMemcpyAsync(plans_, &root, sizeof(root), cudaMemcpyHostToDevice, stream_), doing);
         std::uint32_t begin = 0, end = 1, entries = 0;
         while (begin < end) {
-            run_kernel(child_counts_kernel, end - begin + 1, tree_, plans_ + begin, end - begin, sums_);
-            const Counts total = sum(end - begin);
+            run_kernel(find_children_kernel, end - begin + 1, tree_, plans_ + begin, end - begin, sums_);
+            scan(end - begin);
+            const Counts total = fetch(summed() + (end - begin));
             run_kernel(place_children_kernel, end - begin, tree_, plans_, begin, end, entries, summed());
             begin = end;
             end += high_of(total);
@@ -291,18 +299,20 @@ class Builder {
     static constexpr const char* doing = "building a BVH";
     static constexpr int code_bits = 63;
     static constexpr std::uint32_t most_bound_threads = 1U << 18;
+    static constexpr std::uint32_t long_round = 1U << 19;  ///< clusters
+    static constexpr int rounds_per_look = 4;
 
     SceneView scene_;
     std::uint32_t count_;
     BuildEffort effort_;
     BuildMemory& memory_;
     cudaStream_t stream_;
-    Buffer<PinnedMemory> word_;
     BuiltBvh built_{};
     Aabb bounds_;
     double whole_ = 0;
     std::uint32_t root_ = 0;
     OrderedBounds* device_bounds_ = nullptr;
+    MergeState* states_ = nullptr;  ///< before a round, and after it
     BuildTree tree_{};
     std::uint64_t* codes_ = nullptr;  ///< two arrays
     std::uint32_t* lists_ = nullptr;  ///< two arrays
@@ -320,7 +330,7 @@ BuiltBvh build_bvh(const SceneView& scene, BuildMemory& memory, cudaStream_t str
     check_bvh_size(primitive_count(scene));
     const BuiltBvh built = Builder(scene, memory, stream, effort).run();
     // the top and moves may make a tree deeper than rays can walk
-    return built.levels <= max_bvh_depth ? built : Builder(scene, memory, stream, {1, 0}).run();
+    return built.levels <= max_bvh_depth ? built : Builder(scene, memory, stream, {1, 0, false}).run();
 }
 
 }  // namespace tandem::cuda

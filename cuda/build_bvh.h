@@ -20,17 +20,19 @@ struct BuiltBvh {
 struct BuildEffort {
     std::uint32_t top_clusters;  ///< so many clusters are joined from the top down, on the host; 1: none
     int passes;                  ///< how often subtrees move to better places
+    bool far;                    ///< clusters look for the nearest within 12 places of the curve, else within 8
 };
 
 /// For a scene of that many primitives. Chosen by measurement (docs/performance.md).
 [[nodiscard]] constexpr BuildEffort effort_for(std::uint32_t primitives) {
-    return primitives <= 2'000'000 ? BuildEffort{4096, 8} : BuildEffort{1024, 0};
+    return primitives <= 2'000'000 ? BuildEffort{4096, 8, true} : BuildEffort{512, 0, false};
 }
 
 /// What a build needs of GPU memory.
 struct BuildMemory {
     Buffer<DeviceMemory> tree;     ///< receives the BVH
-    Buffer<DeviceMemory> scratch;  ///< about 190 bytes a primitive; free after the build
+    Buffer<DeviceMemory> scratch;  ///< about 200 bytes a primitive; free after the build
+    Buffer<PinnedMemory> word;     ///< for single values that the host reads
 };
 
 /// Builds the BVH of a scene whose arrays are in GPU memory. Waits for the stream.

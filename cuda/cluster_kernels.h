@@ -8,7 +8,6 @@
 namespace tandem::cuda {
 
 inline constexpr unsigned int build_block = 256;  ///< threads
-inline constexpr int merge_radius = 12;           ///< places on the curve, to either side
 
 // Floats as integers of the same order, for atomic minima and maxima.
 __host__ __device__ inline std::uint32_t ordered_bits(float a) {
@@ -77,33 +76,55 @@ static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, 
     list[place] = place;
 }
 
-/// For each place on the list, the place of the cluster to merge with.
-static __global__ void nearest_kernel(const BuildNode* nodes, const std::uint32_t* list, std::uint32_t count,
-                                      std::uint32_t* nearest) {
-    __shared__ Aabb boxes[build_block + 2 * merge_radius];
-    const std::int64_t start = std::int64_t{blockIdx.x} * build_block - merge_radius;
-    for (unsigned int i = threadIdx.x; i < build_block + 2 * merge_radius; i += build_block) {
-        const std::int64_t place = start + i;
-        if (place >= 0 && place < count) boxes[i] = nodes[list[place]].box;
+/// How far merging has come. On the GPU, so that the host need not wait for it after each round.
+struct MergeState {
+    std::uint32_t clusters;  ///< on the list
+    std::uint32_t nodes;     ///< made so far, with the leaves
+};
+
+/// For each place on the list, the place of the cluster to merge with, at most `radius` places away; its own if no more
+/// than `enough` clusters are left.
+template <int radius>
+__global__ void nearest_kernel(const BuildNode* nodes, const std::uint32_t* list, const MergeState* state,
+                               std::uint32_t enough, std::uint32_t* nearest) {
+    const std::uint32_t count = state->clusters;
+    if (blockIdx.x * build_block >= count) return;
+    if (count <= enough) {
+        if (thread_number() < count) nearest[thread_number()] = thread_number();
+        return;
+    }
+    constexpr int length = build_block + 2 * radius;
+    __shared__ float sides[6][length];  // not Aabb, whose length shares banks
+    const int start = static_cast<int>(blockIdx.x * build_block) - radius;
+    for (int i = static_cast<int>(threadIdx.x); i < length; i += build_block) {
+        const int place = start + i;
+        const bool is_there = place >= 0 && static_cast<std::uint32_t>(place) < count;
+        // an infinite area is never the smallest
+        const float far = __int_as_float(0x7F800000);
+        const Aabb box = is_there ? nodes[list[place]].box : Aabb{{0, 0, 0}, {far, far, far}};
+        const float of_box[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+        for (int side = 0; side < 6; ++side) sides[side][i] = of_box[side];
     }
     __syncthreads();
     const std::uint32_t place = thread_number();
     if (place >= count) return;
-    const Aabb own = boxes[threadIdx.x + merge_radius];
-    std::uint64_t least = ~std::uint64_t{0};
-    std::uint32_t best = place;
-    for (int offset = -merge_radius; offset <= merge_radius; ++offset) {
-        const std::int64_t other = std::int64_t{place} + offset;
-        if (offset == 0 || other < 0 || other >= count) continue;
-        const auto at = static_cast<std::uint32_t>(other);
-        const float area = half_area(merge(own, boxes[static_cast<int>(threadIdx.x) + merge_radius + offset]));
-        const std::uint64_t key = std::uint64_t{bits_of(area)} << 32 | (place ^ at);
-        if (key < least) {
-            least = key;
-            best = at;
+    const int own_at = static_cast<int>(threadIdx.x) + radius;
+    const auto box_at = [&](int i) {
+        return Aabb{{sides[0][i], sides[1][i], sides[2][i]}, {sides[3][i], sides[4][i], sides[5][i]}};
+    };
+    const Aabb own = box_at(own_at);
+    float least = __int_as_float(0x7F800000);
+    std::uint32_t least_difference = 0xFFFFFFFFU;
+    for (int offset = -radius; offset <= radius; ++offset) {
+        if (offset == 0) continue;
+        const float area = half_area(merge(own, box_at(own_at + offset)));
+        const std::uint32_t difference = place ^ (place + static_cast<std::uint32_t>(offset));
+        if (area < least || (area == least && difference < least_difference)) {
+            least = area;
+            least_difference = difference;
         }
     }
-    nearest[place] = best;
+    nearest[place] = place ^ least_difference;
 }
 
 static __global__ void gather_boxes_kernel(const BuildNode* nodes, const std::uint32_t* list, std::uint32_t count,
@@ -119,11 +140,11 @@ static __global__ void set_parents_kernel(const std::uint32_t* list, const std::
 }
 
 /// Neighbours, whatever their areas.
-static __global__ void neighbours_kernel(std::uint32_t count, std::uint32_t* nearest) {
-    const std::uint32_t place = thread_number();
+static __global__ void neighbours_kernel(const MergeState* state, std::uint32_t enough, std::uint32_t* nearest) {
+    const std::uint32_t place = thread_number(), count = state->clusters;
     if (place >= count) return;
     const std::uint32_t other = place ^ 1U;
-    nearest[place] = other < count ? other : place;
+    nearest[place] = other < count && count > enough ? other : place;
 }
 
 __device__ inline bool is_mutual(const std::uint32_t* nearest, std::uint32_t place) {
@@ -131,19 +152,23 @@ __device__ inline bool is_mutual(const std::uint32_t* nearest, std::uint32_t pla
     return other != place && nearest[other] == place;
 }
 
-/// High: places that become a node with another one; low: places that stay on the list. One more element for the sum.
-static __global__ void merge_counts_kernel(const std::uint32_t* nearest, std::uint32_t count, Counts* sums) {
-    const std::uint32_t place = thread_number();
-    if (place > count) return;
+/// High: places that become a node with another one; low: places that stay on the list. `most`: at least the number of
+/// clusters; one more element than that, for the sum.
+static __global__ void merge_counts_kernel(const std::uint32_t* nearest, const MergeState* state, std::uint32_t most,
+                                           Counts* sums) {
+    const std::uint32_t place = thread_number(), count = state->clusters;
+    if (place > most) return;
     const bool mutual = place < count && is_mutual(nearest, place);
     const bool is_first = place < count && place < nearest[place];
-    sums[place] = place == count ? 0 : counts(mutual && is_first ? 1 : 0, mutual && !is_first ? 0 : 1);
+    sums[place] = place >= count ? 0 : counts(mutual && is_first ? 1 : 0, mutual && !is_first ? 0 : 1);
 }
 
+/// Sets the state after this round.
 static __global__ void merge_kernel(BuildTree tree, const std::uint32_t* nearest, const Counts* sums,
-                                    std::uint32_t count, std::uint32_t first_node, const std::uint32_t* list,
-                                    std::uint32_t* next_list) {
-    const std::uint32_t place = thread_number();
+                                    std::uint32_t most, const MergeState* state, MergeState* next_state,
+                                    const std::uint32_t* list, std::uint32_t* next_list) {
+    const std::uint32_t place = thread_number(), count = state->clusters, first_node = state->nodes;
+    if (place == 0) *next_state = {low_of(sums[most]), first_node + high_of(sums[most])};
     if (place >= count) return;
     const bool mutual = is_mutual(nearest, place);
     const std::uint32_t other = nearest[place];

@@ -7,20 +7,24 @@
 
 namespace tandem::cuda {
 
-/// A node of four children before its children have places.
-struct WidePlan {
-    std::uint32_t root;  ///< the binary node that it replaces
+/// A node of four children before it is written.
+struct alignas(8) WidePlan {
+    std::uint32_t child[bvh_width];  ///< binary nodes, or no_binary_node; at first only the one that it replaces
     std::int32_t first_inner, first_entry;
 };
+inline constexpr std::uint32_t no_binary_node = 0xFFFFFFFFU;
 
-/// High: inner children; low: leaves. One more element for the sum.
-static __global__ void child_counts_kernel(BuildTree tree, const WidePlan* level, std::uint32_t count, Counts* sums) {
+/// Finds the children of a level, and counts them. High: inner children; low: leaves. One more element for the sum.
+static __global__ void find_children_kernel(BuildTree tree, WidePlan* level, std::uint32_t count, Counts* sums) {
     const std::uint32_t i = thread_number();
     if (i > count) return;
     std::uint32_t inner = 0, leaves = 0;
     if (i < count) {
-        const WideChildren children = wide_children(tree, level[i].root);
-        for (int k = 0; k < children.count; ++k) ++(tree.is_leaf(children.node[k]) ? leaves : inner);
+        const WideChildren children = wide_children(tree, level[i].child[0]);
+        for (int k = 0; k < bvh_width; ++k) {
+            level[i].child[k] = k < children.count ? children.node[k] : no_binary_node;
+            if (k < children.count) ++(tree.is_leaf(children.node[k]) ? leaves : inner);
+        }
     }
     sums[i] = counts(inner, leaves);
 }
@@ -34,9 +38,8 @@ static __global__ void place_children_kernel(BuildTree tree, WidePlan* nodes, st
     std::uint32_t inner = end + high_of(sums[i]);
     plan.first_inner = static_cast<std::int32_t>(inner);
     plan.first_entry = static_cast<std::int32_t>(entries + low_of(sums[i]));
-    const WideChildren children = wide_children(tree, plan.root);
-    for (int k = 0; k < children.count; ++k) {
-        if (!tree.is_leaf(children.node[k])) nodes[inner++].root = children.node[k];
+    for (const std::uint32_t child : plan.child) {
+        if (child != no_binary_node && !tree.is_leaf(child)) nodes[inner++].child[0] = child;
     }
 }
 
@@ -61,16 +64,15 @@ static __global__ void nodes_kernel(SceneView scene, BuildTree tree, const WideP
     const std::uint32_t i = thread_number();
     if (i >= count) return;
     const WidePlan plan = plans[i];
-    const WideChildren children = wide_children(tree, plan.root);
     Aabb boxes[bvh_width];
     int inner = 0;
-    for (int k = 0; k < children.count; ++k) {
-        if (!tree.is_leaf(children.node[k])) boxes[inner++] = tree.nodes[children.node[k]].box;
+    for (const std::uint32_t child : plan.child) {
+        if (child != no_binary_node && !tree.is_leaf(child)) boxes[inner++] = tree.nodes[child].box;
     }
     int all = inner;
-    for (int k = 0; k < children.count; ++k) {
-        if (!tree.is_leaf(children.node[k])) continue;
-        const BuildNode& leaf = tree.nodes[children.node[k]];
+    for (const std::uint32_t child : plan.child) {
+        if (child == no_binary_node || !tree.is_leaf(child)) continue;
+        const BuildNode& leaf = tree.nodes[child];
         write_entry(scene, to, static_cast<std::uint32_t>(plan.first_entry + all - inner), leaf.first);
         boxes[all++] = leaf.box;
     }

@@ -69,7 +69,7 @@ class OnGpu {
     [[nodiscard]] const BuiltBvh& built() const { return built_; }
     /// With any effort; empty if there is none.
     [[nodiscard]] std::string defect() {
-        for (const BuildEffort& effort : {BuildEffort{1, 0}, {1, 6}, {16, 1}, {4096, 4}}) {
+        for (const BuildEffort& effort : {BuildEffort{1, 0, false}, {1, 6, true}, {16, 1, false}, {4096, 4, true}}) {
             const Bvh bvh = build(effort);
             std::string found = find_bvh_defect(bvh, view(scene_), built_.view.frame.margin);
             if (built_.levels > max_bvh_depth) found = "too deep";
