@@ -10,10 +10,10 @@
 namespace tandem::cuda {
 
 /// Whether a tracer decides behind its walk, so that the walk can be a kernel of its own.
-template <class Real, class Tracer>
+template <class Tracer>
 inline constexpr bool can_refill = false;
-template <class Real, std::uint32_t kinds>
-inline constexpr bool can_refill<Real, BvhTracerFor<kinds, Decisions::behind_walk>> = !is_fast<Real>;
+template <std::uint32_t kinds>
+inline constexpr bool can_refill<BvhTracerFor<kinds, Decisions::behind_walk>> = true;
 
 /// More would overflow the counter of the queue.
 inline constexpr std::size_t most_queued_rays = std::size_t{1} << 31;

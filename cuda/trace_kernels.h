@@ -13,7 +13,7 @@ namespace tandem::cuda {
 /// Resident blocks per multiprocessor. Where the decisions are behind the walk, it needs fewer registers than they.
 template <class Real, class Tracer>
 inline constexpr unsigned int trace_blocks = [] {
-    if (!can_refill<Real, Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;
+    if (!can_refill<Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;
     if (Tracer::kinds == PrimitiveKinds::sphere) return 10U;
     return Tracer::kinds == PrimitiveKinds::triangle ? 8U : resident_blocks<Real, Tracer>;
 }();
@@ -43,9 +43,11 @@ template <class Real>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
-        if constexpr (can_refill<Real, Tracer>) {
+        if constexpr (can_refill<Tracer>) {
             if (!rays.are_coherent && rays.ends == nullptr && rays.count <= most_queued_rays) {
-                if (rays.sources != nullptr) {
+                if constexpr (is_fast<Real>) {
+                    launch_trace_strict(scene, rays, stream);  // faster than decisions in leaves, even in float alone
+                } else if (rays.sources != nullptr) {
                     trace_with_refill<Real, Ask::nearest_from_surface>(tracer, rays, stream);
                 } else {
                     trace_with_refill<Real, Ask::nearest>(tracer, rays, stream);
