@@ -28,6 +28,9 @@ struct BuildEffort {
     return primitives <= 2'000'000 ? BuildEffort{4096, 8, true} : BuildEffort{512, 0, false};
 }
 
+/// What a hierarchy takes at least while it is built, in bytes of GPU memory per primitive.
+inline constexpr std::size_t build_bytes_per_primitive = 200;
+
 /// What a build needs of GPU memory.
 struct BuildMemory {
     Buffer<DeviceMemory> tree;     ///< receives the BVH

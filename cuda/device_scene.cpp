@@ -1,9 +1,13 @@
 #include "cuda/device_scene.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <functional>
 #include <utility>
 #include <vector>
+
+#include "tandem/base/memory.h"
 
 namespace tandem::cuda {
 
@@ -50,6 +54,17 @@ void release_if_large(Buffer<DeviceMemory>& scratch) {
     if (scratch.capacity() > all / 16) scratch = {};
 }
 
+/// Throws EnvironmentError, before the upload, if the GPU cannot hold a scene with arrays of `bytes`.
+void require_room(const SceneMemory& memory, std::size_t bytes, std::size_t primitives) {
+    if (primitives < (std::size_t{1} << 20)) return;  // asking takes time
+    std::size_t free = 0, all = 0;
+    check(cudaMemGetInfo(&free, &all), "asking for the GPU's memory");
+    const std::size_t ours = memory.device.capacity() + memory.bvh.tree.capacity() + memory.bvh.scratch.capacity();
+    const std::size_t for_hierarchy = primitives > loop_limit ? primitives * build_bytes_per_primitive : 0;
+    require_memory(bytes + for_hierarchy, free + ours, fmt::format("the scene of {} primitives", primitives),
+                   "GPU memory");
+}
+
 }  // namespace
 
 DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
@@ -70,6 +85,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 #undef TANDEM_TEXTURE_ARRAY
     }
     bytes_ = layout.bytes();
+    require_room(*memory_, bytes_, primitive_count(scene));
     memory_->device.reserve(bytes_);
     memory_->staging.reserve(bytes_);
     layout.place(memory_->staging.data(), memory_->device.data());

@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include "tandem/base/error.h"
+#include "tandem/base/memory.h"
 #include "tandem/compile/area_lights.h"
 #include "tandem/compile/cutout_kinds.h"
 #include "tandem/compile/derive.h"
@@ -168,7 +169,7 @@ class Preparer {
 
   private:
     /// Reserves memory for spheres and boxes, which may become either of two kinds. Untouched memory costs nothing.
-    /// Throws InputError if the scene has too many primitives.
+    /// Throws InputError if the scene has too many primitives, and EnvironmentError if the memory cannot hold them.
     void reserve_solids() {
         std::size_t count = 0, spheres = 0, boxes = 0;
         for (const Node& node : scene_.nodes) {
@@ -183,6 +184,10 @@ class Preparer {
             throw InputError(
                 fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
         }
+        // of each kind the smaller primitive, in double and in float; then material and node
+        const std::size_t bytes = spheres * (sizeof(Ball) + sizeof(Sphere)) + boxes * (sizeof(Block) + sizeof(Box)) +
+                                  (count - spheres - boxes) * sizeof(Triangle) + 2 * count * sizeof(std::uint32_t);
+        require_memory(bytes, fmt::format("the scene of {} primitives", count));
         balls_.reserve(spheres);
         placed_balls_.reserve(spheres);
         spheres_.reserve(spheres);

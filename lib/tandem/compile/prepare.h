@@ -32,7 +32,8 @@ void check(const Scene& scene);
 ///
 /// The result is one instant: a frame with motion blur combines several (render/motion_blur.h). Their times are not
 /// rounded, unlike that of a frame.
-/// Throws InputError as check() does, and if the camera is missing.
+/// Throws InputError as check() does, and if the camera is missing; EnvironmentError if the memory cannot hold the
+/// scene.
 [[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
 
 }  // namespace tandem

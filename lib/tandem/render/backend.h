@@ -56,7 +56,8 @@ class Backend {
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual Capabilities capabilities() const = 0;
 
-    /// Loads the scene into the backend's memory. Buffers of released scenes are reused.
+    /// Loads the scene into the backend's memory. Buffers of released scenes are reused. Throws EnvironmentError,
+    /// before it builds anything, if the memory cannot hold the scene.
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
     /// Finds the nearest hits of rays in front of their origins (t > 0), or whether shadow rays are blocked

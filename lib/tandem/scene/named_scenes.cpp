@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "tandem/base/error.h"
+#include "tandem/base/memory.h"
 #include "tandem/kernel/sampler/philox.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
@@ -237,6 +238,12 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
     return value;
 }
 
+/// What a primitive of such a scene takes at least, here and in prepare().
+std::size_t least_bytes(std::string_view kind) {
+    if (kind == "triangles" || kind == "quads") return 128;
+    return sizeof(Trs) + (kind == "spheres" ? 80 : 300);  // turned boxes and ellipsoids have matrices
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     while (true) {
@@ -268,6 +275,8 @@ Scene named_scene(std::string_view name) {
         const auto seed = parts.size() == 3 ? parse_count(parts[2], 0xFFFFFFFFU) : std::optional<std::uint32_t>(1);
         const std::string full(name);
         if (count && seed) {
+            // refused before the time is spent
+            require_memory(*count * least_bytes(parts[0]), fmt::format("the scene {}", name));
             if (parts[0] == "spheres") return random_crowd(full, *count, *seed, {true, false, false, false});
             if (parts[0] == "boxes") return random_crowd(full, *count, *seed, {false, false, false, true});
             if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
