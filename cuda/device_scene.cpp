@@ -47,8 +47,11 @@ class Layout {
     std::size_t bytes_ = 0;
 };
 
+constexpr std::size_t much_memory = std::size_t{1} << 28;
+
 /// Memory that the next frame needs again is kept unless it is much of what the GPU has.
 void release_if_large(Buffer<DeviceMemory>& scratch) {
+    if (scratch.capacity() < much_memory) return;  // asking takes time
     std::size_t free = 0, all = 0;
     check(cudaMemGetInfo(&free, &all), "asking for the GPU's memory");
     if (scratch.capacity() > all / 16) scratch = {};
@@ -56,11 +59,11 @@ void release_if_large(Buffer<DeviceMemory>& scratch) {
 
 /// Throws EnvironmentError, before the upload, if the GPU cannot hold a scene with arrays of `bytes`.
 void require_room(const SceneMemory& memory, std::size_t bytes, std::size_t primitives) {
-    if (primitives < (std::size_t{1} << 20)) return;  // asking takes time
+    const std::size_t for_hierarchy = primitives > loop_limit ? primitives * build_bytes_per_primitive : 0;
+    if (bytes + for_hierarchy < much_memory) return;
     std::size_t free = 0, all = 0;
     check(cudaMemGetInfo(&free, &all), "asking for the GPU's memory");
     const std::size_t ours = memory.device.capacity() + memory.bvh.tree.capacity() + memory.bvh.scratch.capacity();
-    const std::size_t for_hierarchy = primitives > loop_limit ? primitives * build_bytes_per_primitive : 0;
     require_memory(bytes + for_hierarchy, free + ours, fmt::format("the scene of {} primitives", primitives),
                    "GPU memory");
 }
@@ -102,11 +105,11 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     if (primitive_count(scene) > loop_limit) {
         const auto count = static_cast<std::uint32_t>(primitive_count(scene));
         const BuiltBvh built = build_bvh(view_.scene, memory_->bvh, stream.get(), effort_for(count));
-        release_if_large(memory_->bvh.scratch);
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;
     }
     memory_->build_end.record(stream.get());
+    release_if_large(memory_->bvh.scratch);
 }
 
 PhaseTimes DeviceScene::load_times() const {

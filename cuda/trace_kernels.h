@@ -39,26 +39,39 @@ __global__ void __launch_bounds__(block_threads, trace_blocks<Real, Tracer>)
     }
 }
 
+/// One ray a thread.
+template <class Real, Ask ask, class Tracer>
+void launch_one(const Tracer& tracer, const DeviceRays& rays, cudaStream_t stream) {
+    launch("tracing rays", trace_kernel<Real, ask, Tracer>, blocks_for(rays.count, block_threads), block_threads,
+           stream, tracer, rays);
+}
+
+/// Nearest hits. Incoherent rays are traced by two kernels.
+template <class Real, Ask ask, class Tracer>
+void launch_nearest(const Tracer& tracer, const DeviceRays& rays, cudaStream_t stream) {
+    if constexpr (can_refill<Tracer>) {
+        if (!rays.are_coherent && rays.count <= most_queued_rays) {
+            return trace_with_refill<Real, ask>(tracer, rays, stream);
+        }
+    }
+    launch_one<Real, ask>(tracer, rays, stream);
+}
+
 template <class Real>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
-        if constexpr (can_refill<Tracer>) {
-            if (!rays.are_coherent && rays.ends == nullptr && rays.count <= most_queued_rays) {
-                if constexpr (is_fast<Real>) {
-                    launch_trace_strict(scene, rays, stream);  // faster than decisions in leaves, even in float alone
-                } else if (rays.sources != nullptr) {
-                    trace_with_refill<Real, Ask::nearest_from_surface>(tracer, rays, stream);
-                } else {
-                    trace_with_refill<Real, Ask::nearest>(tracer, rays, stream);
-                }
-                return;
-            }
+        if (rays.ends != nullptr) {
+            launch_one<Real, Ask::occluded>(tracer, rays, stream);
+        } else if constexpr (is_fast<Real> && can_refill<Tracer>) {
+            // Decisions in leaves are slower for incoherent rays even in float alone, and the hits of a ray must not
+            // depend on the others that it is traced with.
+            launch_trace_strict(scene, rays, stream);
+        } else if (rays.sources != nullptr) {
+            launch_nearest<Real, Ask::nearest_from_surface>(tracer, rays, stream);
+        } else {
+            launch_nearest<Real, Ask::nearest>(tracer, rays, stream);
         }
-        auto* kernel = rays.ends != nullptr      ? trace_kernel<Real, Ask::occluded, Tracer>
-                       : rays.sources != nullptr ? trace_kernel<Real, Ask::nearest_from_surface, Tracer>
-                                                 : trace_kernel<Real, Ask::nearest, Tracer>;
-        launch("tracing rays", kernel, blocks_for(rays.count, block_threads), block_threads, stream, tracer, rays);
     });
 }
 
