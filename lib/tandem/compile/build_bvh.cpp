@@ -37,9 +37,9 @@ class WeighedTree {
     std::vector<Forests> forests_;
 };
 
-class Builder {
+class BvhBuilder {
   public:
-    Builder(const SceneView& scene, float margin)
+    BvhBuilder(const SceneView& scene, float margin)
         : scene_(scene), tree_(build_binary_tree(scene, margin)), weighed_(tree_) {}
 
     Bvh run() {
@@ -103,7 +103,7 @@ void check_bvh_size(std::uint32_t primitives) {
 
 Bvh build_bvh(const SceneView& scene, float margin) {
     check_bvh_size(primitive_count(scene));
-    return Builder(scene, margin).run();
+    return BvhBuilder(scene, margin).run();
 }
 
 }  // namespace tandem

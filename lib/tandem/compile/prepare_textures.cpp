@@ -53,9 +53,9 @@ bool has_picture(const MaterialTextures& m) {
            m.metallic_roughness.texture != no_texture || m.colour_slot != no_slot;
 }
 
-class Preparer {
+class TexturePreparer {
   public:
-    Preparer(const Scene& scene, PreparedScene& prepared)
+    TexturePreparer(const Scene& scene, PreparedScene& prepared)
         : scene_(scene),
           prepared_(prepared),
           phong_(prepared.materials),
@@ -279,6 +279,6 @@ bool has_colours(const PreparedTextures& textures, const TextureUse& use) {
                         [](std::uint32_t t) { return (t & rgb) == rgb; });
 }
 
-void prepare_textures(const Scene& scene, PreparedScene& prepared) { Preparer(scene, prepared).run(); }
+void prepare_textures(const Scene& scene, PreparedScene& prepared) { TexturePreparer(scene, prepared).run(); }
 
 }  // namespace tandem
