@@ -17,20 +17,20 @@ namespace tandem::bench {
 namespace {
 
 /// One contender's frame of one scene.
-struct Outcome {
+struct FrameOutcome {
     BenchmarkRow row;
     Film film;
 };
 
-std::vector<Outcome> measure(const AccuracyOptions& options, const AccuracyStage& stage, const std::string& name) {
+std::vector<FrameOutcome> measure(const AccuracyOptions& options, const AccuracyStage& stage, const std::string& name) {
     log_progress(fmt::format("{}: {} rounds of {} contenders", name, options.repetitions, stage.entries.size()));
     const Scene scene = load_scene(name, nullptr, {.aspect = aspect_of(options.size)});
-    std::vector<Outcome> outcomes;
+    std::vector<FrameOutcome> outcomes;
     const auto job_of = [&](Tier tier) {
         return RenderJob{options.size.width, options.size.height, options.samples, options.seed, 0, tier};
     };
     for (const AccuracyStage::Entry& entry : stage.entries) {
-        Outcome& o = outcomes.emplace_back();
+        FrameOutcome& o = outcomes.emplace_back();
         o.row.label = entry.name.label();
         o.row.scene = name;
         o.row.backend = entry.name.backend;
@@ -49,19 +49,19 @@ std::vector<Outcome> measure(const AccuracyOptions& options, const AccuracyStage
 }
 
 /// The first film of a tier.
-const Film* film_of(const std::vector<Outcome>& outcomes, Tier tier) {
-    for (const Outcome& o : outcomes) {
+const Film* film_in(const std::vector<FrameOutcome>& outcomes, Tier tier) {
+    for (const FrameOutcome& o : outcomes) {
         if (o.row.tier == to_string(tier)) return &o.film;
     }
     return nullptr;
 }
 
 /// False if two films of an exact tier differ.
-bool equal_where_promised(const std::vector<Outcome>& outcomes, Report& report) {
+bool equal_where_promised(const std::vector<FrameOutcome>& outcomes, Report& report) {
     bool equal = true;
     for (const Tier tier : {Tier::strict, Tier::precise}) {
-        const Film* first = film_of(outcomes, tier);
-        for (const Outcome& o : outcomes) {
+        const Film* first = film_in(outcomes, tier);
+        for (const FrameOutcome& o : outcomes) {
             if (o.row.tier != to_string(tier)) continue;
             const std::size_t differing = compare(*first, o.film).differing_sums;
             if (differing == 0) continue;
@@ -92,11 +92,11 @@ bool accuracy_of_frames(const AccuracyOptions& options, const AccuracyStage& sta
         {}};
     bool equal = true;
     for (const std::string& name : options.scenes) {
-        std::vector<Outcome> outcomes = measure(options, stage, name);
+        std::vector<FrameOutcome> outcomes = measure(options, stage, name);
         equal = equal_where_promised(outcomes, report) && equal;
         std::map<std::string, double> fastest = fastest_medians(outcomes);
-        const Film* reference = film_of(outcomes, Tier::precise);
-        for (Outcome& o : outcomes) {
+        const Film* reference = film_in(outcomes, Tier::precise);
+        for (FrameOutcome& o : outcomes) {
             std::vector<std::string> cells = {name,
                                               o.row.label,
                                               format_summary(summarize(o.row.seconds)),
@@ -117,7 +117,7 @@ bool accuracy_of_frames(const AccuracyOptions& options, const AccuracyStage& sta
             }
             table.rows.push_back(std::move(cells));
         }
-        for (Outcome& o : outcomes) report.rows.push_back(std::move(o.row));
+        for (FrameOutcome& o : outcomes) report.rows.push_back(std::move(o.row));
     }
     report.blocks.emplace_back(Heading{"A frame"});
     report.blocks.emplace_back(std::move(table));

@@ -49,7 +49,7 @@ RayErrors compare(const Answers& answers, const std::vector<OracleHit>& truth) {
     return errors;
 }
 
-struct Outcome {
+struct RaysOutcome {
     BenchmarkRow row;
     std::shared_ptr<ResidentScene> resident;
     Answers answers;
@@ -73,9 +73,9 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
     for (int i = 0; i < std::min(options.checked_rays, options.rays); ++i) {
         truth.push_back(oracle_trace(kind.scene, kind.rays[static_cast<std::size_t>(i)]));
     }
-    std::vector<Outcome> outcomes;
+    std::vector<RaysOutcome> outcomes;
     for (const AccuracyStage::Entry& entry : stage.entries) {
-        Outcome& o = outcomes.emplace_back();
+        RaysOutcome& o = outcomes.emplace_back();
         o.row.label = entry.name.label();
         o.row.scene = fmt::format("{}, {}", kind.kind, difficulty);
         o.row.backend = entry.name.backend;
@@ -94,7 +94,7 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
     std::vector<Hit> scratch(kind.rays.size());
     for (int round = 0; round < options.repetitions; ++round) {
         for (const std::size_t i : interleaved_order(outcomes.size(), static_cast<std::size_t>(round))) {
-            Outcome& o = outcomes[i];
+            RaysOutcome& o = outcomes[i];
             o.row.seconds.push_back(stage.entries[i].backend->trace(*o.resident, kind.rays, scratch));
             o.row.rounds.push_back(round);
         }
@@ -103,7 +103,7 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
     std::map<std::string, double> fastest = fastest_medians(outcomes);
     bool right = true;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        Outcome& o = outcomes[i];
+        RaysOutcome& o = outcomes[i];
         const bool exact = stage.entries[i].name.tier != Tier::fast;
         if (exact && (o.errors.wrong > 0 || o.errors.worst_ulp() > 1)) right = false;
         for (std::size_t j = 0; exact && j < i; ++j) {

@@ -18,7 +18,7 @@ constexpr int primitives = 64;
 // Streams of random numbers.
 constexpr std::uint32_t place_stream = 31, turn_stream = 32, scale_stream = 33, aim_stream = 34, origin_stream = 35;
 
-struct Kind {
+struct KindShape {
     const char* name;
     Shape shape;
     bool scaled;  ///< unevenly
@@ -31,9 +31,12 @@ const Mesh one_quad = {.positions = {{-0.5F, -0.5F, 0}, {0.5F, -0.5F, 0}, {0.5F,
                        .quads = {0, 1, 2, 3}};
 
 const std::array kinds = {
-    Kind{"sphere", SphereShape{0.5}, false, false},           Kind{"box", BoxShape{{1, 1, 1}}, true, false},
-    Kind{"ellipsoid", SphereShape{0.5}, true, true},          Kind{"parallelepiped", BoxShape{{1, 1, 1}}, true, true},
-    Kind{"triangle", MeshShape{0}, true, true, one_triangle}, Kind{"quad", MeshShape{0}, true, true, one_quad},
+    KindShape{"sphere", SphereShape{0.5}, false, false},
+    KindShape{"box", BoxShape{{1, 1, 1}}, true, false},
+    KindShape{"ellipsoid", SphereShape{0.5}, true, true},
+    KindShape{"parallelepiped", BoxShape{{1, 1, 1}}, true, true},
+    KindShape{"triangle", MeshShape{0}, true, true, one_triangle},
+    KindShape{"quad", MeshShape{0}, true, true, one_quad},
 };
 
 /// A rotation as a quaternion of any length except zero.
@@ -59,12 +62,13 @@ Setting setting_of(Difficulty difficulty) {
 
 std::vector<std::string> primitive_kinds() {
     std::vector<std::string> names;
-    for (const Kind& kind : kinds) names.emplace_back(kind.name);
+    for (const KindShape& kind : kinds) names.emplace_back(kind.name);
     return names;
 }
 
 KindScene make_kind_scene(const std::string& name, Difficulty difficulty, std::size_t ray_count) {
-    const auto* const kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return name == k.name; });
+    const auto* const kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const KindShape& k) { return name == k.name; });
     if (kind == kinds.end()) throw InputError("there is no kind of primitive '" + name + "'");
     const auto [offset, size, distance] = setting_of(difficulty);
     const Vec3d centre = {offset, offset, offset};

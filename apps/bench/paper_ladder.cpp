@@ -20,7 +20,7 @@ namespace tandem::bench {
 namespace {
 
 constexpr int pictures_on_page = 6;
-constexpr int picture_width = 500;  ///< pixels, at most
+constexpr int largest_picture_width = 500;  ///< pixels, at most
 /// Without a GPU only this many frames are rendered again for the residual and for the throughput of the animation: all
 /// of them would take minutes and show little.
 constexpr int repeated_frames_without_gpu = 12;
@@ -61,7 +61,7 @@ class PaperRun {
             compare_films(frame);
             result_.film_hashes.push_back(film_hash(output_film()));
             if (std::binary_search(shown.begin(), shown.end(), frame)) {
-                result_.pictures.push_back(small_picture(film_to_image(output_film()), picture_width,
+                result_.pictures.push_back(small_picture(film_to_image(output_film()), largest_picture_width,
                                                          fmt::format("Frame {}", frame), scene_.display));
             }
         }

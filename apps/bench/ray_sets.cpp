@@ -1,5 +1,7 @@
 #include "ray_sets.h"
 
+#include <bit>
+
 #include "tandem/base/error.h"
 #include "tandem/kernel/sampler/philox.h"
 
@@ -48,6 +50,10 @@ std::vector<Ray<float>> make_rays(RaySet set, int edge) {
         }
     }
     return rays;
+}
+
+bool has_bits_of(const Hit& a, const Hit& b) {
+    return a.primitive == b.primitive && std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t);
 }
 
 }  // namespace tandem::bench

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tandem/kernel/shapes/hit.h"
 #include "tandem/math/ray.h"
 
 namespace tandem::bench {
@@ -23,5 +24,8 @@ enum class RaySet { coherent, random };
 
 /// Uniform in [-1, 1)^3: number `draw` of item `index` of a stream.
 [[nodiscard]] Vec3d uniform_in_cube(std::uint32_t stream, std::uint32_t index, std::uint32_t draw);
+
+/// The same primitive, and the same bits of t.
+[[nodiscard]] bool has_bits_of(const Hit& a, const Hit& b);
 
 }  // namespace tandem::bench

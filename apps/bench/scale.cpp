@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 
@@ -26,14 +25,14 @@ namespace {
 constexpr double first_judged = 1000;
 
 /// A backend with a number of threads; one line of every plot.
-struct Contender {
+struct ScaleContender {
     std::string name, label;
     int threads;
     std::unique_ptr<Backend> backend;
 };
 
-std::vector<Contender> make_contenders(const ScaleOptions& options, const BackendSource& source, Report& report) {
-    std::vector<Contender> contenders;
+std::vector<ScaleContender> make_contenders(const ScaleOptions& options, const BackendSource& source, Report& report) {
+    std::vector<ScaleContender> contenders;
     for (const std::string& name : available_backends(source, options.backends, report)) {
         const bool has_threads = name != "cuda";
         for (const int threads : has_threads ? options.threads : std::vector<int>{0}) {
@@ -57,10 +56,6 @@ std::vector<double> numbers_of_primitives(const ScaleOptions& options) {
     return counts;
 }
 
-bool same(const Hit& a, const Hit& b) {
-    return a.primitive == b.primitive && std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t);
-}
-
 /// What a plot shows: a value by the number of primitives, for each line.
 using Lines = std::map<std::string, std::vector<Point>>;
 
@@ -73,7 +68,7 @@ LinePlot plot_of(const std::string& title, const std::string& unit, const Lines&
 /// One kind of primitive in scenes of growing size.
 class KindScale {
   public:
-    KindScale(const ScaleOptions& options, std::string kind, std::vector<Contender>& contenders, Report& report)
+    KindScale(const ScaleOptions& options, std::string kind, std::vector<ScaleContender>& contenders, Report& report)
         : options_(options), kind_(std::move(kind)), contenders_(contenders), report_(report) {
         table_.caption = fmt::format("{}, {}: median times of {} rounds", kind_, options_.tier, options_.repetitions);
         table_.columns = {{"Primitives", true}, {"Row"}, {"Build", true}, {"Primitives/s", true}};
@@ -99,7 +94,7 @@ class KindScale {
         const PreparedScene scene = prepare(load_scene(name), {0, {}, Vec3d{0, 0, 0}});
         std::map<std::string, RaysToTrace> sets;
         std::map<std::string, std::vector<Hit>> first_hits;
-        for (const Contender& contender : contenders_) {
+        for (const ScaleContender& contender : contenders_) {
             const auto resident = contender.backend->load(scene, parse_tier(options_.tier));
             const double build = resident->load_times().build;
             std::vector<std::string> cells = {format_count(count), contender.label, format_seconds(build),
@@ -119,7 +114,7 @@ class KindScale {
                 }
                 const auto [first, is_first] = first_hits.try_emplace(set, hits);
                 for (std::size_t i = 0; i < hits.size() && !is_first; ++i) {
-                    differing_ += same(hits[i], first->second[i]) ? 0 : 1;
+                    differing_ += has_bits_of(hits[i], first->second[i]) ? 0 : 1;
                 }
                 cells.push_back(format_count(rays_per_second(row)));
                 const std::string line = contender.label + ", " + set;
@@ -132,7 +127,7 @@ class KindScale {
     }
 
     /// The rays of a second vertex start where the first contender finds the coherent ones to hit.
-    void make_sets(const Contender& contender, ResidentScene& resident,
+    void make_sets(const ScaleContender& contender, ResidentScene& resident,
                    std::map<std::string, RaysToTrace>& sets) const {
         const std::vector<Ray<float>> coherent = make_rays(RaySet::coherent, options_.ray_edge);
         std::vector<Hit> hits(coherent.size());
@@ -146,7 +141,7 @@ class KindScale {
         }
     }
 
-    [[nodiscard]] BenchmarkRow row_of(const std::string& scene, const Contender& contender,
+    [[nodiscard]] BenchmarkRow row_of(const std::string& scene, const ScaleContender& contender,
                                       const std::string& set) const {
         BenchmarkRow row;
         row.label = fmt::format("{}, {}, {}", scene, contender.label, set);
@@ -179,7 +174,7 @@ class KindScale {
 
     const ScaleOptions& options_;
     std::string kind_;
-    std::vector<Contender>& contenders_;
+    std::vector<ScaleContender>& contenders_;
     Report& report_;
     Table table_;
     Lines rates_, times_, builds_;
@@ -217,7 +212,7 @@ bool run_scale(const ScaleOptions& options, const BackendSource& source, Report&
     report.title = "Scale";
     report.summary = fmt::format("Times of {} from {:.0f} to {:.0f} primitives, tier {}.",
                                  fmt::join(options.kinds, ", "), options.least, options.most, options.tier);
-    std::vector<Contender> contenders = make_contenders(options, source, report);
+    std::vector<ScaleContender> contenders = make_contenders(options, source, report);
     std::size_t differing = 0;
     for (const std::string& kind : options.kinds) differing += KindScale(options, kind, contenders, report).run();
     report.blocks.emplace_back(Paragraph{

@@ -1,11 +1,11 @@
 // The part of `versus` that traces rays.
 #include <fmt/format.h>
 
-#include <bit>
 #include <functional>
 
 #include "baseline/embree_native.h"
 #include "output.h"
+#include "ray_sets.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/gltf/load_scene.h"
@@ -23,10 +23,6 @@ struct RayContender {
     bool is_compared = false;  ///< the bits of its hits are compared with those of the first contender
     std::vector<Hit> hits;
 };
-
-bool same(const Hit& a, const Hit& b) {
-    return a.primitive == b.primitive && std::bit_cast<std::uint32_t>(a.t) == std::bit_cast<std::uint32_t>(b.t);
-}
 
 /// Null for scenes that Embree's own spheres or triangles cannot represent.
 std::unique_ptr<EmbreeNative> make_native(const PreparedScene& scene, int threads) {
@@ -121,7 +117,7 @@ RayTiming time_rays(const VersusOptions& options, const std::vector<std::string>
             if (is_native) {
                 timing.native_ids += hit.primitive != first[i].primitive ? 1 : 0;
             } else {
-                timing.differing_hits += same(hit, first[i]) ? 0 : 1;
+                timing.differing_hits += has_bits_of(hit, first[i]) ? 0 : 1;
             }
         }
     }

@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "tandem/kernel/sampler/dimensions.h"
 #include "tandem/oracle/oracle_geometry.h"
 
 namespace tandem::oracle {
-
-inline constexpr Real pi = std::numbers::pi_v<Real>;
 
 /// Separate random numbers in [0, 1), for what the oracle estimates in another way than the backends.
 class Chance {

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tandem::oracle {
 
 namespace {
-
-constexpr Real pi = std::numbers::pi_v<Real>;
 
 /// Interpolated linearly in azimuth between the centres of columns, and in height between those of rows.
 Vector picture_towards(const SceneView& scene, const Vector& d) {

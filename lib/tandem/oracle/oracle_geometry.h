@@ -1,6 +1,7 @@
 /// Intersections and normals of the oracle, in x87 extended precision (64-bit significand).
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include "tandem/kernel/view/scene_view.h"
@@ -8,6 +9,8 @@
 namespace tandem::oracle {
 
 using Real = long double;
+
+inline constexpr Real pi = std::numbers::pi_v<Real>;
 
 struct Vector {
     Real x, y, z;

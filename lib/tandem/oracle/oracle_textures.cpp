@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tandem::oracle {
 
 namespace {
-
-constexpr Real pi = std::numbers::pi_v<Real>;
 
 /// `p`: from the centre of a globe.
 TexturePoint on_globe(const Vector& p) {
