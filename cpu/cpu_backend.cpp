@@ -239,7 +239,8 @@ class CpuBackend final : public Backend {
         const TierKernels& kernels = set_.kernels(job.tier);
         const PixelJob pixel_job = make_pixel_job(resident.prepared().camera, job);
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples, job.planes);
+        const FilmWindow window = window_of(job);
+        result.film = Film(window.width, window.height, job.samples, job.planes);
         Vec3d* sums = result.film.sums().data();
         const FilmPlanes planes = result.film.planes();
         const bool one_by_one = planes.variance != nullptr;
@@ -247,15 +248,15 @@ class CpuBackend final : public Backend {
         const bool finds_hits = job.planes.has_any(first_hit_planes);
         const PixelJob hit_job = first_hit_job(pixel_job, job.planes);
         const auto tiles = [this](int size) { return (size + tile_size_ - 1) / tile_size_; };
-        const int columns = tiles(job.width);
+        const int columns = tiles(window.width);
         const EffectMask effects = resident.prepared().effects;
         const std::size_t variant = variant_for(variants, effects);
         std::atomic<std::uint64_t> invalid = 0, lost_media = 0, rays = 0;
         const Stopwatch watch;
         arena_.execute([&] {
-            tbb::parallel_for(0, columns * tiles(job.height), [&](int index) {
+            tbb::parallel_for(0, columns * tiles(window.height), [&](int index) {
                 const DefaultFpEnvironment guard;
-                const Tile tile = tile_at(index % columns, index / columns, job);
+                const Tile tile = tile_at(index % columns, index / columns, window);
                 const auto draw = [&](const PixelJob& samples, Vec3d* to) {
                     const TileStats stats = kernels.render_tile[variant](resident.view(), samples, tile, to);
                     invalid += stats.counters.invalid_samples;
@@ -305,12 +306,12 @@ class CpuBackend final : public Backend {
         }
     }
 
-    Tile tile_at(int column, int row, const RenderJob& job) const {
+    Tile tile_at(int column, int row, const FilmWindow& window) const {
         const auto first = [this](int index) { return static_cast<std::uint32_t>(index * tile_size_); };
         const auto end = [this](int index, int limit) {
             return static_cast<std::uint32_t>(std::min((index + 1) * tile_size_, limit));
         };
-        return {first(column), end(column, job.width), first(row), end(row, job.height)};
+        return {first(column), end(column, window.width), first(row), end(row, window.height)};
     }
 
     static int checked_tile_size(int size) {

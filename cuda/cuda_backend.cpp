@@ -131,7 +131,8 @@ class CudaBackend final : public Backend {
         check(job, scene->tier());
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
-        const std::size_t pixels = static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height);
+        const FilmWindow window = window_of(job);
+        const std::size_t pixels = static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
         const std::size_t bytes = film_bytes(pixels, job.planes);
         const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? pixels * sizeof(Vec3d) : 0;
         constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
@@ -159,7 +160,7 @@ class CudaBackend final : public Backend {
         check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
         auto* device_sums = reinterpret_cast<Vec3d*>(memory->film.data());
         auto* counters = reinterpret_cast<DeviceCounters*>(memory->counters.data());
-        const auto height = static_cast<std::uint32_t>(job.height);
+        const auto height = static_cast<std::uint32_t>(window.height);
         const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
         const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
             launch_render(kernel, resident.view(), samples, height, sums, counters, compute_.get());
@@ -187,7 +188,7 @@ class CudaBackend final : public Backend {
 
         const KernelFacts facts = kernel_facts(kernel.code.function());
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples, std::move(sums), job.planes);
+        result.film = Film(window.width, window.height, job.samples, std::move(sums), job.planes);
         if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
         result.stats.counters.dropped_primitives = resident.dropped_primitives();
         result.stats.counters.dropped_lights = resident.dropped_lights();

@@ -93,7 +93,10 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     memory_->staging.reserve(bytes_);
     layout.place(memory_->staging.data(), memory_->device.data());
 
-    if (fits_constant_memory(host)) view_.few = make_constant_memory_tracer(host, view_.scene);
+    if (fits_constant_memory(host)) {
+        view_.few = make_constant_memory_tracer(host, view_.scene);
+        view_.certain = make_certain_scene(host);
+    }
 
     memory_->upload_start.record(stream.get());
     if (bytes_ > 0) {

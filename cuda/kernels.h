@@ -19,7 +19,8 @@ namespace tandem::cuda {
 struct DeviceSceneView {
     SceneView scene;
     BvhView bvh;               ///< without nodes for a scene of few primitives, which are tested one by one
-    ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory()
+    ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
+    CertainScene certain;      ///< for that view
 };
 
 /// The tracers: how the primitives of a scene are found.

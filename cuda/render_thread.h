@@ -4,6 +4,7 @@
 #include "cuda/block_shape.h"
 #include "cuda/block_threads.h"
 #include "cuda/kernels.h"
+#include "tandem/kernel/certain_pixel.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/kernel/pixel_culling.h"
 
@@ -25,13 +26,29 @@ __device__ __forceinline__ std::uint32_t slots_in_warp(const ConstantMemoryTrace
                                                        std::uint32_t x, std::uint32_t y, unsigned int inside) {
     constexpr std::uint32_t least_samples = 8;
     if (job.samples < least_samples) return ConstantMemoryTracer::all_slots;
-    const std::uint32_t own = slots_in_pixel(tracer, bundle_of_pixel(job.camera, x, y, Effects::has(Effect::lens)));
+    const std::uint32_t own =
+        slots_in_pixel(tracer, bundle_of_pixel(job.camera, job.left + x, job.top + y, Effects::has(Effect::lens)));
     std::uint32_t slots = 0;
     TANDEM_KEEP_LOOP
     for (std::uint32_t slot = 1; slot < ConstantMemoryTracer::all_slots; slot *= 2) {
         if (__any_sync(inside, (own & slot) != 0)) slots |= slot;
     }
     return slots;
+}
+
+/// A pixel whose camera rays may hit the primitives in `slots` alone.
+template <class Effects, class Real>
+__device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTracer& tracer, const PixelJob& job,
+                                                       std::uint32_t x, std::uint32_t y, std::uint32_t slots) {
+    if (!Effects::has_any(all_effects)) {
+        const CertainView& view = tracer.certain;
+        if (slots == 0 && view.is_finite_sky != 0) return render_sky<Effects, Real>(tracer.scene, job, x, y);
+        if constexpr (std::is_same_v<Real, float>) {
+            if (view.is_valid != 0) return render_certain_pixel<Effects>(tracer, view, tracer.scene, job, x, y, slots);
+        }
+    }
+    const CulledTracer culled = {tracer, slots};
+    return render_pixel<Effects, Real>(culled, tracer.scene, job, x, y, true, BlockThreads<Effects>());
 }
 
 /// One pixel, for paths of one vertex and little code.
@@ -49,8 +66,8 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
     if (!is_inside) return;
     PixelSum<Real> pixel;
     if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
-        const CulledTracer culled = {tracer, slots_in_warp<Effects>(tracer, job, x, y, inside)};
-        pixel = render_pixel<Effects, Real>(culled, tracer.scene, job, x, y, true, BlockThreads<Effects>());
+        const std::uint32_t slots = slots_in_warp<Effects>(tracer, job, x, y, inside);
+        pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
     } else {
         pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
     }

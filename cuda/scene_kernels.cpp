@@ -167,8 +167,12 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };
     switch (structure_of(scene)) {
-        case Structure::few:
-            return launch(scene.few);
+        case Structure::few: {
+            ConstantMemoryTracer tracer = scene.few;
+            tracer.certain = make_certain_view(scene.certain, job.camera,
+                                               {job.left, job.left + job.width, job.top, job.top + height});
+            return launch(tracer);
+        }
         case Structure::loop:
             return launch(LoopTracer{scene.scene});
         case Structure::bvh:

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support/backend_list.h"
+#include "support/random.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/scene/named_scenes.h"
@@ -64,6 +65,45 @@ TEST_P(FilmBits, AreTheSameForFramesInFlightAndFramesAlone) {
         const Film alone =
             backend_->render(load(prepare(scene, {.frame = static_cast<int>(frame), .camera = ""})), one).film;
         EXPECT_EQ(film_hash(in_flight), film_hash(alone)) << "frame " << frame;
+    }
+}
+
+/// The paper's scene with the camera and the solids elsewhere, other materials, and up to five lights: GPUs have a way
+/// of their own for pinhole cameras before a few solids (kernel/certain_view.h).
+PreparedScene few_solids(std::uint64_t seed) {
+    test::Random random(seed);
+    const auto moved = [&](double by) {
+        return Vec3d{random.uniform(-by, by), random.uniform(-by, by), random.uniform(-by, by)};
+    };
+    PreparedScene scene = prepare(named_scene("paper"), {.frame = static_cast<int>(random.below(120)), .camera = ""});
+    scene.camera.render_from_camera.translation += moved(1.5);
+    scene.camera.half_height *= std::exp2(random.uniform(-4.0, 1.0));
+    for (Sphere& sphere : scene.spheres) {
+        sphere.centre = narrow(widen(sphere.centre) + moved(0.4));
+        sphere.radius *= random.uniform(0.3F, 1.5F);
+    }
+    for (PhongMaterial& material : scene.materials) {
+        material.shininess = random.coin() ? 0.5F * static_cast<float>(random.below(100)) : 32.0F;
+        if (random.below(4) == 0) material.specular = {0, 0, 0};
+    }
+    for (std::uint32_t i = random.below(5); i > 0; --i) {
+        scene.lights.push_back(scene.lights[0]);
+        scene.lights.back().position = narrow(moved(3));
+        scene.lights.back().intensity = {0.2F, random.uniform(0.0F, 1.0F), 0.4F};
+    }
+    return scene;
+}
+
+TEST_P(FilmBits, OfFewSolidsAreThoseOfTheLeastProcessor) {
+    BackendOptions least;
+    least.instruction_set = "x86-64-v2";
+    RenderJob many = job();
+    many.samples = 9;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const PreparedScene scene = few_solids(seed);
+        const Film expected = render_with("cpu", least, scene, many);
+        EXPECT_EQ(film_hash(backend_->render(load(scene), many).film), film_hash(expected))
+            << "few_solids(" << seed << ")";
     }
 }
 

@@ -64,6 +64,43 @@ class PlaneBits : public test::ExactBackend {
     [[nodiscard]] Film render(const PreparedScene& scene, PlaneMask planes) { return render(scene, job(planes)); }
 };
 
+/// The pixels of a window of `film`.
+Film cut_out(const Film& film, const FilmWindow& window) {
+    Film part(window.width, window.height, film.samples(), film.plane_mask());
+    const ConstFilmPlanes from = film.planes();
+    const FilmPlanes to = part.planes();
+    for (int y = 0; y < window.height; ++y) {
+        for (int x = 0; x < window.width; ++x) {
+            const auto source = static_cast<std::size_t>((window.top + y) * film.width() + window.left + x);
+            const auto target = static_cast<std::size_t>(y * window.width + x);
+            part.sums()[target] = film.sums()[source];
+#define TANDEM_PLANE(name, Value, rule, channels, help) to.name[target] = from.name[source];
+#include "tandem/film/planes.def"
+#undef TANDEM_PLANE
+        }
+    }
+    return part;
+}
+
+TEST_P(PlaneBits, OfAWindowAreThoseOfTheFilm) {
+    const FilmWindow windows[] = {{17, 9, 23, 31}, {60, 42, 1, 1}, {0, 0, 61, 43}};
+    for (const auto& [name, scene] : scenes()) {
+        const Film film = render(scene, all);
+        for (const FilmWindow& window : windows) {
+            RenderJob part = job(all);
+            part.window = window;
+            const Film got = render(scene, part);
+            const Film expected = cut_out(film, window);
+            EXPECT_EQ(film_hash(got), film_hash(expected)) << name << ", window at " << window.left;
+#define TANDEM_PLANE(plane, Value, rule, channels, help)                                 \
+    EXPECT_EQ(plane_hash(got, FilmPlane::plane), plane_hash(expected, FilmPlane::plane)) \
+        << name << ", window at " << window.left << ", " #plane;
+#include "tandem/film/planes.def"
+#undef TANDEM_PLANE
+        }
+    }
+}
+
 TEST_P(PlaneBits, AreThoseOfTheLeastProcessorAndLeaveTheColourAlone) {
     BackendOptions least;
     least.instruction_set = "x86-64-v2";

@@ -23,6 +23,7 @@ class PathWalk {
 
     /// The lanes that have a pixel with samples left.
     [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
+    /// Its place in the window.
     [[nodiscard]] TANDEM_HD UInt<Real> pixel(const PixelJob& job) const { return y_ * UInt<Real>(job.width) + x_; }
     /// The lanes whose ray starts on a surface, not at the camera.
     [[nodiscard]] TANDEM_HD Mask<Real> leaves_surface() const { return path_.alive && vertex_ > UInt<Real>(0U); }
@@ -63,7 +64,7 @@ class PathWalk {
 
   private:
     [[nodiscard]] TANDEM_HD SampleId<Real> id(const PixelJob& job) const {
-        return {job.seed, job.frame, pixel(job), sample_};
+        return {&job.keys, job.frame, job.number_in_film(x_, y_), sample_};
     }
 
     TANDEM_HD void begin(const SceneView& scene, const PixelJob& job, const Mask<Real>& begins) {

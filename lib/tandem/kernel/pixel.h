@@ -9,11 +9,21 @@ namespace tandem {
 /// The part of a RenderJob that kernels need.
 struct PixelJob {
     CameraView camera;
-    std::uint64_t seed;
+    PhiloxKeys keys;  ///< of the seed
     std::uint32_t frame;
     std::uint32_t first_sample, samples;
-    std::uint32_t width;  ///< pixels; a pixel's number is y * width + x
+    std::uint32_t width;  ///< pixels of a row of the window; the pixels (x, y) of kernels are counted in the window
     PathLimits limits;
+    // the window in the film
+    std::uint32_t film_width;
+    std::uint32_t left, top;
+
+    /// The pixel's number in the film, which keys its random numbers: so the bits of a pixel do not depend on the
+    /// window.
+    template <class Word>
+    [[nodiscard]] TANDEM_HD_INLINE Word number_in_film(const Word& x, const Word& y) const {
+        return (y + Word(top)) * Word(film_width) + (x + Word(left));
+    }
 };
 
 template <class Real>
@@ -35,8 +45,9 @@ TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, co
                                const UInt<Real>& y) {
     using D = Double<Real>;
     const auto random = id.block(Dimension::film);
-    const Ray<Real> ray = camera_ray(job.camera, from_uint<D>(x), from_uint<D>(y),
-                                     to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    const Ray<Real> ray =
+        camera_ray(job.camera, from_uint<D>(x + UInt<Real>(job.left)), from_uint<D>(y + UInt<Real>(job.top)),
+                   to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
     if (!Effects::has(Effect::lens) || !job.camera.has_lens) return ray;
     const auto at = id.block(Dimension::lens);
     return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));
@@ -54,6 +65,21 @@ TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
     pixel.invalid = pixel.invalid + select(valid, Word(0U), Word(1U));
 }
 
+/// The radiance of a sample, for paths that end at their first vertex, in the lanes of `active`.
+template <class Effects, class Real, class Tracer, class Threads>
+TANDEM_HD Vec3<Real> sample_radiance(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                                     const SampleId<Real>& id, const UInt<Real>& x, const UInt<Real>& y,
+                                     const Mask<Real>& active, const Threads& threads, PathTally<Real>& tally) {
+    const Real zero(0.0F);
+    PathState<Effects, Real, can_bounce<Effects>()> path;
+    path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+    Vec3<Real> radiance = {zero, zero, zero};
+    const Closest<Real> hit = next_hit<Effects, Real>(tracer, path, tally);
+    advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, threads, path, radiance,
+                     tally);
+    return radiance;
+}
+
 /// The sum over the samples of pixel (x, y), for paths that end at their first vertex. One thread adds them in double,
 /// in their order: so films have equal bits. A Real of many lanes renders one pixel per lane, in the lanes of `active`.
 /// `threads`: how they wait for each other (threads.h).
@@ -61,18 +87,11 @@ template <class Effects, class Real, class Tracer, class Threads = IndependentTh
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active,
                                       const Threads& threads = {}) {
-    const Real zero(0.0F);
-    SampleId<Real> id = {job.seed, job.frame, y * UInt<Real>(job.width) + x, UInt<Real>(job.first_sample)};
+    SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), UInt<Real>(job.first_sample)};
     PixelSum<Real> result;
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
         id.sample = UInt<Real>(job.first_sample + sample);
-        PathState<Effects, Real, can_bounce<Effects>()> path;
-        path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
-        Vec3<Real> radiance = {zero, zero, zero};
-        const Closest<Real> hit = next_hit<Effects, Real>(tracer, path, result.tally);
-        advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, threads, path, radiance,
-                         result.tally);
-        add(radiance, result);
+        add(sample_radiance<Effects>(tracer, scene, job, id, x, y, active, threads, result.tally), result);
     }
     return result;
 }

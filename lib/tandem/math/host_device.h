@@ -20,9 +20,9 @@
 /// TANDEM_HD_STAGE         a step of the path loop. On the host a call, as TANDEM_HD_CALL, so that compile time grows
 ///                         linearly with the code; inline on the device, where a call needs a stack.
 /// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
-/// short TANDEM_KEEP_ROUNDING(x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions
-/// of a
-///                         vector of doubles, to float and back, and with them the rounding.
+///                         short
+/// TANDEM_KEEP_ROUNDING    (x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions of
+///                         a vector of doubles, to float and back, and with them the rounding.
 #pragma once
 
 #if defined(__CUDACC__)

@@ -79,7 +79,8 @@ class OracleBackend final : public Backend {
         const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
         const SceneView scene_view = view(prepared);
         RenderResult result;
-        result.film = Film(job.width, job.height, job.samples, job.planes);
+        const FilmWindow window = window_of(job);
+        result.film = Film(window.width, window.height, job.samples, job.planes);
         std::atomic<std::uint64_t> invalid = 0;
         const Stopwatch watch;
         for_each_block(result.film.pixel_count(), 64, [&](std::size_t pixel) {
@@ -134,11 +135,12 @@ class OracleBackend final : public Backend {
         const FilmPlanes planes = film.planes();
         const bool looks = film.plane_mask().has_any(first_hit_planes);
         Vector sum{0, 0, 0}, squares{0, 0, 0};
+        const std::uint32_t x = pixel % job.width, y = pixel / job.width;
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            const SampleId<float> id = {job.seed, job.frame, pixel, job.first_sample + sample};
+            const SampleId<float> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample + sample};
             const auto random = id.block(Dimension::film);
-            Ray<T> ray = camera_ray<T>(job.camera, pixel % job.width, pixel / job.width,
-                                       to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1]));
+            Ray<T> ray = camera_ray<T>(job.camera, x + job.left, y + job.top, to_unit_interval<T>(random.word[0]),
+                                       to_unit_interval<T>(random.word[1]));
             if (job.camera.has_lens) {
                 const auto at = id.block(Dimension::lens);
                 ray =

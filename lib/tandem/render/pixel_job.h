@@ -8,13 +8,17 @@
 namespace tandem {
 
 [[nodiscard]] inline PixelJob make_pixel_job(const PreparedCamera& camera, const RenderJob& job) {
+    const FilmWindow window = window_of(job);
     return {.camera = camera_view(camera, job.width, job.height),
-            .seed = job.seed,
+            .keys = philox_keys(job.seed),
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),
-            .width = static_cast<std::uint32_t>(job.width),
-            .limits = job.limits};
+            .width = static_cast<std::uint32_t>(window.width),
+            .limits = job.limits,
+            .film_width = static_cast<std::uint32_t>(job.width),
+            .left = static_cast<std::uint32_t>(window.left),
+            .top = static_cast<std::uint32_t>(window.top)};
 }
 
 /// The job for the planes of first hits: only the first sample if no plane is a mean.

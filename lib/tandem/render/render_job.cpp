@@ -30,6 +30,8 @@ PathLimits parse_limits(const std::string& text) {
     return limits;
 }
 
+FilmWindow window_of(const RenderJob& job) { return job.window.value_or(FilmWindow{0, 0, job.width, job.height}); }
+
 void check(const RenderJob& job) {
     const auto in_range = [](const char* field, int value, int most) {
         if (value < 1 || value > most) {
@@ -49,10 +51,17 @@ void check(const RenderJob& job) {
           std::pair{"scatterings", job.limits.diffuse}}) {
         if (limit > 255) throw InputError(fmt::format("the limit of {} is {}, but must be from 0 to 255", kind, limit));
     }
-    const auto pixels = static_cast<std::uint64_t>(job.width) * static_cast<std::uint64_t>(job.height);
-    if (pixels > std::uint64_t{1} << 30) {
+    const FilmWindow window = window_of(job);
+    const auto fits = [](int first, int size, int limit) { return first >= 0 && size >= 1 && size <= limit - first; };
+    if (!fits(window.left, window.width, job.width) || !fits(window.top, window.height, job.height)) {
         throw InputError(
-            fmt::format("a film of {} x {} has more than 2^30 pixels; render it in parts", job.width, job.height));
+            fmt::format("the window of {} x {} pixels at ({}, {}) must have pixels, and lie within the film of {} x {}",
+                        window.width, window.height, window.left, window.top, job.width, job.height));
+    }
+    const auto pixels = static_cast<std::uint64_t>(window.width) * static_cast<std::uint64_t>(window.height);
+    if (pixels > std::uint64_t{1} << 30) {
+        throw InputError(fmt::format("a film of {} x {} has more than 2^30 pixels; render windows of it", window.width,
+                                     window.height));
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "tandem/film/film_planes.h"
@@ -9,6 +10,12 @@
 #include "tandem/render/tier.h"
 
 namespace tandem {
+
+/// A part of the film: pixels from the top left corner of the film.
+struct FilmWindow {
+    int left = 0, top = 0;
+    int width = 0, height = 0;
+};
 
 struct RenderJob {
     int width = 1000;   ///< pixels, 1 to 65536
@@ -20,7 +27,13 @@ struct RenderJob {
     PathLimits limits{};
     int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples, except for rounding
     PlaneMask planes{};    ///< the planes of the film beside the colour
+    /// The pixels to render, if not all. The film that comes back has the window's size, and its pixels have the bits
+    /// that they have in the whole film.
+    std::optional<FilmWindow> window{};
 };
+
+/// The job's window, or the whole film.
+[[nodiscard]] FilmWindow window_of(const RenderJob& job);
 
 /// Formats limits as "8,16,4": reflections, refractions, diffuse bounces.
 [[nodiscard]] std::string to_string(const PathLimits& limits);

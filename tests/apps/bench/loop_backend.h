@@ -51,13 +51,13 @@ class LoopBackend final : public Backend {
         const Stopwatch watch;
         const PreparedScene& prepared = dynamic_cast<LoopScene&>(*scene).prepared;
         const SceneView window = view(prepared);
-        const auto width = static_cast<std::uint32_t>(job.width);
         const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
-        RenderResult result{Film(job.width, job.height, job.samples), {}};
+        const FilmWindow part = window_of(job);
+        RenderResult result{Film(part.width, part.height, job.samples), {}};
         for (std::uint32_t i = 0; i < result.film.pixel_count(); ++i) {
-            result.film.sums()[i] =
-                render_pixel<EffectSet<0>, float>(LoopTracer{window}, window, pixel_job, i % width, i / width, true)
-                    .sum;
+            result.film.sums()[i] = render_pixel<EffectSet<0>, float>(LoopTracer{window}, window, pixel_job,
+                                                                      i % pixel_job.width, i / pixel_job.width, true)
+                                        .sum;
         }
         if (spoiled_) result.film.sums()[0].x += 1e-12;
         result.stats.seconds.render = watch.seconds();

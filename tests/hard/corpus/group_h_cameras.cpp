@@ -132,12 +132,13 @@ Score counters(Random& random, std::size_t calls) {
         static constexpr std::uint32_t ends[] = {0, 1U << 20, 1U << 24, 1U << 31, 0xFFFFFFF0U};
         return ends[random.below(5)] + random.below(16);
     };
+    const PhiloxKeys keys = philox_keys(7);
     for (std::size_t i = 0; i < calls; ++i) {
         const std::uint32_t pixel = near_an_end(), sample = near_an_end(), frame = near_an_end();
-        const auto block = SampleId<float>{7, frame, pixel, sample}.block(Dimension::film);
+        const auto block = SampleId<float>{&keys, frame, pixel, sample}.block(Dimension::film);
         const bool is_new = asked.insert({pixel, sample, frame, 0}).second;
         const bool differs = given.insert({block.word[0], block.word[1], block.word[2], block.word[3]}).second;
-        const auto many = SampleId<Packet>{7, frame, UInt<Packet>(pixel), sample}.block(Dimension::film);
+        const auto many = SampleId<Packet>{&keys, frame, UInt<Packet>(pixel), sample}.block(Dimension::film);
         bool same = true;
         for (int k = 0; k < 4; ++k) same = same && many.word[k][3] == block.word[k];
         score.decide(is_new != differs || !same,

@@ -57,7 +57,7 @@ Score uniform(const Subject& subject, Random&, std::size_t rays) {
     const PixelJob pixel = make_pixel_job(scene.camera, job);
     long double right = 0;
     for (std::uint32_t sample = 0; sample < pixel.samples; ++sample) {
-        const auto random = SampleId<float>{pixel.seed, pixel.frame, 0, sample}.block(Dimension::film);
+        const auto random = SampleId<float>{&pixel.keys, pixel.frame, 0, sample}.block(Dimension::film);
         const Ray<float> ray = camera_ray<float>(pixel.camera, 0, 0, to_unit_interval<float>(random.word[0]),
                                                  to_unit_interval<float>(random.word[1]));
         right += background(scene.environment, ray.direction).x;

@@ -27,7 +27,8 @@ TEST(Philox, KnownAnswers) {
 }
 
 TEST(Philox, BlocksFollowTheDocumentedCounter) {
-    const auto block = SampleId<float>{0x0123456789ABCDEFU, 7, 11U, 13}.block(Dimension::film);
+    const PhiloxKeys keys = philox_keys(0x0123456789ABCDEFU);
+    const auto block = SampleId<float>{&keys, 7, 11U, 13}.block(Dimension::film);
     const Block direct = philox({11, 13, static_cast<std::uint32_t>(Dimension::film), 7}, 0x89ABCDEFU, 0x01234567U);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(block.word[i], direct[i]);
 }
@@ -44,8 +45,9 @@ TEST(Philox, UnitIntervalHoldsEveryMultipleOnceAndNeverOne) {
 TEST(Philox, BytesAreUniform) {
     constexpr std::uint32_t samples = 1U << 16;
     std::array<std::array<std::uint32_t, 256>, 16> counts{};
+    const PhiloxKeys keys = philox_keys(1);
     for (std::uint32_t pixel = 0; pixel < samples; ++pixel) {
-        const auto block = SampleId<float>{1, 0, pixel, 0}.block(Dimension::film);
+        const auto block = SampleId<float>{&keys, 0, pixel, 0}.block(Dimension::film);
         for (std::size_t byte = 0; byte < 16; ++byte) ++counts[byte][block.word[byte / 4] >> 8 * (byte % 4) & 0xFFU];
     }
     for (std::size_t byte = 0; byte < 16; ++byte) {

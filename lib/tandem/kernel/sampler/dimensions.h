@@ -30,7 +30,7 @@ TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std
 /// A sample of a pixel, for each lane of `Real`. Its random numbers depend on nothing else.
 template <class Real>
 struct SampleId {
-    std::uint64_t seed;
+    const PhiloxKeys* keys;  ///< of the seed
     std::uint32_t frame;
     UInt<Real> pixel;
     UInt<Real> sample;
@@ -40,13 +40,12 @@ struct SampleId {
     /// without any state.
     TANDEM_HD_INLINE PhiloxBlock<UInt<Real>> block(Dimension dimension,
                                                    const UInt<Real>& vertex = UInt<Real>(0U)) const {
-        return philox4x32<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
-                                      static_cast<std::uint32_t>(seed >> 32));
+        return philox4x32(counter(dimension, vertex), *keys);
     }
     /// The same, but out of line on the device, for numbers that a path needs at every vertex.
     TANDEM_HD_INLINE PhiloxBlock<UInt<Real>> block_at_vertex(Dimension dimension, const UInt<Real>& vertex) const {
-        return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), static_cast<std::uint32_t>(seed),
-                                                          static_cast<std::uint32_t>(seed >> 32));
+        return sampler_detail::philox_by_call<UInt<Real>>(counter(dimension, vertex), keys->of_round[0][0],
+                                                          keys->of_round[0][1]);
     }
 
   private:

@@ -2,6 +2,7 @@
 /// at compile time, so the filters need no loads.
 #pragma once
 
+#include "tandem/kernel/certain_view.h"
 #include "tandem/kernel/traversal/ray_tracer.h"
 
 namespace tandem {
@@ -10,12 +11,13 @@ namespace tandem {
 struct ConstantMemoryStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::sphere | PrimitiveKinds::box;
     static constexpr bool has_hierarchy = false;
-    static constexpr std::uint32_t max_spheres = 8;
-    static constexpr std::uint32_t max_boxes = 4;
+    static constexpr std::uint32_t max_spheres = CertainView::max_spheres;
+    static constexpr std::uint32_t max_boxes = CertainView::max_boxes;
 
     SceneView scene;
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
+    CertainView certain;  ///< of the job; not valid for rays that no camera sends
 
     // one bit per slot: spheres, then boxes
     static constexpr std::uint32_t all_slots = (1U << (max_spheres + max_boxes)) - 1;
