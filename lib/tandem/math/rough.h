@@ -29,4 +29,27 @@ TANDEM_HD_INLINE float rough_inverse_square_root(float a) {
 #endif
 }
 
+/// 1 / a and 1 / sqrt(a) within 3 * 2^-53 of themselves, for a in [2^-500, 2^500]: a guess within 2^-18, and a step of
+/// third order, whose error is that of the guess cubed. The bits differ between processors.
+TANDEM_HD_INLINE double close_reciprocal(double a) {
+#if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
+    double guess;
+    asm("rcp.approx.ftz.f64 %0, %1;" : "=d"(guess) : "d"(a));
+    const double error = multiply_add(-a, guess, 1.0);
+    return multiply_add(guess, multiply_add(error, error, error), guess);
+#else
+    return 1.0 / a;
+#endif
+}
+TANDEM_HD_INLINE double close_inverse_square_root(double a) {
+#if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
+    double guess;
+    asm("rsqrt.approx.ftz.f64 %0, %1;" : "=d"(guess) : "d"(a));
+    const double error = multiply_add(-(a * guess), guess, 1.0);
+    return multiply_add(guess * error, multiply_add(error, 0.375, 0.5), guess);
+#else
+    return 1.0 / square_root(a);
+#endif
+}
+
 }  // namespace tandem

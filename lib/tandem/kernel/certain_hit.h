@@ -1,0 +1,112 @@
+/// The nearest hit of a camera ray, where float decides it with certainty.
+///
+/// Needs: a valid CertainView, and a camera ray of its camera.
+/// Gives: the primitive that the exact tests give, or that nothing is hit, or that float does not suffice. Of a box
+///        also the axis of the face that the ray enters.
+/// Method: as in hit_interval.h, with intervals of the parameter t |d|^2 and without a unit direction. A solid that may
+///         or may not be hit, an overlap of the two nearest, and an edge of a box are left open.
+/// Bounds: u = 2^-24, f = origin - centre, rounded to float.
+///         Sphere: b = -f . d errs by 4 u |f| |d|, so b^2 errs by 8 u |f|^2 |d|^2; c |d|^2, with c < |f|^2, errs by
+///         6 u |f|^2 |d|^2. So the discriminant b^2 - c |d|^2 errs by less than e = 24 u |f|^2 |d|^2 (`margin`, which
+///         covers the rounding of e too). Above 4 e its sign is certain, and its root errs by less than e / root and
+///         6 u |f| |d|. With b and the difference, the parameter errs by less than e / root + 16 u |f| |d| (`slack`).
+///         The origin is outside the sphere, so b > 0 says that the sphere is ahead.
+///         Box: quotients err by 8 u of themselves; the comparisons allow 33 u of both ends. NaN and infinity, from a
+///         direction along an axis, make a box unsure, or a miss that holds.
+/// Tested by tests/kernel/certain_light_test.cpp.
+#pragma once
+
+#include "tandem/kernel/certain_view.h"
+#include "tandem/kernel/shapes/filter.h"
+#include "tandem/math/rough.h"
+
+namespace tandem {
+
+struct CertainHit {
+    static constexpr std::uint32_t none = 0xFF, unsure = 0xFE;
+    std::uint32_t slot;  ///< i for sphere i, max_spheres + i for box i; or none, or unsure
+    std::uint32_t axis;  ///< of the face of a box
+};
+
+namespace certain_detail {
+
+/// One of the intervals so far, and the least beginning of the others: where it ends before that, it is the nearest.
+struct Nearest {
+    CertainHit hit = {CertainHit::none, 0};
+    float begin = __builtin_huge_valf(), end = __builtin_huge_valf();
+    float next = __builtin_huge_valf();
+    bool unsure = false;
+
+    TANDEM_HD_INLINE void offer(float from, float to, std::uint32_t slot, std::uint32_t axis) {
+        if (from < end) {
+            next = lesser(next, begin);
+            hit = {slot, axis};
+            begin = from;
+            end = to;
+        } else {
+            next = lesser(next, from);
+        }
+    }
+    [[nodiscard]] TANDEM_HD_INLINE CertainHit result() const {
+        if (unsure || (hit.slot != CertainHit::none && !(end < next))) return {CertainHit::unsure, 0};
+        return hit;
+    }
+};
+
+TANDEM_HD_INLINE void meet(const CertainSphere& sphere, std::uint32_t slot, const Vec3f& d, float d2,
+                           Nearest& nearest) {
+    const float b = -loose_dot(sphere.rough_offset, d);
+    const float discriminant = loose_multiply_add(b, b, -(sphere.rough_c * d2));
+    const float e = sphere.margin * d2;
+    if (discriminant < -e || b < -sphere.slack) return;
+    nearest.unsure = nearest.unsure || !(discriminant > 4.0F * e) || !(b > sphere.slack);
+    const float inverse_root = rough_inverse_square_root(discriminant);
+    const float t = loose_multiply_add(-discriminant, inverse_root, b);
+    const float error = loose_multiply_add(e, inverse_root, sphere.slack);
+    nearest.offer(t - error, t + error, slot, 0);
+}
+
+TANDEM_HD_INLINE void meet(const CertainBox& box, std::uint32_t slot, const Vec3f& inverse, float d2,
+                           Nearest& nearest) {
+    const Vec3f a = box.rough_lower * inverse, b = box.rough_upper * inverse;
+    const Vec3f in = {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
+    const Vec3f out = {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
+    const float near = greater(greater(in.x, in.y), in.z);
+    const float far = lesser(lesser(out.x, out.y), out.z);
+    const float error = 33.0F * float_roundoff * (absolute(near) + absolute(far));
+    if (near > far + error || far < -error) return;
+    const std::uint32_t axis = near == in.x ? 0U : near == in.y ? 1U : 2U;
+    const float second = axis == 0 ? greater(in.y, in.z) : axis == 1 ? greater(in.x, in.z) : greater(in.x, in.y);
+    nearest.unsure = nearest.unsure || !(near < far - error) || !(near > error) || !(second < near - error);
+    nearest.offer((near - error) * d2, (near + error) * d2, slot, axis);
+}
+
+}  // namespace certain_detail
+
+/// `slots`: the solids that the ray may hit, as in ConstantMemoryStructure; best the same for all threads of a warp.
+TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& direction, std::uint32_t slots) {
+    certain_detail::Nearest nearest;
+    const float d2 = loose_dot(direction, direction);
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+    for (std::uint32_t i = 0; i < CertainView::max_spheres; ++i) {
+        if (i == view.sphere_count) break;
+        if ((slots >> i & 1U) != 0) certain_detail::meet(view.spheres[i], i, direction, d2, nearest);
+    }
+    if ((slots >> CertainView::max_spheres) != 0) {
+        const Vec3f inverse = {rough_reciprocal(direction.x), rough_reciprocal(direction.y),
+                               rough_reciprocal(direction.z)};
+#if TANDEM_ON_DEVICE
+#pragma unroll
+#endif
+        for (std::uint32_t i = 0; i < CertainView::max_boxes; ++i) {
+            if (i == view.box_count) break;
+            const std::uint32_t slot = CertainView::max_spheres + i;
+            if ((slots >> slot & 1U) != 0) certain_detail::meet(view.boxes[i], slot, inverse, d2, nearest);
+        }
+    }
+    return nearest.result();
+}
+
+}  // namespace tandem

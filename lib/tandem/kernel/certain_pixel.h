@@ -1,0 +1,64 @@
+/// The samples of a pixel, where a CertainView makes most of them cheap.
+#pragma once
+
+#include "tandem/kernel/certain_light.h"
+#include "tandem/kernel/pixel.h"
+#include "tandem/kernel/pixel_culling.h"
+#include "tandem/math/over_root.h"
+
+namespace tandem {
+
+/// The sum over the samples of a pixel whose rays hit nothing. Needs: is_finite_sky. Several samples at once hide each
+/// other's latency.
+template <class Effects, class Real>
+TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJob& job, std::uint32_t x,
+                                           std::uint32_t y) {
+    SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    PixelSum<Real> result;
+#if TANDEM_ON_DEVICE
+#pragma unroll 4
+#endif
+    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+        id.sample = job.first_sample + sample;
+        const Ray<Real> ray = sample_ray<Effects, Real>(job, id, x, y);
+        const Real height = over_root(ray.direction.y, dot(ray.direction, ray.direction));
+        result.sum = result.sum + to_wide(gradient(scene.environment, height));
+    }
+    return result;
+}
+
+/// One sample the usual way, out of line.
+template <class Effects, class Tracer>
+TANDEM_HD_COLD Vec3f careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
+                                      std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+    const SampleId<float> id = {&job->keys, job->frame, job->number_in_film(x, y), sample};
+    PathTally<float> tally;
+    return sample_radiance<Effects>(*tracer, *scene, *job, id, x, y, true, IndependentThreads(), tally);
+}
+
+/// render_pixel() for a valid view, without effects: the same bits. `slots`: the solids that its rays may hit.
+template <class Effects, class Tracer>
+TANDEM_HD_INLINE PixelSum<float> render_certain_pixel(const Tracer& tracer, const CertainView& view,
+                                                      const SceneView& scene, const PixelJob& job, std::uint32_t x,
+                                                      std::uint32_t y, std::uint32_t slots) {
+    SampleId<float> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    PixelSum<float> result;
+    TANDEM_KEEP_LOOP
+    for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+        id.sample = job.first_sample + sample;
+        const Ray<float> ray = sample_ray<Effects, float>(job, id, x, y);
+        const CertainHit hit = certain_hit(view, ray.direction, slots);
+        Vec3f radiance;
+        bool certain = true;
+        if (hit.slot == CertainHit::none) {
+            radiance = background(scene.environment, ray.direction);
+        } else {
+            certain = hit.slot != CertainHit::unsure && certain_light(view, ray.direction, hit, radiance);
+        }
+        if (!certain) radiance = careful_radiance<Effects>(&tracer, &scene, &job, x, y, id.sample);
+        add(radiance, result);
+    }
+    return result;
+}
+
+}  // namespace tandem
