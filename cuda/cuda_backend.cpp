@@ -86,7 +86,8 @@ class CudaFrame final : public PendingFrame {
 
 class CudaBackend final : public Backend {
   public:
-    explicit CudaBackend(Specialise specialise) : specialise_(specialise) {
+    explicit CudaBackend(const BackendOptions& options)
+        : specialise_(options.specialise), culls_pixels_(options.culls_pixels) {
         check(cudaSetDevice(0), "choosing the GPU");
         check(cudaGetDeviceProperties(&properties_, 0), "reading the properties of the GPU");
         kernels_.emplace(properties_.major * 10 + properties_.minor);
@@ -163,7 +164,7 @@ class CudaBackend final : public Backend {
         const auto height = static_cast<std::uint32_t>(window.height);
         const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
         const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
-            launch_render(kernel, resident.view(), samples, height, sums, counters, compute_.get());
+            launch_render(kernel, resident.view(), samples, height, culls_pixels_, sums, counters, compute_.get());
         };
         if (planes.variance != nullptr) {
             draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance);
@@ -285,6 +286,7 @@ class CudaBackend final : public Backend {
     }
 
     Specialise specialise_;
+    bool culls_pixels_;
     std::optional<SceneKernels> kernels_;
     cudaDeviceProp properties_{};
     Stream upload_, compute_, download_;
@@ -309,7 +311,7 @@ std::string why_cuda_unavailable() {
 }
 
 std::unique_ptr<Backend> make_cuda_backend(const BackendOptions& options) {
-    return std::make_unique<CudaBackend>(options.specialise);
+    return std::make_unique<CudaBackend>(options);
 }
 
 }  // namespace tandem

@@ -19,21 +19,18 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
     if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.tally.rays);
 }
 
-/// The primitives that camera rays of a warp's pixels may hit, in double: worth its time from a few samples on.
-/// `inside`: the threads that call it.
+/// The slots of primitives that camera rays of a warp's tile may hit: each thread asks for one, in double. Worth its
+/// time from a few samples on. All threads of the warp call it.
 template <class Effects>
-__device__ __forceinline__ std::uint32_t slots_in_warp(const ConstantMemoryTracer& tracer, const PixelJob& job,
-                                                       std::uint32_t x, std::uint32_t y, unsigned int inside) {
+__device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTracer& tracer, const PixelJob& job,
+                                                       std::uint32_t x, std::uint32_t y) {
     constexpr std::uint32_t least_samples = 8;
-    if (job.samples < least_samples) return ConstantMemoryTracer::all_slots;
-    const std::uint32_t own =
-        slots_in_pixel(tracer, bundle_of_pixel(job.camera, job.left + x, job.top + y, Effects::has(Effect::lens)));
-    std::uint32_t slots = 0;
-    TANDEM_KEEP_LOOP
-    for (std::uint32_t slot = 1; slot < ConstantMemoryTracer::all_slots; slot *= 2) {
-        if (__any_sync(inside, (own & slot) != 0)) slots |= slot;
-    }
-    return slots;
+    if (job.samples < least_samples || !tracer.culls_pixels) return ConstantMemoryTracer::all_slots;
+    const PixelTile tile = {job.left + x, job.top + y, warp_width, warp_height};
+    const RayBundle rays = bundle_of_tile(job.camera, tile, Effects::has(Effect::lens));
+    static_assert(ConstantMemoryTracer::slot_count <= warp_width * warp_height);
+    const bool may = threadIdx.x < ConstantMemoryTracer::slot_count && may_hit(tracer, rays, threadIdx.x);
+    return __ballot_sync(0xFFFFFFFFU, may);
 }
 
 /// A pixel whose camera rays may hit the primitives in `slots` alone.
@@ -55,18 +52,13 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                            Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const unsigned int warp = threadIdx.x / 32;
-    const unsigned int lane = threadIdx.x % 32;
-    const std::uint32_t x =
-        blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width + lane % warp_width;
-    const std::uint32_t y =
-        blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
-    const bool is_inside = x < job.width && y < height;
-    const unsigned int inside = __ballot_sync(0xFFFFFFFFU, is_inside);
-    if (!is_inside) return;
+    const std::uint32_t left = blockIdx.x * warp_width, top = blockIdx.y * warp_height;
+    const std::uint32_t x = left + threadIdx.x % warp_width, y = top + threadIdx.x / warp_width;
+    std::uint32_t slots = 0;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
+    if (x >= job.width || y >= height) return;
     PixelSum<Real> pixel;
     if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
-        const std::uint32_t slots = slots_in_warp<Effects>(tracer, job, x, y, inside);
         pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
     } else {
         pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());

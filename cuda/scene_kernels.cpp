@@ -161,7 +161,7 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
 }
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
+                   bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
@@ -169,6 +169,7 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
     switch (structure_of(scene)) {
         case Structure::few: {
             ConstantMemoryTracer tracer = scene.few;
+            tracer.culls_pixels = culls_pixels;
             tracer.certain = make_certain_view(scene.certain, job.camera,
                                                {job.left, job.left + job.width, job.top, job.top + height});
             return launch(tracer);

@@ -59,9 +59,9 @@ class SceneKernels {
     std::map<std::tuple<Tier, Structure, bool, std::size_t>, std::unique_ptr<SceneKernel>> compiled_;
 };
 
-/// Starts a kernel that SceneKernels gave for this scene: the sums of all pixels. `sums` and `counters` are in device
-/// memory.
+/// Starts a kernel that SceneKernels gave for this scene: the sums of all pixels. `culls_pixels`: as in
+/// BackendOptions. `sums` and `counters` are in device memory.
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                   Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
+                   bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
 
 }  // namespace tandem::cuda

@@ -41,8 +41,8 @@ class TargetRun {
         : options_(options), source_(source), report_(report), paper_(load_scene("named:paper")) {}
 
     /// Sample rate of the kernel of a tier divided by that of the naive kernel.
-    void gpu_kernel(TargetResult& result, Tier tier) {
-        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+    void gpu_kernel(TargetResult& result, Tier tier, bool culls_pixels) {
+        const std::unique_ptr<Backend> gpu = make("cuda", {.culls_pixels = culls_pixels});
         RenderJob job = paper_job();
         job.tier = tier;
         compare(
@@ -52,7 +52,7 @@ class TargetRun {
 
     /// Sample rate of our CPU renderer divided by that of a build of the naive one, on the same number of threads.
     void cpu_against(TargetResult& result, const NaiveBuild& build, int threads) {
-        const std::unique_ptr<Backend> cpu = make("cpu", threads);
+        const std::unique_ptr<Backend> cpu = make("cpu", {.threads = threads});
         const RenderJob job = paper_job();
         compare(
             result, fmt::format("naive loops, {}, {} threads", build.flags, threads),
@@ -80,7 +80,7 @@ class TargetRun {
 
     /// Rays from the points that coherent rays hit to a point light, in a million spheres: any hit ends them.
     void gpu_shadow_rays(TargetResult& result) {
-        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+        const std::unique_ptr<Backend> gpu = make("cuda", {});
         const PreparedScene scene = prepare(load_scene(million_spheres), {0, {}, Vec3d{0, 0, 0}});
         const auto resident = gpu->load(scene);
         const std::vector<Ray<float>> first = make_rays(RaySet::coherent, options_.ray_edge);
@@ -118,7 +118,7 @@ class TargetRun {
 
     /// Primitives per second of a build on the GPU whose memory is there from the build before.
     void gpu_build(TargetResult& result) {
-        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+        const std::unique_ptr<Backend> gpu = make("cuda", {});
         const PreparedScene scene = prepare(load_scene(ten_million_spheres), {});
         const double count = static_cast<double>(primitive_count(scene));
         BenchmarkRow row;
@@ -143,7 +143,7 @@ class TargetRun {
 
     /// Share of the animation's wall-clock time that is kernel time.
     void render_share(TargetResult& result) {
-        const std::unique_ptr<Backend> gpu = make("cuda", 0);
+        const std::unique_ptr<Backend> gpu = make("cuda", {});
         std::filesystem::create_directories(options_.folder);
         const auto run = [&](SequenceOutput output) {
             return render_sequence(*gpu, paper_, paper_job(), {options_.frames, output, options_.folder, 0, 3});
@@ -164,8 +164,8 @@ class TargetRun {
     }
 
   private:
-    std::unique_ptr<Backend> make(const std::string& name, int threads) {
-        std::unique_ptr<Backend> backend = source_.make(name, {threads, 16, {}});
+    std::unique_ptr<Backend> make(const std::string& name, const BackendOptions& options) {
+        std::unique_ptr<Backend> backend = source_.make(name, options);
         describe_backend(*backend, report_);
         return backend;
     }
@@ -286,8 +286,12 @@ std::vector<Target> all_targets(int cores) {
             fmt::format("Paper's scene, GPU, {}, kernel time: at least {} times the sample rate of the naive kernel, "
                         "which has the scene in its code",
                         to_string(tier), rate),
-            rate, true, [tier](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, tier); }));
+            rate, true, [tier](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, tier, true); }));
     }
+    targets.push_back(target(
+        "gpu-paper-unculled",
+        "The same in strict, where each pixel tests all primitives, as the naive kernel does: at least 0.8 times", 0.8,
+        true, [](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, Tier::strict, false); }));
     for (const int threads : thread_counts(cores)) {
         const char* plural = threads == 1 ? "" : "s";
         targets.push_back(

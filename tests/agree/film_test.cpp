@@ -69,7 +69,7 @@ TEST_P(FilmBits, AreTheSameForFramesInFlightAndFramesAlone) {
 }
 
 /// The paper's scene with the camera and the solids elsewhere, other materials, and up to five lights: GPUs have a way
-/// of their own for pinhole cameras before a few solids (kernel/certain_view.h).
+/// of their own for pinhole cameras before a few solids (kernel/traversal/certain_view.h).
 PreparedScene few_solids(std::uint64_t seed) {
     test::Random random(seed);
     const auto moved = [&](double by) {

@@ -159,7 +159,11 @@ TEST(CertainPixel, HasTheSumOfItsSamples) {
         if (c.certain.is_valid == 0) continue;
         for (std::uint32_t pixel = 0; pixel < film_size * film_size; pixel += 37) {
             const std::uint32_t x = pixel % film_size, y = pixel / film_size;
-            const std::uint32_t slots = slots_in_pixel(c.tracer, bundle_of_pixel(c.job.camera, x, y, false));
+            const RayBundle rays = bundle_of_tile(c.job.camera, {x, y, 1, 1}, false);
+            std::uint32_t slots = 0;
+            for (std::uint32_t slot = 0; slot < ConstantMemoryTracer::slot_count; ++slot) {
+                if (may_hit(c.tracer, rays, slot)) slots |= 1U << slot;
+            }
             const auto usual = render_pixel<NoEffects, float>(c.tracer, c.scene, c.job, x, y, true);
             const auto quick = slots == 0
                                    ? render_sky<NoEffects, float>(c.scene, c.job, x, y)

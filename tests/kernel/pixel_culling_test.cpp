@@ -63,7 +63,7 @@ CameraView random_camera(test::Random& random, int kind) {
     return camera;
 }
 
-TEST(SlotsInPixel, HaveEveryPrimitiveThatACameraRayHits) {
+TEST(PixelCulling, KeepsEveryPrimitiveThatACameraRayHits) {
     std::size_t hits = 0, slots_kept = 0, slots_hit = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         test::Random random(seed);
@@ -73,11 +73,17 @@ TEST(SlotsInPixel, HaveEveryPrimitiveThatACameraRayHits) {
         const LoopTracer one_by_one = {scene};
         const CameraView camera = random_camera(random, static_cast<int>(seed % 3));
         for (int i = 0; i < 300; ++i) {
-            const std::uint32_t x = random.below(film_size), y = random.below(film_size);
-            const std::uint32_t slots = slots_in_pixel(few, bundle_of_pixel(camera, x, y, true));
+            const PixelTile tile = {random.below(film_size), random.below(film_size), 1 + random.below(9),
+                                    1 + random.below(5)};
+            const RayBundle bundle = bundle_of_tile(camera, tile, true);
+            std::uint32_t slots = 0;
+            for (std::uint32_t slot = 0; slot < ConstantMemoryTracer::slot_count; ++slot) {
+                if (may_hit(few, bundle, slot)) slots |= 1U << slot;
+            }
             const CulledTracer culled = {few, slots};
             std::uint32_t hit_slots = 0;
             for (int sample = 0; sample < 64; ++sample) {
+                const std::uint32_t x = tile.x + random.below(tile.width), y = tile.y + random.below(tile.height);
                 // corners of the pixel too
                 const auto offset = [&] {
                     return sample < 4 ? (random.coin() ? 0.99999994F : 0.0F) : random.uniform(0.0F, 1.0F);
@@ -103,7 +109,7 @@ TEST(SlotsInPixel, HaveEveryPrimitiveThatACameraRayHits) {
     EXPECT_LT(slots_kept, 4 * slots_hit) << "hidden ones are kept, but few others";
 }
 
-TEST(SlotsInPixel, KeepWhatIsNotANumber) {
+TEST(PixelCulling, KeepsWhatIsNotANumber) {
     const RayBundle nowhere = {{NAN, 0, 0}, {0, 0, 1}, 0, 0};
     EXPECT_TRUE(may_hit(nowhere, Sphere{{0, 0, 0}, 1}));
     EXPECT_TRUE(may_hit(nowhere, Box{{0, 0, 0}, {1, 1, 1}}));

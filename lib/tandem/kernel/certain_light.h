@@ -22,7 +22,7 @@
 /// Tested by tests/kernel/certain_light_test.cpp, with the approximations of rough.h and with worse ones.
 #pragma once
 
-#include "tandem/kernel/certain_hit.h"
+#include "tandem/kernel/traversal/certain_hit.h"
 
 namespace tandem {
 

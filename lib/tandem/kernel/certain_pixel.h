@@ -14,13 +14,15 @@ template <class Effects, class Real>
 TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJob& job, std::uint32_t x,
                                            std::uint32_t y) {
     SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    PixelRays<Real> rays = rays_of_pixel<Real>(job, x, y);
+    rays.orthographic = false;  // no view of such a camera has a finite sky
     PixelSum<Real> result;
 #if TANDEM_ON_DEVICE
 #pragma unroll 4
 #endif
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
         id.sample = job.first_sample + sample;
-        const Ray<Real> ray = sample_ray<Effects, Real>(job, id, x, y);
+        const Ray<Real> ray = sample_ray<Effects>(job, rays, id);
         const Real height = over_root(ray.direction.y, dot(ray.direction, ray.direction));
         result.sum = result.sum + to_wide(gradient(scene.environment, height));
     }
@@ -33,7 +35,8 @@ TANDEM_HD_COLD Vec3f careful_radiance(const Tracer* tracer, const SceneView* sce
                                       std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
     const SampleId<float> id = {&job->keys, job->frame, job->number_in_film(x, y), sample};
     PathTally<float> tally;
-    return sample_radiance<Effects>(*tracer, *scene, *job, id, x, y, true, IndependentThreads(), tally);
+    return sample_radiance<Effects>(*tracer, *scene, *job, rays_of_pixel<float>(*job, x, y), id, true,
+                                    IndependentThreads(), tally);
 }
 
 /// render_pixel() for a valid view, without effects: the same bits. `slots`: the solids that its rays may hit.
@@ -42,11 +45,13 @@ TANDEM_HD_INLINE PixelSum<float> render_certain_pixel(const Tracer& tracer, cons
                                                       const SceneView& scene, const PixelJob& job, std::uint32_t x,
                                                       std::uint32_t y, std::uint32_t slots) {
     SampleId<float> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    PixelRays<float> rays = rays_of_pixel<float>(job, x, y);
+    rays.orthographic = false;  // or the view is not valid
     PixelSum<float> result;
     TANDEM_KEEP_LOOP
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
         id.sample = job.first_sample + sample;
-        const Ray<float> ray = sample_ray<Effects, float>(job, id, x, y);
+        const Ray<float> ray = sample_ray<Effects>(job, rays, id);
         const CertainHit hit = certain_hit(view, ray.direction, slots);
         Vec3f radiance;
         bool certain = true;
@@ -55,8 +60,11 @@ TANDEM_HD_INLINE PixelSum<float> render_certain_pixel(const Tracer& tracer, cons
         } else {
             certain = hit.slot != CertainHit::unsure && certain_light(view, ray.direction, hit, radiance);
         }
-        if (!certain) radiance = careful_radiance<Effects>(&tracer, &scene, &job, x, y, id.sample);
-        add(radiance, result);
+        if (certain) {
+            result.sum = result.sum + to_wide(radiance);  // a view is valid only if its light is finite
+        } else {
+            add(careful_radiance<Effects>(&tracer, &scene, &job, x, y, id.sample), result);
+        }
     }
     return result;
 }

@@ -39,18 +39,26 @@ struct PixelSum {
     PathTally<Real> tally;
 };
 
-/// The camera ray of a sample. `Effects`: what is simulated (effects/effects.h).
-template <class Effects, class Real>
-TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, const UInt<Real>& x,
-                               const UInt<Real>& y) {
+template <class Real>
+TANDEM_HD PixelRays<Real> rays_of_pixel(const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y) {
     using D = Double<Real>;
+    return rays_of_pixel<Real>(job.camera, from_uint<D>(x + UInt<Real>(job.left)),
+                               from_uint<D>(y + UInt<Real>(job.top)));
+}
+
+/// The camera ray of a sample. `rays`: of its pixel; `Effects`: what is simulated (effects/effects.h).
+template <class Effects, class Real>
+TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const PixelRays<Real>& rays, const SampleId<Real>& id) {
     const auto random = id.block(Dimension::film);
-    const Ray<Real> ray =
-        camera_ray(job.camera, from_uint<D>(x + UInt<Real>(job.left)), from_uint<D>(y + UInt<Real>(job.top)),
-                   to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    const Ray<Real> ray = rays.at(to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
     if (!Effects::has(Effect::lens) || !job.camera.has_lens) return ray;
     const auto at = id.block(Dimension::lens);
     return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));
+}
+template <class Effects, class Real>
+TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, const UInt<Real>& x,
+                               const UInt<Real>& y) {
+    return sample_ray<Effects>(job, rays_of_pixel<Real>(job, x, y), id);
 }
 
 /// Adds the radiance of a sample.
@@ -68,11 +76,11 @@ TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
 /// The radiance of a sample, for paths that end at their first vertex, in the lanes of `active`.
 template <class Effects, class Real, class Tracer, class Threads>
 TANDEM_HD Vec3<Real> sample_radiance(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
-                                     const SampleId<Real>& id, const UInt<Real>& x, const UInt<Real>& y,
-                                     const Mask<Real>& active, const Threads& threads, PathTally<Real>& tally) {
+                                     const PixelRays<Real>& rays, const SampleId<Real>& id, const Mask<Real>& active,
+                                     const Threads& threads, PathTally<Real>& tally) {
     const Real zero(0.0F);
     PathState<Effects, Real, can_bounce<Effects>()> path;
-    path.begin(scene, sample_ray<Effects, Real>(job, id, x, y), active);
+    path.begin(scene, sample_ray<Effects>(job, rays, id), active);
     Vec3<Real> radiance = {zero, zero, zero};
     const Closest<Real> hit = next_hit<Effects, Real>(tracer, path, tally);
     advance<Effects>(tracer, scene, Effects::limits(job.limits), id, UInt<Real>(0U), hit, threads, path, radiance,
@@ -88,10 +96,11 @@ TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& sce
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active,
                                       const Threads& threads = {}) {
     SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), UInt<Real>(job.first_sample)};
+    const PixelRays<Real> rays = rays_of_pixel<Real>(job, x, y);
     PixelSum<Real> result;
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
         id.sample = UInt<Real>(job.first_sample + sample);
-        add(sample_radiance<Effects>(tracer, scene, job, id, x, y, active, threads, result.tally), result);
+        add(sample_radiance<Effects>(tracer, scene, job, rays, id, active, threads, result.tally), result);
     }
     return result;
 }

@@ -1,9 +1,9 @@
-/// Which of a few primitives the camera rays of a pixel may hit, from all of them at once. So a pixel of the background
-/// tests nothing, however many samples it takes.
+/// Which of a few primitives the camera rays of a tile of pixels may hit, from all of them at once. So a tile of the
+/// background tests nothing, however many samples it takes.
 ///
 /// Needs: a camera and primitives within coordinate_limit.
-/// Gives: every primitive that a camera ray of the pixel hits, and perhaps others.
-/// Method: the rays differ little from the one through the pixel's middle. The moment of a line about the primitive's
+/// Gives: every primitive that a camera ray of the tile hits, and perhaps others.
+/// Method: the rays differ little from the one through the tile's middle. The moment of a line about the primitive's
 ///         centre changes by at most |f| dd + do (|d| + dd), where f points from the centre to the middle ray's origin,
 ///         and do and dd bound how far origins and directions are from the middle ray's.
 /// Bounds: all in double, whose rounding a relative margin of 2^-30 covers. Rays are rounded to float, by at most 2^-20
@@ -15,7 +15,7 @@
 
 namespace tandem {
 
-/// The camera rays of a pixel: origins and directions within the spreads, Euclidean lengths, of those of the middle.
+/// The camera rays of a tile: origins and directions within the spreads, Euclidean lengths, of those of the middle.
 struct RayBundle {
     Vec3d origin, direction;
     double origin_spread, direction_spread;
@@ -30,15 +30,22 @@ TANDEM_HD_INLINE double length_of(const Vec3d& a) { return square_root(dot(a, a)
 
 }  // namespace culling_detail
 
+/// Pixels of a film: `width` by `height` from (x, y) on.
+struct PixelTile {
+    std::uint32_t x, y, width, height;
+};
+
 /// `has_lens`: whether rays start on the camera's lens, if it has one.
-TANDEM_HD_INLINE RayBundle bundle_of_pixel(const CameraView& camera, std::uint32_t x, std::uint32_t y, bool has_lens) {
+TANDEM_HD_INLINE RayBundle bundle_of_tile(const CameraView& camera, const PixelTile& tile, bool has_lens) {
     using namespace culling_detail;
+    const double width = tile.width, height = tile.height;
     const auto middle = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
-        return start + dx * (x + 0.5) + dy * (y + 0.5);
+        return start + dx * (tile.x + 0.5 * width) + dy * (tile.y + 0.5 * height);
     };
     const auto spread = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
-        return 0.5 * (norm1(dx) + norm1(dy)) +
-               camera_rounding * (norm1(start) + norm1(dx) * (x + 1.0) + norm1(dy) * (y + 1.0));
+        const double across = norm1(dx), down = norm1(dy);
+        return 0.5 * (across * width + down * height) +
+               camera_rounding * (norm1(start) + across * (tile.x + width) + down * (tile.y + height));
     };
     RayBundle bundle = {middle(camera.origin, camera.origin_dx, camera.origin_dy),
                         middle(camera.direction, camera.direction_dx, camera.direction_dy),
@@ -79,18 +86,13 @@ TANDEM_HD_INLINE bool may_hit(const RayBundle& rays, const Box& box) {
     return !separated;
 }
 
-/// The slots of ConstantMemoryStructure that a camera ray of the pixel may hit.
-TANDEM_HD_INLINE std::uint32_t slots_in_pixel(const ConstantMemoryStructure& few, const RayBundle& rays) {
-    std::uint32_t slots = 0;
-    TANDEM_KEEP_LOOP
-    for (std::uint32_t i = 0; i < few.scene.sphere_count; ++i) {
-        if (may_hit(rays, few.spheres[i])) slots |= few.slot_of_sphere(i);
+/// Whether a camera ray of the tile may hit the primitive in a slot of ConstantMemoryStructure, if there is one.
+TANDEM_HD_INLINE bool may_hit(const ConstantMemoryStructure& few, const RayBundle& rays, std::uint32_t slot) {
+    if (slot < ConstantMemoryStructure::max_spheres) {
+        return slot < few.scene.sphere_count && may_hit(rays, few.spheres[slot]);
     }
-    TANDEM_KEEP_LOOP
-    for (std::uint32_t i = 0; i < few.scene.box_count; ++i) {
-        if (may_hit(rays, few.scene.boxes[i])) slots |= few.slot_of_box(i);
-    }
-    return slots;
+    const std::uint32_t box = slot - ConstantMemoryStructure::max_spheres;
+    return box < few.scene.box_count && may_hit(rays, few.faces[box]);
 }
 
 /// Traces camera rays among some of the primitives, and other rays among all.

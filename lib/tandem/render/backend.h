@@ -78,10 +78,13 @@ class Backend {
 };
 
 struct BackendOptions {
-    int threads = 0;              ///< CPU and oracle: 0 means one per core
-    int tile_size = 16;           ///< CPU: edge of a square tile, pixels
-    std::string instruction_set;  ///< CPU: "x86-64-v2", "-v3" or "-v4"; empty means the best of this machine
+    int threads = 0;                ///< CPU and oracle: 0 means one per core
+    int tile_size = 16;             ///< CPU: edge of a square tile, pixels
+    std::string instruction_set{};  ///< CPU: "x86-64-v2", "-v3" or "-v4"; empty means the best of this machine
     Specialise specialise = Specialise::always;  ///< CUDA
+    /// CUDA: whether a pixel tests only the primitives that it may show (kernel/pixel_culling.h). False to measure what
+    /// that saves; no bit depends on it.
+    bool culls_pixels = true;
 };
 
 }  // namespace tandem

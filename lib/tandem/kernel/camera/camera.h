@@ -27,27 +27,46 @@ struct CameraView {
     std::int32_t blades = 0;                 ///< of the aperture; 0: round
 };
 
-/// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2. Directions are not
-/// normalised. The corner of the pixel is computed in double and rounded once; the offset is added separately in float,
-/// so that it stays accurate on large films. Within 2 ulp of the largest component. (The tier precise adds the offset
-/// in double; fast computes the corner in float.)
+/// The rays through a pixel: those of its corner, and what an offset adds to them.
+template <class Real>
+struct PixelRays {
+    Vec3<Real> origin, direction;  ///< through the corner
+    Vec3<Real> dx, dy;  ///< the steps of what changes: of the origin if `orthographic`, else of the direction
+    bool orthographic;
+
+    /// The ray through an offset in [0, 1)^2 from the corner.
+    [[nodiscard]] TANDEM_HD_INLINE Ray<Real> at(const Real& offset_x, const Real& offset_y) const {
+        const Vec3<Real> step = dx * offset_x + dy * offset_y;
+        return orthographic ? Ray<Real>{origin + step, direction} : Ray<Real>{origin, direction + step};
+    }
+};
+
+/// Directions are not normalised. The corner of the pixel is computed in double and rounded once; the offset is added
+/// separately in float, so that it stays accurate on large films. Within 2 ulp of the largest component. (The tier
+/// precise adds the offset in double; fast computes the corner in float.)
+template <class Real>
+TANDEM_HD_INLINE PixelRays<Real> rays_of_pixel(const CameraView& camera, const Double<Real>& pixel_x,
+                                               const Double<Real>& pixel_y) {
+    using D = Double<Real>;
+    const auto corner = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
+        return to_real<Real>(
+            Vec3<D>{(constant<D>(start.x) + pixel_x * constant<D>(dx.x)) + pixel_y * constant<D>(dy.x),
+                    (constant<D>(start.y) + pixel_x * constant<D>(dx.y)) + pixel_y * constant<D>(dy.y),
+                    (constant<D>(start.z) + pixel_x * constant<D>(dx.z)) + pixel_y * constant<D>(dy.z)});
+    };
+    if (camera.orthographic) {
+        return {corner(camera.origin, camera.origin_dx, camera.origin_dy), constant<Real>(camera.direction),
+                constant<Real>(camera.origin_dx), constant<Real>(camera.origin_dy), true};
+    }
+    return {constant<Real>(camera.origin), corner(camera.direction, camera.direction_dx, camera.direction_dy),
+            constant<Real>(camera.direction_dx), constant<Real>(camera.direction_dy), false};
+}
+
+/// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2.
 template <class Real>
 TANDEM_HD_INLINE Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x,
                                       const Double<Real>& pixel_y, const Real& offset_x, const Real& offset_y) {
-    using D = Double<Real>;
-    const auto at = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
-        const auto corner =
-            to_real<Real>(Vec3<D>{(constant<D>(start.x) + pixel_x * constant<D>(dx.x)) + pixel_y * constant<D>(dy.x),
-                                  (constant<D>(start.y) + pixel_x * constant<D>(dx.y)) + pixel_y * constant<D>(dy.y),
-                                  (constant<D>(start.z) + pixel_x * constant<D>(dx.z)) + pixel_y * constant<D>(dy.z)});
-        return corner + (constant<Real>(dx) * offset_x + constant<Real>(dy) * offset_y);
-    };
-    Ray<Real> ray;
-    ray.origin =
-        camera.orthographic ? at(camera.origin, camera.origin_dx, camera.origin_dy) : constant<Real>(camera.origin);
-    ray.direction = camera.orthographic ? constant<Real>(camera.direction)
-                                        : at(camera.direction, camera.direction_dx, camera.direction_dy);
-    return ray;
+    return rays_of_pixel<Real>(camera, pixel_x, pixel_y).at(offset_x, offset_y);
 }
 
 /// The camera ray through the point of the lens that u and v in [0, 1) choose. All such rays converge in the focal

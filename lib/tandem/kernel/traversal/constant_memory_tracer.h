@@ -2,7 +2,7 @@
 /// at compile time, so the filters need no loads.
 #pragma once
 
-#include "tandem/kernel/certain_view.h"
+#include "tandem/kernel/traversal/certain_view.h"
 #include "tandem/kernel/traversal/ray_tracer.h"
 
 namespace tandem {
@@ -17,10 +17,13 @@ struct ConstantMemoryStructure {
     SceneView scene;
     Sphere spheres[max_spheres];
     BoxFilter boxes[max_boxes];
-    CertainView certain;  ///< of the job; not valid for rays that no camera sends
+    Box faces[max_boxes];  ///< of the same boxes
+    CertainView certain;   ///< of the job; not valid for rays that no camera sends
+    bool culls_pixels = true;
 
     // one bit per slot: spheres, then boxes
-    static constexpr std::uint32_t all_slots = (1U << (max_spheres + max_boxes)) - 1;
+    static constexpr std::uint32_t slot_count = max_spheres + max_boxes;
+    static constexpr std::uint32_t all_slots = (1U << slot_count) - 1;
     TANDEM_HD_INLINE static constexpr std::uint32_t slot_of_sphere(std::uint32_t i) { return 1U << i; }
     TANDEM_HD_INLINE static constexpr std::uint32_t slot_of_box(std::uint32_t i) { return 1U << (max_spheres + i); }
 
@@ -88,6 +91,7 @@ TANDEM_HD_INLINE bool fits_constant_memory(const SceneView& scene) {
     for (std::uint32_t i = 0; i < on_host.sphere_count; ++i) tracer.spheres[i] = on_host.spheres[i];
     for (std::uint32_t i = 0; i < on_host.box_count; ++i) {
         tracer.boxes[i] = make_box_filter(on_host.boxes[i].lower, on_host.boxes[i].upper);
+        tracer.faces[i] = on_host.boxes[i];
     }
     return tracer;
 }

@@ -16,8 +16,8 @@
 /// Tested by tests/kernel/certain_light_test.cpp.
 #pragma once
 
-#include "tandem/kernel/certain_view.h"
 #include "tandem/kernel/shapes/filter.h"
+#include "tandem/kernel/traversal/certain_view.h"
 #include "tandem/math/rough.h"
 
 namespace tandem {

@@ -8,10 +8,6 @@
 
 #include <algorithm>
 
-#include "tandem/kernel/bsdf/phong.h"
-#include "tandem/kernel/camera/camera.h"
-#include "tandem/kernel/lights/environment.h"
-#include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/kernel/shapes/box.h"
 #include "tandem/kernel/shapes/sphere.h"
 #include "tandem/kernel/view/scene_view.h"
