@@ -8,7 +8,7 @@ set(TANDEM_EXACT_VARIANT "" CACHE STRING
     "Effects for which to compile a further CPU variant, e.g. shadows;reflection, to measure the price of carried effects")
 set(TANDEM_INSTRUCTION_SETS "x86-64-v2;x86-64-v3;x86-64-v4" CACHE STRING
     "Instruction sets to compile the CPU kernels for, or native for the best one of this machine alone")
-option(TANDEM_UNITY "Compile files that read the same large headers together: less time for a build from nothing" OFF)
+option(TANDEM_UNITY "Compile files that read the same large headers together: faster full builds" OFF)
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 
 # TANDEM_CUDA: by default ON if there is an nvcc that works with this C++ compiler. Only ON is cached, so that an nvcc

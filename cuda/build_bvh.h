@@ -16,7 +16,7 @@ struct BuiltBvh {
     std::uint32_t levels = 0;  ///< of nodes; at most max_bvh_depth
 };
 
-/// How good a tree shall be.
+/// The work that a build spends on the quality of the tree.
 struct BuildEffort {
     std::uint32_t top_clusters;  ///< so many clusters are joined from the top down, on the host; 1: none
     int passes;                  ///< how often subtrees move to better places

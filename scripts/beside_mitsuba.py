@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Renders a glTF file in Tandem and in Mitsuba 3 with one camera, and puts the pictures side by side.
+"""Renders a glTF file in Tandem and in Mitsuba 3 with one camera, and puts the images side by side.
 
   scripts/beside_mitsuba.py FILE.gltf [-o beside.png] [--env PICTURE.hdr] [--render build/release/bin/tandem-render]
                             [--size 500x450] [--spp 256] [--from X,Y,Z --to X,Y,Z] [--yfov 40] [--metals]
 
-Needs a Python with the packages mitsuba, numpy and pillow. Materials become Mitsuba's `principled`. Its metals are
-ours: GGX with alpha = roughness^2 and Schlick's approximation. Its dielectrics are not: `principled` has Disney's
-diffuse lobe, ours is Lambert's under a dielectric boundary. `--metals` sets every metallic factor to 1 and takes the
-metallic-roughness textures away, so that the models are the same. Both follow light that surfaces reflect. Over the
-pixels that show the object, the mean of each channel and their ratio are printed.
+Needs a Python with the packages mitsuba, numpy and pillow. Materials become Mitsuba's `principled`. Metals have
+the same model in both: GGX with alpha = roughness^2 and Schlick's approximation. Dielectrics do not: `principled` has
+Disney's diffuse lobe, Tandem has Lambert's under a dielectric interface. `--metals` sets every metallic factor to 1 and
+removes the metallic-roughness textures, so that the models are the same. Both simulate indirect light. The script
+prints the mean of each channel over the pixels that show the object, and their ratio.
 """
 
 import argparse

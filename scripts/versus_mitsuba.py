@@ -4,9 +4,9 @@
   scripts/versus_mitsuba.py [--render build/release/bin/tandem-render] [--tier strict] [--variant scalar_rgb]
                          [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER]
 
-Needs a Python with the package mitsuba (`pip install mitsuba`). Both follow paths with a sample of the lights at each
-vertex. What differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends paths after 8
-vertices, Tandem after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both.
+Needs a Python with the package mitsuba (`pip install mitsuba`). Both trace paths with next-event estimation. What
+differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends paths after 8 vertices, Tandem
+after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both images.
 """
 
 import argparse

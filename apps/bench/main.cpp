@@ -192,8 +192,8 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
     command->add_option("--kinds", all.scale.kinds, "Kinds of named scenes: spheres, boxes, triangles, quads, mixed")
         ->delimiter(',')
         ->capture_default_str();
-    command->add_option("--from", all.scale.least, "The least number of primitives")->capture_default_str();
-    command->add_option("--to", all.scale.most, "The largest number of primitives, up to 1e8")->capture_default_str();
+    command->add_option("--from", all.scale.least, "Smallest number of primitives")->capture_default_str();
+    command->add_option("--to", all.scale.most, "Largest number of primitives, up to 1e8")->capture_default_str();
     command->add_option("--steps", all.scale.steps, "Numbers of primitives per factor of ten")
         ->capture_default_str()
         ->check(CLI::Range(1, 10));
@@ -201,7 +201,7 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
         ->delimiter(',')
         ->capture_default_str();
     add_backends_option(*command, all.scale);
-    command->add_option("--threads", all.scale.threads, "CPU threads, each number measured; 0 is one per core")
+    command->add_option("--threads", all.scale.threads, "Numbers of CPU threads to measure; 0 is one per core")
         ->delimiter(',')
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));

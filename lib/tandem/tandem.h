@@ -1,5 +1,5 @@
-/// All that a program needs which loads, makes and renders scenes. cmake --install installs this header and what it
-/// includes.
+/// Everything that programs need to load, make and render scenes. cmake --install installs this header and the headers
+/// that it includes.
 #pragma once
 
 #include "tandem/backends/make_backend.h"

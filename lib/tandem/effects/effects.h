@@ -66,17 +66,17 @@ struct EffectSet {
     }
 };
 
-// What tables of lobes and of lights say in place of effects.
+// What tables of lobes and lights may have in place of effects.
 inline constexpr EffectMask always = EffectMask::from_bits(~0U);
 inline constexpr EffectMask never;
 
-/// Can a kernel simulate one of these effects? For types.
+/// Whether a kernel of this type can simulate one of these effects.
 template <class Effects>
 TANDEM_HD constexpr bool can_simulate(EffectMask any_of) {
     return Effects::most.has_any(any_of) || any_of.bits() == always.bits();
 }
 
-/// Does it?
+/// Whether it simulates one of these effects.
 template <class Effects>
 TANDEM_HD constexpr bool simulates(EffectMask any_of) {
     return Effects::has_any(any_of) || any_of.bits() == always.bits();

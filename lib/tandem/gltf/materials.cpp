@@ -124,7 +124,7 @@ std::vector<Material> read_materials(const Source& source, ImportReport& report)
         }
         read_anisotropy(read, path, material, report);
         read_sheen(read, path, material, report);
-        // the far side of a body of glass has to be there, and Phong's model has ambient light for backs
+        // dielectrics need their far side, and Phong's model has ambient light for backs
         if (!(material.optics.transmission > 0) && phong == nullptr) material.sides = FaceSides::culled;
         if (material.unlit) {
             report.add(Treatment::rendered, unlit_name, fmt::format("{}.extensions.{}", path, unlit_name),

@@ -17,10 +17,9 @@ struct RayEnd {
     std::uint32_t unused = 0;
 };
 
-/// Whether neighbouring rays take nearly the same way. Decides how they are traced, and so the time; no bit depends on
-/// it.
+/// Whether neighbouring rays have nearly the same origins and directions. This affects the speed only, not the bits.
 enum class Coherence {
-    unknown,  ///< the backend looks at some rays
+    unknown,  ///< the backend inspects some rays
     coherent,
     incoherent,
 };

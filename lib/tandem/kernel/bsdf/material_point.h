@@ -1,4 +1,4 @@
-/// What parts of materials are evaluated with.
+/// The inputs that parts of materials are evaluated with.
 #pragma once
 
 #include "tandem/kernel/bsdf/optics.h"
@@ -7,7 +7,7 @@
 
 namespace tandem {
 
-/// What the textures of a material say at a point; 1 where it has none.
+/// The values of a material's textures at a point; 1 where it has none.
 template <class Real>
 struct MaterialTexels {
     Rgba<Real> base_colour = {Real(1.0F), Real(1.0F), Real(1.0F), Real(1.0F)};

@@ -1,4 +1,4 @@
-/// What a material of microfacets says beside its colour: glTF's metallic-roughness model.
+/// The parameters of a material with microfacets, besides its colour: glTF's metallic-roughness model.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@ struct Optics {
     Vec3f absorption{0, 0, 0};   ///< of the dielectric, RGB, per metre: Beer's law
     Vec3f emission{0, 0, 0};     ///< radiance from the outside of the surface, RGB
     std::uint32_t priority = 0;  ///< of the dielectric where solids overlap (medium_stack.h)
-    /// 1: `emission` times the base colour is visible from both sides and lights nothing. No effect on materials of a
-    /// Scene: Material::unlit says it there.
+    /// 1: `emission` times the base colour is visible from both sides and lights nothing. Not used in materials of
+    /// a Scene, which have Material::unlit instead.
     std::uint32_t unlit = 0;
 };
 

@@ -1,4 +1,4 @@
-/// What a material of cloth says beside its colour: the sheen of fibres.
+/// The parameters of cloth, besides its colour: the sheen of fibres.
 #pragma once
 
 #include "tandem/math/vec.h"

@@ -77,7 +77,7 @@ struct SheenLobe {
         return greater(widen(roughness), widen(Real(least_roughness)));
     }
 
-    /// Fibres that hide a fibre, for each that is seen, at the angle with this cosine.
+    /// Lambda of the visibility at the angle with this cosine: hidden fibres per visible one.
     [[nodiscard]] TANDEM_HD_INLINE static D hidden(const D& cosine, const D& mix) {
         const auto between = [&](double at_one, double at_zero) {
             return constant<D>(at_one) + constant<D>(at_zero - at_one) * mix;

@@ -9,7 +9,7 @@ namespace tandem {
 
 /// The id that means no primitive.
 inline constexpr std::uint32_t no_primitive = 0xFFFFFFFFU;
-/// The id that means "occluded", by some primitive: shadow rays do not ask by which.
+/// The id that means "occluded" by some primitive: shadow rays do not find out which.
 inline constexpr std::uint32_t some_primitive = 0xFFFFFFFEU;
 /// Ids from here on are not primitives of a scene.
 inline constexpr std::uint32_t first_special_id = some_primitive;

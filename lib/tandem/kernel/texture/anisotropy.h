@@ -8,13 +8,13 @@ namespace tandem {
 
 /// Of one material. Its strength is Microfacets::anisotropy.
 struct Anisotropy {
-    float x = 1, y = 0;      ///< the direction along tangent and bitangent; with a texture, what turns the texture's
+    float x = 1, y = 0;      ///< the direction along tangent and bitangent; with a texture, it turns the texture's
     std::uint32_t slot = 0;  ///< of the texture coordinates that the tangent comes from
     TextureUse texture{};    ///< red and green: the direction; blue multiplies the strength
 };
 static_assert(sizeof(Anisotropy) == 44, "no byte is undefined; scene_hash() reads all");
 
-/// What the texture says where there is none: along the tangent, of full strength.
+/// The value without a texture: along the tangent, of full strength.
 template <class Real>
 TANDEM_HD_INLINE Rgba<Real> default_anisotropy_texel() {
     return {Real(1.0F), Real(0.5F), Real(1.0F), Real(1.0F)};

@@ -1,4 +1,4 @@
-/// The window through which kernels see a prepared scene, on the CPU and on the GPU.
+/// A prepared scene as kernels read it, on the CPU and on the GPU.
 #pragma once
 
 #include "tandem/kernel/bsdf/material_parts.h"
@@ -18,7 +18,7 @@
 
 namespace tandem {
 
-/// The media that the camera stands in, by material, in the order of entering them.
+/// The media that the camera is inside of, by material, in the order of entering them.
 struct CameraMedia {
     std::uint32_t count;
     std::uint32_t material[8];
@@ -33,11 +33,11 @@ struct SceneView {
 #include "tandem/kernel/view/scene_arrays.def"
     std::uint32_t area_light_kinds;  ///< PrimitiveKinds
     std::uint32_t area_lights_cast_shadows;
-    std::uint32_t several_slots;   ///< 0: materials read no colours of corners, and texture coordinates of slot 0 alone
-    std::uint32_t cutout_kinds;    ///< PrimitiveKinds of those that are cut out by their alpha, or culled
+    std::uint32_t several_slots;   ///< 0: materials read no vertex colours, and only the texture coordinates of slot 0
+    std::uint32_t cutout_kinds;    ///< PrimitiveKinds with alpha masks or culled faces
     std::uint32_t indirect_light;  ///< 1: diffuse surfaces receive light from other surfaces
-    std::uint32_t roulette_from;   ///< vertex of a path from which Russian roulette is played
-    std::uint32_t media_overlap;   ///< 0: bodies of glass lie apart, from each other and from everything else
+    std::uint32_t roulette_from;   ///< vertex of a path at which Russian roulette starts
+    std::uint32_t media_overlap;   ///< 0: dielectric solids neither overlap nor touch other primitives
     CameraMedia camera_media;
     Environment environment;
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) Type name;
@@ -60,7 +60,7 @@ TANDEM_HD_INLINE std::uint32_t primitive_count(const SceneView& scene) {
     return count;
 }
 
-/// Has a material optional parts?
+/// Whether a material has optional parts.
 TANDEM_HD_INLINE bool has_material_parts(const SceneView& scene) {
     std::uint32_t count = 0;
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is) count += scene.names##_count;
@@ -68,7 +68,7 @@ TANDEM_HD_INLINE bool has_material_parts(const SceneView& scene) {
     return count > 0;
 }
 
-/// Sets of kinds, as bits. A tracer that serves some kinds only has the code for the others left out.
+/// Sets of kinds of primitives, as bits. A tracer for some kinds has no code for the others.
 struct PrimitiveKinds {
     enum Place {
 #define TANDEM_PRIMITIVE(Type, name, names) name##_place,
@@ -98,14 +98,14 @@ inline constexpr std::uint32_t kind_of = 0;
 
 TANDEM_HD_INLINE bool has_faces(const SceneView& scene) { return scene.triangle_count + scene.quad_count > 0; }
 
-/// Does a kernel learn what its scene has when it is linked (cuda/linked_facts.h)?
+/// Whether a kernel gets the facts of its scene when it is linked (cuda/linked_facts.h).
 #ifdef TANDEM_LINKED_KINDS
 inline constexpr bool is_linked = true;
 #else
 inline constexpr bool is_linked = false;
 #endif
 
-/// Can a scene have primitives of one of these kinds?
+/// Whether a scene can have primitives of one of these kinds.
 TANDEM_HD_INLINE bool may_have(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_KINDS & kinds) != 0;
@@ -114,7 +114,7 @@ TANDEM_HD_INLINE bool may_have(std::uint32_t kinds) {
 #endif
 }
 
-/// Can a material read colours of corners, or texture coordinates of another slot than 0?
+/// Whether a material can read vertex colours, or texture coordinates of another slot than 0.
 TANDEM_HD_INLINE bool may_have_several_slots() {
 #if defined(TANDEM_LINKED_SEVERAL_SLOTS) && TANDEM_ON_DEVICE
     return TANDEM_LINKED_SEVERAL_SLOTS != 0;
@@ -123,7 +123,7 @@ TANDEM_HD_INLINE bool may_have_several_slots() {
 #endif
 }
 
-/// Can primitives of one of these kinds be cut out by their alpha, or culled?
+/// Whether primitives of one of these kinds can have alpha masks or culled faces.
 TANDEM_HD_INLINE bool may_be_cut_out(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_CUTOUT_KINDS & kinds) != 0;
@@ -132,7 +132,7 @@ TANDEM_HD_INLINE bool may_be_cut_out(std::uint32_t kinds) {
 #endif
 }
 
-/// Can a light with an area be of one of these kinds?
+/// Whether an area light can be of one of these kinds.
 TANDEM_HD_INLINE bool may_emit_light(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
     return (TANDEM_LINKED_LIGHT_KINDS & kinds) != 0;
@@ -141,7 +141,7 @@ TANDEM_HD_INLINE bool may_emit_light(std::uint32_t kinds) {
 #endif
 }
 
-/// What a linked kernel knows of the number of area lights.
+/// What a linked kernel knows about the number of area lights.
 enum class KnownAreaLights : std::uint32_t { unknown, one, several };
 TANDEM_HD_INLINE KnownAreaLights known_area_lights() {
 #if defined(TANDEM_LINKED_AREA_LIGHTS) && TANDEM_ON_DEVICE
@@ -151,7 +151,8 @@ TANDEM_HD_INLINE KnownAreaLights known_area_lights() {
 #endif
 }
 
-/// Has the scene no primitive that is cut out or culled? A kernel that is linked for a scene with some does not ask.
+/// Whether the scene has neither alpha masks nor culled faces. False in kernels that are linked for one scene, which
+/// have may_be_cut_out() instead.
 TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
 #if defined(TANDEM_LINKED_ANY_SCENE) && TANDEM_ON_DEVICE
     return TANDEM_LINKED_ANY_SCENE && scene.cutout_kinds == 0;
@@ -163,7 +164,7 @@ TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
-    // the last kind that there may be needs no comparison
+    // the last possible kind needs no comparison
 #define TANDEM_PRIMITIVE(Type, name, names)                                                   \
     if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
         constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);              \
