@@ -8,13 +8,12 @@
 
 namespace tandem::cuda {
 
-inline constexpr unsigned int block_threads = 128;
-
-// A warp covers a tile of 8 x 4 pixels, so that its rays are coherent. With one thread per pixel a block is one warp:
-// whole blocks would wait for their slowest warp.
+// A block covers 16 x 8 pixels as four warps of 8 x 4, so that the rays of a warp are coherent.
 inline constexpr unsigned int warp_width = 8;
 inline constexpr unsigned int warp_height = 4;
-inline constexpr unsigned int warp_threads = warp_width * warp_height;
+inline constexpr unsigned int block_width = 16;
+inline constexpr unsigned int block_height = 8;
+inline constexpr unsigned int block_threads = block_width * block_height;
 
 // One block of the kernels with a queue fills a multiprocessor, with 128 registers per thread.
 inline constexpr unsigned int queue_threads = 512;
@@ -28,7 +27,7 @@ struct RenderGrid {
     unsigned int threads;
 };
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
-    return {dim3(blocks_for(width, warp_width), blocks_for(height, warp_height)), warp_threads};
+    return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
 }
 /// One block per multiprocessor of the current GPU.
 [[nodiscard]] RenderGrid pixel_queue();

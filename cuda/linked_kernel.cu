@@ -62,8 +62,8 @@ using fast = FastFloat;
 using LinkedReal = linked_real::TANDEM_LINKED_TIER;
 
 #if defined(TANDEM_SHORT_PATHS)
-// Warps per multiprocessor: measured on an H200 against 4, 12, 16, 24 and 32 (docs/performance.md).
-#define TANDEM_LINKED_BOUNDS warp_threads, std::is_same_v<LinkedReal, double> ? 16 : 24
+// Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
+#define TANDEM_LINKED_BOUNDS block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6
 #else
 #define TANDEM_LINKED_BOUNDS queue_threads, 1
 #endif

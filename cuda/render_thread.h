@@ -29,7 +29,8 @@ __device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTrace
     const PixelTile tile = {job.left + x, job.top + y, warp_width, warp_height};
     const RayBundle rays = bundle_of_tile(job.camera, tile, Effects::has(Effect::lens));
     static_assert(ConstantMemoryTracer::slot_count <= warp_width * warp_height);
-    const bool may = threadIdx.x < ConstantMemoryTracer::slot_count && may_hit(tracer, rays, threadIdx.x);
+    const std::uint32_t slot = threadIdx.x % 32;
+    const bool may = slot < ConstantMemoryTracer::slot_count && may_hit(tracer, rays, slot);
     return __ballot_sync(0xFFFFFFFFU, may);
 }
 
@@ -52,8 +53,11 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                            Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const std::uint32_t left = blockIdx.x * warp_width, top = blockIdx.y * warp_height;
-    const std::uint32_t x = left + threadIdx.x % warp_width, y = top + threadIdx.x / warp_width;
+    const unsigned int warp = threadIdx.x / 32;
+    const unsigned int lane = threadIdx.x % 32;
+    const std::uint32_t left = blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width;
+    const std::uint32_t top = blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height;
+    const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
     std::uint32_t slots = 0;
     if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
     if (x >= job.width || y >= height) return;

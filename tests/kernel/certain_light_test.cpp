@@ -1,4 +1,4 @@
-// What certain_hit() and certain_light() are certain of has the bits of the careful way.
+// What certain_hit() and certain_light() are certain of has the bits of the general code.
 #include "tandem/kernel/certain_light.h"
 
 #include <gtest/gtest.h>
@@ -84,16 +84,16 @@ struct Case {
     explicit Case(std::uint64_t seed) {
         test::Random random(seed);
         const double far = random.below(4) == 0 ? 100 : 1;
-        const Vec3d eye = widen(Vec3f{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), 0.5F}) * far;
+        const Vec3d eye = Vec3d{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.5} * far;
         prepared = random_scene(random, eye);
-        job = random_job(random, widen(narrow(eye)));
+        job = random_job(random, eye);
         scene = view(prepared);
         certain = make_certain_view(make_certain_scene(scene), job.camera, {0, film_size, 0, film_size});
         tracer = make_constant_memory_tracer(scene, scene);
     }
 };
 
-TEST(CertainLight, HasTheBitsOfTheCarefulWay) {
+TEST(CertainLight, HasTheBitsOfTheGeneralCode) {
     std::size_t valid = 0, none = 0, certain = 0, hits = 0;
     for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
         const Case c(seed);

@@ -1,15 +1,15 @@
-/// The light of a certain hit, in cheap double precision: the bits of the careful way, or the answer that they are not
-/// certain.
+/// The light of a certain hit, in cheap double precision: the bits of the general code, or the answer that they are
+/// not certain.
 ///
 /// Needs: a valid CertainView; a hit that certain_hit() gave for the direction; no effects.
 /// Gives: the radiance that advance() gives for the sample in strict, bit for bit, or false.
 /// Method: what reaches float is the cosine of the diffuse lobe and the power of the highlight. Each is bounded from
-///         both sides by the error of this way and that of the careful way together. The radiance grows with both, so
-///         that of the lower bounds and that of the upper bounds enclose the careful one. Where they have the same
+///         both sides by the errors of this code and of the general code together. The radiance grows with both, so
+///         that of the lower bounds and that of the upper bounds enclose the general one. Where they have the same
 ///         bits, so has it.
 /// Bounds: u = 2^-53, f = origin - centre, r the radius, h half the chord, s the distance along the ray, G = |f|^2 / (h
-///         r) >= 1, L the way to the light, S = `extent`. Each bound is for this way plus the careful one; |f| >= 1.15
-///         r gives s <= |f| and b >= |f| / 2.
+///         r) >= 1, L the way to the light, S = `extent`. Each bound is for this code plus the general code; |f|
+///         >= 1.15 r gives s <= |f| and b >= |f| / 2.
 ///         - s: here b errs by 7 u |f| and the discriminant b^2 - c by 15 u |f|^2, so h by 7.5 u |f|^2 / h + 3 u h;
 ///           there the discriminant errs by 13 u r^2 and c by 5 u |f|^2. Together below 41 u G r; a box: 11 u s.
 ///         - normal: 23 u G + 21 u G + 12 u; of a box exact.
@@ -19,7 +19,7 @@
 ///         - highlight 2 (L.N) (N.V) - L.V: twice the errors of both cosines, once that of L.V, below 8 E.
 ///         - its power n, c^n: n c^(n-1) times that, and the errors of both powers, u (2 n + 256) of c^n.
 ///         Errors of second order are below a thousandth of these while E < 2^-30.
-/// Tested by tests/kernel/certain_light_test.cpp, with the approximations of rough.h and with worse ones.
+/// Tested by tests/kernel/certain_light_test.cpp, and on GPUs by tests/agree/film_test.cpp.
 #pragma once
 
 #include "tandem/kernel/traversal/certain_hit.h"

@@ -29,7 +29,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJo
     return result;
 }
 
-/// One sample the usual way, out of line.
+/// One sample by the general code, out of line.
 template <class Effects, class Tracer>
 TANDEM_HD_COLD Vec3f careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
                                       std::uint32_t x, std::uint32_t y, std::uint32_t sample) {

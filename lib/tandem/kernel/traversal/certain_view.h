@@ -3,7 +3,7 @@
 ///
 /// Needs: a perspective camera without a lens; spheres and boxes that do not contain it and are not near it; whole
 ///        shininesses; magnitudes far from the limits of float. If something is missing, the view is not valid, and
-///        the kernel takes every sample the usual way.
+///        the kernel computes every sample by the general code.
 #pragma once
 
 #include <algorithm>
@@ -190,7 +190,7 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     view.is_finite_sky = is_plain_colour(sky.bottom) && is_plain_colour(sky.top) ? 1 : 0;
     if (view.is_finite_sky == 0 || !scene.fits) return view;
 
-    const Vec3d origin = widen(constant<float>(camera.origin));
+    const Vec3d origin = widen(narrow(camera.origin));
     double extent = norm1(origin);
     double farthest = 0;
     bool valid = true;
