@@ -49,6 +49,7 @@ function(tandem_find_library target)
 endfunction()
 
 tandem_find_library(Tandem::jpeg jpeg HEADER jpeglib.h)
+tandem_find_library(Tandem::isal isal HEADER isa-l/igzip_lib.h)
 
 # Only if the CUDA backend is built; TANDEM_CUDA_LIBRARY_DIRS is the location of the toolkit.
 macro(tandem_find_cudart)

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cuda/device_scene.h"
+#include "cuda/film_memory.h"
 #include "cuda/plane_kernels.h"
 #include "cuda/scene_kernels.h"
 #include "tandem/base/error.h"
@@ -32,7 +33,7 @@ struct FrameMemory {
     Event render_start, render_end, download_start, download_end;
 };
 
-using FilmPool = Pool<Buffer<PinnedMemory>>;
+using FilmPool = Pool<Buffer<FilmMemory>>;
 
 /// Film memory from the pool; the film's pointer keeps the lease.
 std::shared_ptr<Vec3d> film_memory(FilmPool& pool, std::size_t bytes) {

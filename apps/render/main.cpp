@@ -145,7 +145,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->type_name("srgb|linear");
     app.add_option("--json", command.json, "write times, hashes and counts to a JSON file; - is standard output");
     app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as text (P3) instead of binary (P6)");
-    app.add_option("--png-level", sequence.write.png_level, "compression level of .png, 0 to 9")
+    app.add_option("--png-level", sequence.write.png_level, "compression level of .png, 0 to 9; 1 is the fast one")
         ->check(CLI::Range(0, 9))
         ->capture_default_str();
     app.add_flag("--force", sequence.force, "render every frame, even if its file exists with the same metadata");

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <filesystem>
 #include <future>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -81,12 +83,24 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
     }
 }
 
+/// Encodes the film of `record`. What fails without the name of a file, such as a codec that runs out of memory, gets
+/// it.
+EncodedImage encode_frame(Film film, const FrameRecord& record, ImageFormat format, const WriteOptions& options) {
+    try {
+        return encode_image(std::move(film), format, record.metadata, options);
+    } catch (const std::bad_alloc&) {
+        throw EnvironmentError(fmt::format("cannot encode '{}': not enough memory on this machine", record.file));
+    } catch (const std::exception& error) {
+        throw EnvironmentError(fmt::format("cannot encode '{}': {}", record.file, error.what()));
+    }
+}
+
 /// Hashes, encodes and writes a film in a thread of its own.
 FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const WriteOptions& options) {
     Stopwatch watch;
     record.metadata.film_sha256 = film_hash(film);
     record.seconds.hash = watch.lap();
-    const EncodedImage encoded = encode_image(std::move(film), format, record.metadata, options);
+    const EncodedImage encoded = encode_frame(std::move(film), record, format, options);
     record.nan_values = encoded.nan_values;
     record.seconds.encode = watch.lap();
     write_encoded(record.file, encoded, format, record.metadata, options);
@@ -131,12 +145,17 @@ class Sequence {
 
     std::size_t run(const std::atomic<bool>& interrupted) {
         const FrameRange& frames = options_.frames;
-        for (std::int32_t i = 0; i < frames.count() && !interrupted; ++i) {
-            start(frames.first + i);
-            report_written();
+        try {
+            for (std::int32_t i = 0; i < frames.count() && !interrupted; ++i) {
+                start(frames.first + i);
+                report_written();
+            }
+            while (!started_.empty()) pass_to_writer();
+            while (!writing_.empty()) report_first();
+        } catch (...) {
+            report_others();
+            throw;
         }
-        while (!started_.empty()) pass_to_writer();
-        while (!writing_.empty()) report_first();
         return done_;
     }
 
@@ -316,6 +335,16 @@ class Sequence {
         const FrameRecord record = first.get();
         ++done_;
         on_frame_(record);
+    }
+
+    /// After an error: reports the frames whose files are written nevertheless. Their errors are not the first.
+    void report_others() {
+        while (!writing_.empty()) {
+            try {
+                report_first();
+            } catch (...) {
+            }
+        }
     }
 
     void report_written() {

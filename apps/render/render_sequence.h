@@ -73,7 +73,8 @@ struct FrameRecord {
 /// With `fewer_samples` or `shorter_paths` the first frame decides for all.
 ///
 /// Returns the number of finished frames. Throws InputError for invalid options, scenes and paths, if possible before
-/// the first frame; errors of backends and writers are passed on. Files that were already written stay, whole.
+/// the first frame; the first error of a backend or a writer is passed on, once the frames that other writers hold are
+/// written and reported. It names the file if it is one of a file. Files that were written stay, whole.
 std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
                             const std::atomic<bool>& interrupted,
                             const std::function<void(const FrameRecord&)>& on_frame);

@@ -2,7 +2,12 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "images/sample_images.h"
+#include "support/random.h"
 #include "tandem/images/tone_curve.h"
 
 namespace tandem {
@@ -22,18 +27,65 @@ TEST(Png, RoundTripAtEveryLevel) {
     }
 }
 
-TEST(Png, IsReadByLibpngsSimplifiedInterface) {
-    const ByteImage image = sample_bytes(19, 40);
-    const Bytes bytes = encode_png(image, sample_metadata(19, 40), 1);
+/// The bytes as libpng's simplified interface reads them.
+ByteImage read_by_libpng(const Bytes& bytes) {
     png_image reader = {};
     reader.version = PNG_IMAGE_VERSION;
-    ASSERT_NE(png_image_begin_read_from_memory(&reader, bytes.data(), bytes.size()), 0) << reader.message;
-    EXPECT_EQ(reader.width, 19U);
-    EXPECT_EQ(reader.height, 40U);
+    if (png_image_begin_read_from_memory(&reader, bytes.data(), bytes.size()) == 0) {
+        ADD_FAILURE() << reader.message;
+        return {};
+    }
     EXPECT_EQ(reader.format, static_cast<png_uint_32>(PNG_FORMAT_RGB));
-    std::vector<std::uint8_t> values(PNG_IMAGE_SIZE(reader));
-    ASSERT_NE(png_image_finish_read(&reader, nullptr, values.data(), 0, nullptr), 0) << reader.message;
-    EXPECT_EQ(values, image.values);
+    ByteImage image{static_cast<int>(reader.width), static_cast<int>(reader.height), {}};
+    image.values.resize(PNG_IMAGE_SIZE(reader));
+    EXPECT_NE(png_image_finish_read(&reader, nullptr, image.values.data(), 0, nullptr), 0) << reader.message;
+    return image;
+}
+
+void expect_libpng_reads(const ByteImage& image, int level, const std::string& what) {
+    SCOPED_TRACE(what + " at level " + std::to_string(level));
+    const ByteImage read = read_by_libpng(encode_png(image, sample_metadata(image.width, image.height), level));
+    EXPECT_EQ(read.width, image.width);
+    EXPECT_EQ(read.height, image.height);
+    EXPECT_TRUE(read.values == image.values) << "libpng reads other pixels";
+}
+
+TEST(Png, IsReadByLibpngsSimplifiedInterface) {
+    // 21845 pixels make a row of 64 KiB, the size of a band of rows; noise is longer compressed than it was
+    constexpr std::pair<int, int> sizes[] = {{1, 1},   {2, 1},     {1, 2},     {1, 30001}, {30001, 1},
+                                             {19, 40}, {21845, 2}, {21846, 3}, {1021, 97}};
+    for (const auto& [width, height] : sizes) {
+        const std::string size = std::to_string(width) + " x " + std::to_string(height);
+        for (const int level : {0, 1, 2}) {
+            const ByteImage noise = sample_bytes(width, height);
+            expect_libpng_reads(noise, level, "noise of " + size);
+            expect_libpng_reads({width, height, std::vector<std::uint8_t>(noise.values.size(), 200)}, level,
+                                "one colour of " + size);
+        }
+    }
+}
+
+TEST(Png, KeepsPicturesOfRunsAndNoise) {
+    for (std::uint64_t picture = 0; picture < 40; ++picture) {
+        Random random(picture);
+        const auto at_most = [&](std::uint32_t most) { return 1 + random.below(most); };
+        ByteImage image{static_cast<int>(at_most(700)), static_cast<int>(at_most(90)), {}};
+        while (image.values.size() < 3 * pixel_count(image)) {
+            const std::size_t run = at_most(random.below(4) == 0 ? 5000 : 8);
+            image.values.insert(image.values.end(), run, static_cast<std::uint8_t>(random.below(256)));
+        }
+        image.values.resize(3 * pixel_count(image));
+        expect_libpng_reads(image, 1, "Random(" + std::to_string(picture) + ")");
+    }
+}
+
+TEST(Png, IsSmallIfItIsSmooth) {
+    ByteImage image{1000, 300, {}};
+    for (std::size_t i = 0; i < 3 * pixel_count(image); ++i) {
+        image.values.push_back(static_cast<std::uint8_t>(i / 3000 / 2 + i % 3000 / 60));
+    }
+    const std::size_t size = encode_png(image, {}, 1).size();
+    EXPECT_LT(size, image.values.size() / 20) << "level 1";
 }
 
 /// The chunks that describe colours.

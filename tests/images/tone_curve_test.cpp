@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "support/exact_srgb.h"
+#include "support/random.h"
 #include "support/thrown_message.h"
 #include "tandem/base/error.h"
 
@@ -153,14 +154,36 @@ TEST(ToneCurve, TakesAFilmAsItTakesTheImageOfItsMeans) {
     for (std::size_t i = 0; i < film.pixel_count(); ++i) {
         film.sums()[i] = {0.009 * static_cast<double>(i), i % 5 == 0 ? nan : 3.5, 7.0};
     }
-    for (const TransferFunction transfer : both) {
-        const Display display{transfer, 0.3};
+    for (const Display& display : {Display{both[0], 0}, {both[0], 0.3}, {both[1], 0}, {both[1], 0.3}}) {
+        SCOPED_TRACE(in_words(display));
         const ToneMapped direct = tone_map(film, display), through_image = tone_map(film_to_image(film), display);
         EXPECT_EQ(direct.image.width, 257);
         EXPECT_EQ(direct.image.height, 3);
         EXPECT_EQ(direct.image.values, through_image.image.values);
         EXPECT_EQ(direct.nan_values, 155U);
         EXPECT_EQ(through_image.nan_values, 155U);
+    }
+}
+
+// The loop over many values has no double rounding that the definition for one lacks, nor loses one.
+TEST(ToneCurve, OfAFilmIsThatOfEachMean) {
+    Film film(400, 50, 100);
+    test::Random random(1);
+    for (Vec3d& sum : film.sums()) {
+        sum = {random.uniform(-1.0, 101.0), random.uniform(0.0, 30.0), widen(random.any_float())};
+    }
+    for (const Display& display : {Display{both[0], 0}, {both[0], 0.3}, {both[1], 0}, {both[1], 0.3}}) {
+        const std::vector<std::uint8_t> levels = tone_map(film, display).image.values;
+        const double factor = exposure_factor(display);
+        for (std::size_t i = 0; i < film.pixel_count(); ++i) {
+            const Vec3f mean = film.mean(i);
+            const float values[] = {mean.x, mean.y, mean.z};
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const float shown = narrow(widen(values[channel]) * factor);
+                ASSERT_EQ(levels[3 * i + channel], to_level(shown, display.transfer))
+                    << in_words(display) << ", Random(1), pixel " << i << ", channel " << channel;
+            }
+        }
     }
 }
 

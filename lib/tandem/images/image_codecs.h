@@ -48,14 +48,16 @@ struct DecodedImage {
 
 /// 8-bit RGB PNG. Metadata are tEXt chunks; if their transfer function is sRGB, the file is tagged as such (the chunk
 /// sRGB, and gAMA and cHRM for readers that do not know it), else it has no tag. `level` is zlib's, 0 to 9; level 1
-/// only finds runs. Pixels are predicted from their left neighbour (filter "sub").
+/// is ISA-L's (fast_deflate.h) or, in a build without it, only finds runs. Pixels are predicted from their left
+/// neighbour (filter "sub").
 /// Measured with libpng 1.6.39 on one core of a shared AMD EPYC: three spheres in front of a gradient, 1000 x 900,
 /// smooth and with noise of half a level (standard deviation); best of 15:
-///   level 1, runs only        14 ms 125 kB    36 ms 677 kB    the default
+///   level 1, runs only        14 ms 125 kB    36 ms 677 kB    the default without ISA-L
 ///   level 1, zlib's matches   13 ms 115 kB    49 ms 851 kB
 ///   level 3                   17 ms  92 kB    91 ms 768 kB
 ///   level 6                   37 ms  64 kB   270 ms 684 kB
-/// Choosing the filter row by row takes about 20 ms more and saves at most a sixth.
+/// Choosing the filter row by row takes about 20 ms more and saves at most a sixth. ISA-L takes a seventh of the time
+/// of runs only, for files of that size (docs/performance.md).
 [[nodiscard]] Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level);
 /// Every PNG; grey and palettes become RGB, alpha is dropped. The display is that of the metadata. Without metadata, a
 /// file with the chunk sRGB is sRGB, and in any other value / largest value is linear, whatever its other tags say.

@@ -12,7 +12,7 @@ namespace tandem {
 
 struct WriteOptions {
     bool ppm_text = false;  ///< .ppm files are P3 text instead of P6
-    int png_level = 1;      ///< zlib's level, 0 to 9; encode_png() has measurements
+    int png_level = 1;      ///< 0 to 9, as of encode_png(), which has measurements
     Durability durability = Durability::synced;
     Display display{};  ///< of PNG and PPM; PFM and EXR are linear
 };

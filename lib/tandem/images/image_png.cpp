@@ -8,6 +8,7 @@
 #include <new>
 
 #include "tandem/images/decode_checks.h"
+#include "tandem/images/fast_deflate.h"
 #include "tandem/images/image_codecs.h"
 #include "tandem/images/texel_rows.h"
 #include "tandem/images/texels.h"
@@ -71,19 +72,29 @@ struct PngWriter : PngFile {
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
 
-    bool write(const ByteImage& image, const std::vector<png_text>& texts, const std::vector<png_bytep>& rows,
-               bool is_srgb, int level) {
+    /// What comes before the pixels.
+    bool write_header(const ByteImage& image, const std::vector<png_text>& texts, bool is_srgb) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                      PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-        png_set_compression_level(png, level);
-        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-        if (level == 1) png_set_compression_strategy(png, Z_RLE);
         if (is_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
         if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
         png_write_info(png, info);
+        return true;
+    }
+    /// The pixels, compressed by zlib, and what comes after them.
+    bool write_rows(const std::vector<png_bytep>& rows, int level) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_set_compression_level(png, level);
+        png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+        if (level == 1) png_set_compression_strategy(png, Z_RLE);
         png_write_image(png, const_cast<png_bytepp>(rows.data()));
         png_write_end(png, nullptr);
+        return true;
+    }
+    bool write_chunk(const char* type, std::span<const std::uint8_t> bytes) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_write_chunk(png, reinterpret_cast<png_const_bytep>(type), bytes.data(), bytes.size());
         return true;
     }
 };
@@ -217,6 +228,39 @@ std::vector<png_bytep> rows_of(Byte* values, std::size_t row_bytes, std::size_t 
     return rows;
 }
 
+/// A row as the filter "sub" leaves it, behind the filter's number: each byte less that of the pixel before.
+void filter_row(const std::uint8_t* row, std::size_t bytes, std::uint8_t* to) {
+    constexpr std::size_t pixel = 3;
+    to[0] = PNG_FILTER_VALUE_SUB;
+    std::copy_n(row, pixel, to + 1);
+    for (std::size_t i = pixel; i < bytes; ++i) to[1 + i] = static_cast<std::uint8_t>(row[i] - row[i - pixel]);
+}
+
+/// The pixels, compressed by ISA-L in bands of rows that stay in the cache, and the end of the file.
+bool write_bands(PngWriter& writer, const ByteImage& image) {
+    const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
+    const auto height = static_cast<std::size_t>(image.height);
+    const std::size_t most_rows = std::max<std::size_t>(1, (std::size_t{1} << 16) / row_bytes);
+    FastDeflate deflate;
+    std::vector<std::uint8_t> band(most_rows * (1 + row_bytes));
+    for (std::size_t first = 0; first < height; first += most_rows) {
+        const std::size_t rows = std::min(most_rows, height - first);
+        for (std::size_t y = 0; y < rows; ++y) {
+            filter_row(&image.values[(first + y) * row_bytes], row_bytes, &band[y * (1 + row_bytes)]);
+        }
+        const auto ready = deflate.compress(std::span(band).first(rows * (1 + row_bytes)), first + rows == height);
+        if (!ready.empty() && !writer.write_chunk("IDAT", ready)) return false;
+    }
+    return writer.write_chunk("IEND", {});
+}
+
+bool write_pixels(PngWriter& writer, const ByteImage& image, int level) {
+    if (level == 1 && FastDeflate::is_available()) return write_bands(writer, image);
+    const auto rows =
+        rows_of(image.values.data(), 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
+    return writer.write_rows(rows, level);
+}
+
 }  // namespace
 
 Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level) {
@@ -230,11 +274,9 @@ Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int leve
         entry.text_length = value.size();
         texts.push_back(entry);
     }
-    const auto rows =
-        rows_of(image.values.data(), 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
     PngWriter writer;
     const bool is_srgb = metadata.transfer == to_string(TransferFunction::srgb);
-    if (!writer.write(image, texts, rows, is_srgb, level)) {
+    if (!writer.write_header(image, texts, is_srgb) || !write_pixels(writer, image, level)) {
         throw std::runtime_error(std::string("libpng cannot encode the image: ") + writer.error.data());
     }
     return std::move(writer.written);

@@ -14,11 +14,17 @@ namespace tandem {
 
 namespace {
 
+// The levels of a transfer function are found in two steps. place() is arithmetic alone, so compilers vectorise loops
+// over it; at() may look into a table. In one loop, the table would keep all of it scalar.
+
 /// 255 times the clamped value, rounded to the nearest. The product is exact in double, so there is one rounding.
-inline std::uint8_t linear_level(float linear) {
-    const double with_half = static_cast<double>(clamp_to_unit(linear)) * 255.0 + 0.5;
-    return static_cast<std::uint8_t>(static_cast<int>(with_half));
-}
+struct LinearLevels {
+    [[nodiscard]] static std::uint32_t place(float linear) {
+        const double with_half = static_cast<double>(clamp_to_unit(linear)) * 255.0 + 0.5;
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(with_half));
+    }
+    [[nodiscard]] static std::uint8_t at(std::uint32_t place) { return static_cast<std::uint8_t>(place); }
+};
 
 /// The levels of sRGB, from a table indexed by the upper half of a float's bits. Each entry covers at most one border
 /// between levels and stores it: the least float of the upper level. So a level is exact if the borders are, which a
@@ -26,98 +32,118 @@ inline std::uint8_t linear_level(float linear) {
 class SrgbLevels {
   public:
     SrgbLevels() {
-        entries_.fill({infinity, 0});
         std::size_t from = 0;
-        for (int level = 1; level <= 255; ++level) {
-            const float border = least_float_from(linear_of_srgb((level - 0.5) / 255.0));
-            const std::size_t at = index_of(border);
-            for (; from <= at; ++from) entries_[from].below = static_cast<std::uint8_t>(level - 1);
-            entries_[at].border = border;
+        for (std::uint32_t level = 1; level <= 255; ++level) {
+            const std::uint32_t border = place(least_float_from(linear_of_srgb((level - 0.5) / 255.0)));
+            const std::size_t last = border >> 16;
+            for (; from < last; ++from) entries_[from] = (level - 1) << 16;
+            entries_[from++] = ((level - 1) << 16) + (0x10000 - (border & 0xFFFF));
         }
-        for (; from < entries_.size(); ++from) entries_[from].below = 255;
+        for (; from < entries_.size(); ++from) entries_[from] = 255 << 16;
     }
 
-    [[nodiscard]] std::uint8_t operator()(float linear) const {
-        const float clamped = linear > least ? (linear < 1 ? linear : 1.0F) : least;  // a NaN becomes black
-        const Entry& entry = entries_[index_of(clamped)];
-        return static_cast<std::uint8_t>(entry.below + (clamped >= entry.border ? 1 : 0));
+    /// The distance from `least`, in floats; a NaN becomes black.
+    [[nodiscard]] static std::uint32_t place(float linear) {
+        const float positive = linear > least ? linear : least;
+        const float clamped = positive < 1 ? positive : 1.0F;
+        return std::bit_cast<std::uint32_t>(clamped) - std::bit_cast<std::uint32_t>(least);
+    }
+    [[nodiscard]] std::uint8_t at(std::uint32_t place) const {
+        return static_cast<std::uint8_t>((entries_[place >> 16] + (place & 0xFFFF)) >> 16);
     }
 
   private:
-    struct Entry {
-        float border;
-        std::uint8_t below;  ///< level of the floats that are less
-    };
-
-    static constexpr float infinity = std::numeric_limits<float>::infinity();
     static constexpr float least = 0x1p-13F;  ///< less than any border
 
-    static std::size_t index_of(float value) {
-        return (std::bit_cast<std::uint32_t>(value) - std::bit_cast<std::uint32_t>(least)) >> 16;
-    }
     static float least_float_from(double value) {
         const float nearest = narrow(value);
-        return widen(nearest) < value ? std::nextafter(nearest, infinity) : nearest;
+        return widen(nearest) < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
     }
 
-    std::array<Entry, 13 * 128 + 1> entries_{};  ///< from 2^-13 to 1, 128 for each power of two
+    /// From 2^-13 to 1, one for each 2^16 floats, so 128 for each power of two: 2^16 times the level of the first
+    /// float, plus how many of the floats are not below the border. With the lower half of a place added, it carries
+    /// into the next level from the border on.
+    std::array<std::uint32_t, 13 * 128 + 1> entries_{};
 };
 
-const SrgbLevels& srgb_levels() {
-    static const SrgbLevels levels;
+template <class Levels>
+const Levels& levels_of() {
+    static const Levels levels;
     return levels;
 }
 
-/// `pixel` gives the linear colour of a pixel by its number, `level` the level of a value.
-template <class Pixel, class Level>
-ToneMapped tone_map(int width, int height, double factor, const Pixel& pixel, const Level& level) {
+/// Pixels that are converted together: their values stay in the cache.
+constexpr std::size_t block_pixels = 256;
+
+/// `means(first, pixels, to)` writes the linear values of the pixels from `first` on, three floats for each.
+template <class Levels, class Means>
+ToneMapped tone_map(int width, int height, double factor, const Means& means) {
+    const Levels& levels = levels_of<Levels>();
     ToneMapped result{{width, height, {}}, 0};
     const std::size_t pixels = pixel_count(result.image);
     result.image.values.resize(3 * pixels);
-    std::uint8_t* levels = result.image.values.data();
-    // in blocks of plain floats, which compilers vectorise
-    constexpr std::size_t block_pixels = 256;
-    float values[3 * block_pixels];
+    std::uint8_t* to = result.image.values.data();
+    // a loop for each step, so that compilers vectorise all but the table
+    std::array<float, 3 * block_pixels> values;
+    std::array<std::uint32_t, 3 * block_pixels> places;
     for (std::size_t first = 0; first < pixels; first += block_pixels) {
         const std::size_t count = std::min(block_pixels, pixels - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Vec3f linear = pixel(first + i);
-            std::memcpy(&values[3 * i], &linear, sizeof linear);
+        means(first, count, values.data());
+        const auto find_places = [&](const auto& exposed) {
+            std::uint32_t nan_values = 0;
+            for (std::size_t i = 0; i < 3 * count; ++i) {
+                nan_values += values[i] != values[i] ? 1 : 0;
+                places[i] = Levels::place(exposed(values[i]));
+            }
+            result.nan_values += nan_values;
+        };
+        if (factor == 1) {
+            find_places([](float value) { return value; });
+        } else {
+            find_places([&](float value) { return static_cast<float>(static_cast<double>(value) * factor); });
         }
-        std::uint32_t nan_values = 0;
-        for (std::size_t i = 0; i < 3 * count; ++i) {
-            levels[i] = level(static_cast<float>(static_cast<double>(values[i]) * factor));
-            nan_values += values[i] != values[i] ? 1 : 0;
-        }
-        result.nan_values += nan_values;
-        levels += 3 * count;
+        for (std::size_t i = 0; i < 3 * count; ++i) to[i] = levels.at(places[i]);
+        to += 3 * count;
     }
     return result;
 }
 
-template <class Pixel>
-ToneMapped tone_map(int width, int height, const Display& display, const Pixel& pixel) {
+template <class Means>
+ToneMapped tone_map(int width, int height, const Display& display, const Means& means) {
     const double factor = exposure_factor(display);
-    if (display.transfer == TransferFunction::linear) {
-        return tone_map(width, height, factor, pixel, [](float linear) { return linear_level(linear); });
-    }
-    return tone_map(width, height, factor, pixel, srgb_levels());
+    if (display.transfer == TransferFunction::linear) return tone_map<LinearLevels>(width, height, factor, means);
+    return tone_map<SrgbLevels>(width, height, factor, means);
+}
+
+/// The value of levels for one float.
+template <class Levels>
+std::uint8_t level_of(float linear) {
+    return levels_of<Levels>().at(Levels::place(linear));
 }
 
 }  // namespace
 
 std::uint8_t to_level(float linear, TransferFunction transfer) {
-    return transfer == TransferFunction::linear ? linear_level(linear) : srgb_levels()(linear);
+    return transfer == TransferFunction::linear ? level_of<LinearLevels>(linear) : level_of<SrgbLevels>(linear);
 }
 
 ToneMapped tone_map(const FloatImage& image, const Display& display) {
     const DefaultFpEnvironment guard;
-    return tone_map(image.width, image.height, display, [&](std::size_t i) { return image.pixels[i]; });
+    const auto means = [&](std::size_t first, std::size_t count, float* to) {
+        std::memcpy(to, &image.pixels[first], count * sizeof(Vec3f));
+    };
+    return tone_map(image.width, image.height, display, means);
 }
 
 ToneMapped tone_map(const Film& film, const Display& display) {
     const DefaultFpEnvironment guard;
-    return tone_map(film.width(), film.height(), display, [&](std::size_t i) { return film.mean(i); });
+    const double samples = film.samples();
+    const auto means = [&](std::size_t first, std::size_t count, float* to) {
+        const auto* sums = reinterpret_cast<const double*>(&film.sums()[first]);
+        // as Film::mean(), whose narrow() cannot be vectorised
+        for (std::size_t i = 0; i < 3 * count; ++i) to[i] = static_cast<float>(sums[i] / samples);
+    };
+    return tone_map(film.width(), film.height(), display, means);
 }
 
 std::vector<float> values_of_levels(std::uint32_t most, const Display& display) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "support/crowded_scene.h"
@@ -410,6 +411,30 @@ TEST_F(RenderSequence, AnErrorOfAWriterComesOut) {
     const auto message = thrown_message<InputError>([this] { render(); });
     EXPECT_NE(message.find("cannot write '" + place), std::string::npos) << message;
     EXPECT_EQ(backend.in_flight, 0) << "no frame is left with the backend";
+}
+
+// A codec does not know the name of its file.
+TEST_F(RenderSequence, AnErrorOfAnEncoderNamesTheFile) {
+    backend.film = [](const RenderJob& job) { return job.frame == 4 ? Film(0, 0, 1) : gradient_film(job); };
+    const auto message = thrown_message<EnvironmentError>([this] { render(); });
+    EXPECT_EQ(message.find("cannot encode '" + folder.file("f04.png") + "': libpng"), 0U) << message;
+}
+
+TEST_F(RenderSequence, AnErrorOfOneFileNamesItAndTheOthersAreReported) {
+    options.writers = 6;
+    std::filesystem::create_directory(folder.file("f04.png"));  // no file can take its place
+    EXPECT_EQ(thrown_message<InputError>([this] { render(); }).find("cannot write '" + folder.file("f04.png")), 0U);
+    EXPECT_EQ(backend.in_flight, 0);
+    std::vector<std::string> reported = {folder.file("f04.png")};
+    for (const FrameRecord& record : records) {
+        EXPECT_TRUE(read_metadata(record.file)) << record.file;
+        reported.push_back(record.file);
+    }
+    EXPECT_GE(records.size(), 1U);
+    std::sort(reported.begin(), reported.end());
+    std::vector<std::string> present;
+    for (const std::string& name : folder.names()) present.push_back(folder.file(name));
+    EXPECT_EQ(reported, present) << "every file that was written is reported, and no temporary file is left";
 }
 
 TEST_F(RenderSequence, AnErrorOfTheBackendComesOutAndWrittenFramesStay) {

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+#include <isa-l/igzip_lib.h>
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "tandem/images/fast_deflate.h"
+
+namespace tandem {
+
+struct FastDeflate::State {
+    isal_zstream stream;  // set by isal_deflate_init()
+    std::array<std::uint8_t, ISAL_DEF_LVL1_DEFAULT> level_memory;
+    std::vector<std::uint8_t> ready = std::vector<std::uint8_t>(1 << 16);
+};
+
+bool FastDeflate::is_available() { return true; }
+
+FastDeflate::FastDeflate() : state_(new State) {
+    isal_zstream& stream = state_->stream;
+    isal_deflate_init(&stream);
+    stream.gzip_flag = IGZIP_ZLIB;
+    stream.level = 1;
+    stream.level_buf = state_->level_memory.data();
+    stream.level_buf_size = static_cast<std::uint32_t>(state_->level_memory.size());
+}
+
+FastDeflate::~FastDeflate() = default;
+
+std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t> bytes, bool is_last) {
+    isal_zstream& stream = state_->stream;
+    std::vector<std::uint8_t>& ready = state_->ready;
+    stream.next_in = const_cast<std::uint8_t*>(bytes.data());  // ISA-L only reads it
+    stream.avail_in = static_cast<std::uint32_t>(bytes.size());
+    stream.end_of_stream = is_last ? 1 : 0;
+    std::size_t size = 0;
+    while (true) {
+        stream.next_out = ready.data() + size;
+        stream.avail_out = static_cast<std::uint32_t>(ready.size() - size);
+        if (const int error = isal_deflate(&stream); error != COMP_OK) {
+            throw std::runtime_error(fmt::format("ISA-L cannot compress: error {}", error));
+        }
+        size = ready.size() - stream.avail_out;
+        if (stream.avail_out > 0) return {ready.data(), size};
+        ready.resize(2 * ready.size());
+    }
+}
+
+}  // namespace tandem
