@@ -93,17 +93,6 @@ __device__ __forceinline__ void render_tiles(const ConstantMemoryTracer& tracer,
     }
 }
 
-/// Paths of one vertex.
-template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                             Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
-        render_tiles<Effects, Real>(tracer, job, height, sums, counters);
-    } else {
-        render_one<Effects, Real>(tracer, job, height, sums, counters);
-    }
-}
-
 /// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The
 /// threads of a block synchronise before each vertex, because the code of a vertex is larger than the instruction
 /// caches: so the instructions are fetched once for all warps (docs/performance.md). The assignment of pixels to
