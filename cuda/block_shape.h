@@ -29,8 +29,6 @@ struct RenderGrid {
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
     return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
 }
-/// As many blocks as the current GPU can hold at once, or a few more; their warps take tiles from a queue.
-[[nodiscard]] RenderGrid tile_queue();
 /// One block per multiprocessor of the current GPU.
 [[nodiscard]] RenderGrid pixel_queue();
 

@@ -224,7 +224,7 @@ class CudaBackend final : public Backend {
         for (std::uint32_t i = 0; i < job.samples; ++i) {
             one.first_sample = job.first_sample + i;
             check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_in_queue), 0,
-                                  sizeof(DeviceCounters) - offsetof(DeviceCounters, next_in_queue), compute_.get()),
+                                  sizeof(DeviceCounters::next_in_queue), compute_.get()),
                   "resetting the queue of pixels");
             draw(one, sample);
             add_samples(sample, sums, squares, pixels, compute_.get());

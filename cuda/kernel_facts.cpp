@@ -20,11 +20,6 @@ RenderGrid pixel_queue() {
     return {dim3(static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount))), queue_threads};
 }
 
-RenderGrid tile_queue() {
-    constexpr unsigned int most_blocks = 8;
-    return {dim3(most_blocks * static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount))), block_threads};
-}
-
 KernelFacts kernel_facts(const void* kernel) {
     cudaFuncAttributes attributes{};
     check(cudaFuncGetAttributes(&attributes, kernel), "reading the properties of a kernel");

@@ -50,7 +50,6 @@ struct DeviceCounters {
     unsigned long long stack_overflows;
     unsigned long long rays[ray_counters];
     unsigned int next_in_queue;  ///< the next pixel, or ray
-    unsigned int next_tile[2];   ///< for each pass of render_tiles() (cuda/render_thread.h)
 };
 
 /// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.

@@ -72,11 +72,7 @@ extern "C" __global__ void __launch_bounds__(TANDEM_LINKED_BOUNDS)
     tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer, const __grid_constant__ PixelJob job,
                   std::uint32_t height, Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
 #if defined(TANDEM_SHORT_PATHS)
-    if constexpr (std::is_same_v<TANDEM_LINKED_TRACER, ConstantMemoryTracer>) {
-        render_tiles<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
-    } else {
-        render_one<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
-    }
+    render_one<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #else
     render_queue<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #endif

@@ -55,42 +55,19 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
                                            Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     const unsigned int warp = threadIdx.x / 32;
     const unsigned int lane = threadIdx.x % 32;
-    const std::uint32_t x =
-        blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width + lane % warp_width;
-    const std::uint32_t y =
-        blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height + lane / warp_width;
+    const std::uint32_t left = blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width;
+    const std::uint32_t top = blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height;
+    const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
+    std::uint32_t slots = 0;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
     if (x >= job.width || y >= height) return;
-    const auto pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
-    keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
-}
-
-/// Tiles from a queue, one for each warp, for few primitives and paths of one vertex. Tiles that may show a primitive
-/// are drawn in a first pass, because they take longest; those of the background fill the end.
-template <class Effects, class Real>
-__device__ __forceinline__ void render_tiles(const ConstantMemoryTracer& tracer, const PixelJob& job,
-                                             std::uint32_t height, Vec3d* __restrict__ sums,
-                                             DeviceCounters* __restrict__ counters) {
-    const std::uint32_t tiles_across = (job.width + warp_width - 1) / warp_width;
-    const std::uint32_t tiles = tiles_across * ((height + warp_height - 1) / warp_height);
-    const unsigned int lane = threadIdx.x % 32;
-    TANDEM_KEEP_LOOP
-    for (const bool of_background : {false, true}) {
-        while (true) {
-            unsigned int tile = 0;
-            if (lane == 0) tile = atomicAdd(&counters->next_tile[of_background ? 1 : 0], 1U);
-            tile = __shfl_sync(0xFFFFFFFFU, tile, 0);
-            if (tile >= tiles) break;
-            const std::uint32_t left = tile % tiles_across * warp_width, top = tile / tiles_across * warp_height;
-            const std::uint32_t slots = slots_in_tile<Effects>(tracer, job, left, top);
-            if ((slots == 0) != of_background) continue;
-            const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
-            if (x < job.width && y < height) {
-                const auto pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
-                keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
-            }
-            __syncwarp();
-        }
+    PixelSum<Real> pixel;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
+        pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
+    } else {
+        pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
     }
+    keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
 /// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The

@@ -162,14 +162,11 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const Structure structure = structure_of(scene);
-    const RenderGrid grid = kernel.has_queue              ? pixel_queue()
-                            : structure == Structure::few ? tile_queue()
-                                                          : thread_per_pixel(job.width, height);
+    const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };
-    switch (structure) {
+    switch (structure_of(scene)) {
         case Structure::few: {
             ConstantMemoryTracer tracer = scene.few;
             tracer.culls_pixels = culls_pixels;
