@@ -35,8 +35,9 @@ class SceneKernel : public ::testing::Test {
         scene.light_count = lights;
         return linked_facts(scene, effects, PathLimits{});
     }
-    /// Linked once for all tests of the program.
-    static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
+    /// Linked once for all tests of the program. For few primitives, a kernel without effects has code that others lack
+    /// (kernel/certain_pixel.h).
+    static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::loop) {
         static std::map<std::pair<Structure, LinkedFacts>, Linked> known;
         const auto [place, is_new] = known.try_emplace({structure, facts});
         if (is_new) {
