@@ -33,8 +33,14 @@ TEST(Pareto, FindsTheBestOfATimeAndTheFastestOfAnError) {
     const std::vector<PricedError> points = {point(1, 4), point(2, 2), point(4, 1)};
     EXPECT_EQ(best_within(points, 3), 1U);
     EXPECT_EQ(best_within(points, 0.5), std::nullopt);
-    EXPECT_EQ(fastest_within(points, 2), 1U);
-    EXPECT_EQ(fastest_within(points, 0.5), std::nullopt);
+    EXPECT_EQ(fastest_within(points, point(0, 2).error), 1U);
+    EXPECT_EQ(fastest_within(points, point(0, 0.5).error), std::nullopt);
+}
+
+TEST(Pareto, PrefersTheFasterOfErrorsThatCannotBeToldApart) {
+    const std::vector<PricedError> points = {point(3, 1), point(2, 1.005), point(1, 1.5)};
+    EXPECT_EQ(best_within(points, 4), 1U);
+    EXPECT_EQ(fastest_within(points, points[0].error), 1U);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tandem/base/error.h"
+#include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
@@ -53,6 +54,7 @@ ErrorMeter::ErrorMeter(const Reference& reference)
     : reference_(reference), weights_(relative_weights(reference.mean())), sums_(reference.mean().pixels.size()) {}
 
 ImageErrors ErrorMeter::add(const FloatImage& image) {
+    const DefaultFpEnvironment guard;
     if (image.width != reference_.width() || image.height != reference_.height() ||
         image.pixels.size() != sums_.size()) {
         throw InputError(fmt::format("an image of {} x {} pixels cannot be compared with a reference of {} x {}",
@@ -88,6 +90,7 @@ ImageErrors ErrorMeter::add(const FloatImage& image) {
 }
 
 ErrorMeter::Variance ErrorMeter::reference_variance() const {
+    const DefaultFpEnvironment guard;
     if (reference_.is_exact() || count_ == 0) return {};
     Variance variance;
     for (std::size_t i = 0; i < sums_.size(); ++i) {

@@ -37,13 +37,23 @@ std::vector<std::optional<std::size_t>> dominating(std::span<const PricedError> 
 }
 
 std::optional<std::size_t> best_within(std::span<const PricedError> points, double seconds) {
+    const auto in_time = [&](const PricedError& point) { return point.seconds <= seconds; };
+    const std::optional<std::size_t> best = least(points, in_time, error_first);
+    if (!best) return best;
     return least(
-        points, [&](const PricedError& point) { return point.seconds <= seconds; }, error_first);
+        points,
+        [&](const PricedError& point) {
+            return in_time(point) && point.error.interval.low <= points[*best].error.interval.high;
+        },
+        [](const PricedError& point) { return point.seconds; });
 }
 
-std::optional<std::size_t> fastest_within(std::span<const PricedError> points, double error) {
+std::optional<std::size_t> fastest_within(std::span<const PricedError> points, const ErrorEstimate& error) {
     return least(
-        points, [&](const PricedError& point) { return point.error.value <= error; },
+        points,
+        [&](const PricedError& point) {
+            return point.error.value <= error.value || point.error.interval.low <= error.interval.high;
+        },
         [](const PricedError& point) { return point.seconds; });
 }
 

@@ -22,10 +22,12 @@ struct PricedError {
 /// dominate. Of several, the one with the least error is named, and of these the one with the least time.
 [[nodiscard]] std::vector<std::optional<std::size_t>> dominating(std::span<const PricedError> points);
 
-/// The point with the least error among those that take at most `seconds`; nothing if none does.
+/// The fastest of those points within `seconds` whose error cannot be told from the least one there; nothing if none
+/// takes as little.
 [[nodiscard]] std::optional<std::size_t> best_within(std::span<const PricedError> points, double seconds);
 
-/// The fastest point whose error is at most `error`; nothing if none is.
-[[nodiscard]] std::optional<std::size_t> fastest_within(std::span<const PricedError> points, double error);
+/// The fastest point whose error is at most `error`, or cannot be told from it; nothing if none is.
+[[nodiscard]] std::optional<std::size_t> fastest_within(std::span<const PricedError> points,
+                                                        const ErrorEstimate& error);
 
 }  // namespace tandem
