@@ -12,10 +12,12 @@ std::string format_price(double seconds, double fastest) {
 }
 
 bool run_accuracy(const AccuracyOptions& options, const BackendSource& source, Report& report) {
-    report.title = "Accuracy: time and error of every tier";
-    report.summary =
-        "Every tier on every backend. Errors of rays are relative to the oracle, which tests every primitive with "
-        "64-bit significands; errors of frames are relative to the tier precise with the same samples.";
+    if (report.title.empty()) {
+        report.title = "Accuracy: time and error of every tier";
+        report.summary =
+            "Every tier on every backend. Errors of rays are relative to the oracle, which tests every primitive with "
+            "64-bit significands; errors of frames are relative to the tier precise with the same samples.";
+    }
     const std::vector<Tier> tiers = parse_tiers(options.tiers);
     AccuracyStage stage;
     for (const std::string& name : available_backends(source, options.backends, report)) {
@@ -24,8 +26,8 @@ bool run_accuracy(const AccuracyOptions& options, const BackendSource& source, R
         for (const Tier tier : tiers) stage.entries.push_back({{name, tier}, stage.backends.back().get()});
     }
     if (stage.entries.empty()) throw EnvironmentError("none of the requested backends can run on this machine");
-    const bool rays = accuracy_of_rays(options, stage, report);
-    const bool frames = accuracy_of_frames(options, stage, report);
+    const bool rays = !options.with_rays || accuracy_of_rays(options, stage, report);
+    const bool frames = !options.with_frames || accuracy_of_frames(options, stage, report);
     return rays && frames;
 }
 

@@ -26,6 +26,8 @@ struct AccuracyOptions {
     int rays = 1 << 20;        ///< per kind of primitive
     int checked_rays = 20000;  ///< how many of them, from the first, are compared with the oracle
     int repetitions = 7;
+    bool with_rays = true;
+    bool with_frames = true;
 };
 
 /// A backend in one of its tiers.

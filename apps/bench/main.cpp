@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "accuracy.h"
+#include "accuracy/accuracy_report.h"
+#include "accuracy/report_blocks.h"
 #include "common/run_main.h"
 #include "effects.h"
 #include "hard.h"
@@ -26,10 +29,20 @@ struct Texts {
     std::string rays;
 };
 
+/// What of the accuracy report is made, and options of several of its parts.
+struct AccuracyChoice {
+    std::vector<std::string> parts = {"sweep"};
+    std::vector<std::string> scenes;
+    bool list = false;
+    bool all = false;
+};
+
 struct Everything {
     Texts texts;
     OutputOptions output;
+    AccuracyChoice accuracy_choice;
     AccuracyOptions accuracy;
+    SweepOptions sweep;
     ParityOptions parity;
     VersusOptions versus;
     PaperOptions paper;
@@ -110,12 +123,62 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
     return command;
 }
 
+/// The options of the sweep alone.
+void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
+    command.add_option("--vary", sweep.axes, "Axes of the sweep: samples, tier, effects, depth, tessellation")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--levels", sweep.levels, "Levels of tessellation: spheres of 20 * 4^level triangles")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::Range(0, 8));
+    command.add_option("--samples", sweep.samples, "Samples per pixel of the sweep")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 24));
+    command
+        .add_option("--seeds", sweep.seeds, "Images per point of the sweep, each with a seed; 32 or more for intervals")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 100'000));
+    command.add_option("--references", sweep.reference_folder,
+                       "Folder that keeps the references of the sweep; without it they are rendered each time");
+    command
+        .add_option("--reference-samples", sweep.reference_samples,
+                    "Samples per pixel of each reference; 0 means 32 times the most of --samples")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1 << 24));
+    command.add_flag("--rebuild-references", sweep.rebuild_references,
+                     "Only render the references of the scenes into the folder again");
+}
+
 CLI::App* add_accuracy(CLI::App& app, Everything& all) {
-    CLI::App* command = app.add_subcommand("accuracy", "Measure time and error of every accuracy tier");
-    command->add_option("SCENE", all.accuracy.scenes, "glTF files or named:NAME")->capture_default_str();
+    CLI::App* command =
+        app.add_subcommand("accuracy",
+                           "Measure what one more digit costs: time and error of samples, tiers, effects, "
+                           "depth and tessellation");
+    AccuracyChoice& choice = all.accuracy_choice;
+    command->add_option("SCENE", choice.scenes,
+                        "glTF files, named:NAME, closed:furnace/PERCENT or closed:glass. Default: named:paper for the "
+                        "sweep, four scenes for the frames");
+    command
+        ->add_option("--parts", choice.parts,
+                     "Parts of the report: sweep (error against time), rays and frames (every tier against the "
+                     "oracle and precise)")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::IsMember({"sweep", "rays", "frames"}));
+    command->add_flag("--list", choice.list, "List the fixed scenes, one easy and one hard for each axis");
+    command->add_flag("--all", choice.all, "Sweep all scenes of the list; run it in the repository");
     add_backends_option(*command, all.accuracy);
     add_tiers_option(*command, all.accuracy);
-    add_picture_options(*command, all.texts, all.accuracy);
+    command->add_option(
+        "--size", all.texts.size,
+        fmt::format("Width and height in pixels; default {}x{} for the sweep and {}x{} for frames",
+                    all.sweep.size.width, all.sweep.size.height, all.accuracy.size.width, all.accuracy.size.height));
+    add_sweep_options(*command, all.sweep);
+    command->add_option("--spp", all.accuracy.samples, "Samples per pixel of the frames")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 24));
     command->add_option("--rays", all.accuracy.rays, "Rays per kind of primitive")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 26));
@@ -243,6 +306,33 @@ void print_targets() {
     }
 }
 
+bool run_accuracy_parts(Everything& all, const BackendSource& source, Report& report) {
+    const AccuracyChoice& choice = all.accuracy_choice;
+    const auto has = [&](const char* part) {
+        return std::find(choice.parts.begin(), choice.parts.end(), part) != choice.parts.end();
+    };
+    take_texts(all.texts, all.accuracy);
+    take_texts(all.texts, all.sweep);
+    std::vector<std::string> scenes = choice.all ? listed_scene_names() : std::vector<std::string>();
+    scenes.insert(scenes.end(), choice.scenes.begin(), choice.scenes.end());
+    if (!scenes.empty()) all.accuracy.scenes = scenes;
+    bool holds = true;
+    if (has("sweep")) {
+        all.sweep.scenes = scenes;
+        all.sweep.backends = all.accuracy.backends;
+        all.sweep.tiers = all.accuracy.tiers;
+        all.sweep.seed = all.accuracy.seed;
+        all.sweep.threads = all.accuracy.threads;
+        holds = run_sweep(all.sweep, source, report);
+    }
+    if (has("rays") || has("frames")) {
+        all.accuracy.with_rays = has("rays");
+        all.accuracy.with_frames = has("frames");
+        holds = run_accuracy(all.accuracy, source, report) && holds;
+    }
+    return holds;
+}
+
 int run(int count, char** words) {
     CLI::App app{"Measures Tandem: time and error, phase by phase, every number with its spread.", "tandem-bench"};
     app.require_subcommand(1);
@@ -275,8 +365,15 @@ int run(int count, char** words) {
         if (!all.texts.rays.empty()) all.versus.rays = parse_ray_set(all.texts.rays);
         satisfied = run_versus(all.versus, source, report);
     } else if (accuracy->parsed()) {
-        take_texts(all.texts, all.accuracy);
-        satisfied = run_accuracy(all.accuracy, source, report);
+        if (all.accuracy_choice.list) {
+            Report list;
+            list.title = "Scenes of the accuracy report";
+            list.summary = "One easy and one hard scene for each axis, chosen before anything was measured.";
+            list.blocks.emplace_back(scene_table());
+            print_report(list);
+            return exit_done;
+        }
+        satisfied = run_accuracy_parts(all, source, report);
     } else if (paper->parsed()) {
         take_texts(all.texts, all.paper);
         satisfied = run_paper(all.paper, source, report);

@@ -86,5 +86,32 @@ TEST(SvgPlot, BarsCarryTheirIntervals) {
     EXPECT_NE(svg.find(">1 G<"), std::string::npos);
 }
 
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+TEST(SvgPlot, ScatterDrawsBoxesFrontAndFailures) {
+    ScatterPlot plot{"Error <against> time", {"s", true}, {"RMSE", true}, {"samples", "tier"}, {}, {{"noise", 0.1}}};
+    const auto point = [](double x, double y, const std::string& label, bool faded, bool failed) {
+        return ScatterPoint{{x, y}, {x / 2, x * 2}, {y / 2, y * 2}, label, faded ? "7" : "", 1, faded, failed};
+    };
+    plot.series.push_back({"CPU & co",
+                           {point(4, 1, "slow", false, false), point(1, 4, "fast", false, false),
+                            point(5, 5, "grey <one>", true, false), point(2, 1e9, "NaN", false, true)}});
+    const std::string svg = to_svg(plot);
+    EXPECT_EQ(count_of(svg, "class=\"box\""), 3U) << "one for each point that did not fail";
+    for (const char* part :
+         {"CPU &amp; co", "grey &lt;one&gt;", ">7</text>", "<title>NaN</title>", ">failed<", ">noise<"}) {
+        EXPECT_NE(svg.find(part), std::string::npos) << part;
+    }
+    EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;
+    EXPECT_EQ(svg.find("1e+09"), std::string::npos) << "what failed has no place on the axis";
+    const std::size_t front = svg.find("class=\"line front");
+    const std::string path = svg.substr(svg.rfind("<path", front), front - svg.rfind("<path", front));
+    EXPECT_EQ(count_of(path, "L"), 1U) << "two points, from left to right: " << path;
+}
+
 }  // namespace
 }  // namespace tandem

@@ -110,5 +110,22 @@ TEST(Statistics, RoundsGoForthAndBack) {
     EXPECT_EQ(interleaved_order(3, 2), (std::vector<std::size_t>{0, 1, 2}));
 }
 
+TEST(Statistics, IntervalOfAMedianIsTheOneOfTheTables) {
+    // The ranks for 95 %: 1 and 6 of 6; 2 and 9 of 10; 10 and 23 of 32
+    const auto ranks = [](int count) {
+        std::vector<double> values;
+        for (int i = count; i > 0; --i) values.push_back(i);
+        return interval_of_median(values);
+    };
+    EXPECT_FALSE(ranks(5));
+    EXPECT_EQ(ranks(6)->low, 1);
+    EXPECT_EQ(ranks(6)->high, 6);
+    EXPECT_EQ(ranks(10)->low, 2);
+    EXPECT_EQ(ranks(10)->high, 9);
+    EXPECT_EQ(ranks(32)->low, 10);
+    EXPECT_EQ(ranks(32)->high, 23);
+    EXPECT_FALSE(interval_of_median({}));
+}
+
 }  // namespace
 }  // namespace tandem

@@ -28,6 +28,7 @@ BenchmarkRow example_row() {
     row.errors.push_back({"oracle", "any bit", 0});
     row.effects = Effect::shadows | Effect::lens;
     row.figures = {{"mean FLIP", 0.25}};
+    row.series = {{"RMSE", {0.1, 0.2, 0.3}}};
     phase(row, "render").seconds = {0.1, 0.05, 0.2};
     return row;
 }
@@ -48,6 +49,9 @@ Report example_report() {
     plot.lines.push_back({"CPU", {{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}});
     report.blocks.emplace_back(plot);
     report.blocks.emplace_back(PictureGrid{{{"Frame 0", "\x89PNG"}}});
+    ScatterPlot scatter{"Error", {"s", true}, {"RMSE", true}, {"samples", "tier"}, {}, {}};
+    scatter.series.push_back({"cpu", {{{1, 2}, {0.5, 1.5}, {1, 3}, "cpu, fast", "3", 1, true, false}}});
+    report.blocks.emplace_back(scatter);
     return report;
 }
 
@@ -65,10 +69,17 @@ TEST(JsonWriter, HoldsEveryMeasurementAndTheMachine) {
     EXPECT_EQ(row["effects"], "shadows, lens");
     EXPECT_EQ(row["carried"], "none");
     EXPECT_EQ(row["figures"]["mean FLIP"], 0.25);
+    EXPECT_EQ(row["series"]["RMSE"][2], 0.3);
+    EXPECT_TRUE(row["summary"]["interval_95"].is_null()) << "three measurements are too few";
     EXPECT_EQ(json["machine"]["compiler"], example_report().machine.compiler);
     EXPECT_EQ(json["callouts"][0]["kind"], "bad");
     EXPECT_EQ(json["tables"][0]["rows"][1][1], "22");
     EXPECT_TRUE(json["plots"][0]["lines"][0]["points"][1][1].is_null()) << "NaN becomes null";
+    const auto& point = json["plots"][1]["series"][0]["points"][0];
+    EXPECT_EQ(point["label"], "cpu, fast");
+    EXPECT_EQ(point["shape"], "tier");
+    EXPECT_EQ(point["y_interval_95"][1], 3);
+    EXPECT_EQ(point["faded"], true);
 }
 
 TEST(JsonWriter, SurvivesTextThatIsNotUtf8) {
@@ -84,7 +95,9 @@ TEST(CsvWriter, QuotesAndKeepsOneLinePerRow) {
     std::istringstream text(csv);
     std::string header, line;
     ASSERT_TRUE(std::getline(text, header));
-    EXPECT_NE(header.find(",render_seconds"), std::string::npos);
+    EXPECT_NE(header.find(",render_seconds,render_seconds_low,render_seconds_high"), std::string::npos);
+    EXPECT_NE(header.find(",mean FLIP"), std::string::npos);
+    EXPECT_NE(csv.find(",0.25\r\n"), std::string::npos) << csv;
     int lines = 0;
     while (std::getline(text, line)) ++lines;
     EXPECT_EQ(lines, 2);

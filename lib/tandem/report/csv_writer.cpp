@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace tandem {
@@ -37,9 +38,32 @@ std::vector<std::string> phase_names(std::span<const BenchmarkRow> rows) {
     return names;
 }
 
-std::string phase_median(const BenchmarkRow& row, const std::string& name) {
+std::vector<std::string> figure_names(std::span<const BenchmarkRow> rows) {
+    std::vector<std::string> names;
+    for (const BenchmarkRow& row : rows) {
+        for (const auto& [name, value] : row.figures) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+    }
+    return names;
+}
+
+/// The median of a phase and the ends of its interval; empty where they are not known.
+std::vector<std::string> phase_cells(const BenchmarkRow& row, const std::string& name) {
     for (const PhaseTimings& timings : row.phases) {
-        if (timings.name == name && !timings.seconds.empty()) return fmt::format("{}", median(timings.seconds));
+        if (timings.name != name || timings.seconds.empty()) continue;
+        const Summary time = summarize(timings.seconds);
+        std::vector<std::string> cells = {fmt::format("{}", time.median), "", ""};
+        if (time.interval)
+            cells = {cells[0], fmt::format("{}", time.interval->low), fmt::format("{}", time.interval->high)};
+        return cells;
+    }
+    return {"", "", ""};
+}
+
+std::string figure_of(const BenchmarkRow& row, const std::string& name) {
+    for (const auto& [figure, value] : row.figures) {
+        if (figure == name) return fmt::format("{}", value);
     }
     return {};
 }
@@ -48,13 +72,17 @@ std::string phase_median(const BenchmarkRow& row, const std::string& name) {
 
 std::string to_csv(std::span<const BenchmarkRow> rows) {
     const std::vector<std::string> phases = phase_names(rows);
+    const std::vector<std::string> figures = figure_names(rows);
     std::vector<std::string> header = {
         "label", "scene", "backend",       "variant",    "tier",   "threads",    "measurements", "seconds",    "mad",
         "min",   "max",   "samples_per_s", "rays_per_s", "factor", "factor_low", "factor_high",  "factor_over"};
-    for (const std::string& name : phases) header.push_back(name + "_seconds");
+    for (const std::string& name : phases) {
+        for (const char* end : {"_seconds", "_seconds_low", "_seconds_high"}) header.push_back(name + end);
+    }
 #define TANDEM_COUNTER(name, words) header.push_back(#name);
 #include "tandem/render/counters.def"
 #undef TANDEM_COUNTER
+    header.insert(header.end(), figures.begin(), figures.end());
     std::string csv;
     append_line(csv, header);
     for (const BenchmarkRow& row : rows) {
@@ -75,10 +103,13 @@ std::string to_csv(std::span<const BenchmarkRow> rows) {
         } else {
             cells.insert(cells.end(), 4, "");
         }
-        for (const std::string& name : phases) cells.push_back(phase_median(row, name));
+        for (const std::string& name : phases) {
+            for (std::string& cell : phase_cells(row, name)) cells.push_back(std::move(cell));
+        }
 #define TANDEM_COUNTER(name, words) number(row.counters.name);
 #include "tandem/render/counters.def"
 #undef TANDEM_COUNTER
+        for (const std::string& name : figures) cells.push_back(figure_of(row, name));
         append_line(csv, cells);
     }
     return csv;

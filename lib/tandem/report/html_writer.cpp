@@ -5,6 +5,7 @@
 #include "tandem/report/format_number.h"
 #include "tandem/report/html_text.h"
 #include "tandem/report/svg_plot.h"
+#include "tandem_comparison_js.h"
 #include "tandem_page_html.h"
 
 namespace tandem {
@@ -47,16 +48,27 @@ std::string html_of(const Callout& callout) {
     return "<p class=\"callout note\"><b>Note</b>" + escape_html(callout.text) + "</p>\n";
 }
 
+std::string figure_of_picture(const Picture& picture) {
+    const std::string caption = escape_html(picture.caption);
+    return fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n", caption,
+        base64(picture.png), caption);
+}
+
 std::string html_of(const PictureGrid& grid) {
     std::string html = "<div class=\"pictures\">";
-    for (const Picture& picture : grid.pictures) {
-        const std::string caption = escape_html(picture.caption);
-        html += fmt::format(
-            "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption>"
-            "</figure>\n",
-            caption, base64(picture.png), caption);
-    }
+    for (const Picture& picture : grid.pictures) html += figure_of_picture(picture);
     return html + "</div>\n";
+}
+
+/// Pairs of picture and map, from which comparison.js makes the comparison.
+std::string html_of(const PictureComparison& comparison) {
+    std::string html = "<figure class=\"compare\"><figcaption class=\"title\">" + escape_html(comparison.title) +
+                       "</figcaption><div class=\"pictures\">";
+    for (const ComparedPicture& pair : comparison.pictures) {
+        html += figure_of_picture(pair.picture) + figure_of_picture(pair.error_map);
+    }
+    return html + "</div></figure>\n";
 }
 
 std::string html_of(const Heading& heading) { return "<h2>" + escape_html(heading.text) + "</h2>\n"; }
@@ -64,6 +76,7 @@ std::string html_of(const Paragraph& paragraph) { return "<p>" + escape_html(par
 std::string html_of(const Command& command) { return "<pre>" + escape_html(command.text) + "</pre>\n"; }
 std::string html_of(const LinePlot& plot) { return figure_of(plot); }
 std::string html_of(const BarPlot& plot) { return figure_of(plot); }
+std::string html_of(const ScatterPlot& plot) { return figure_of(plot); }
 
 Table machine_table(const Machine& machine) {
     Table table{{}, {{"What"}, {"This machine"}}, {}};
@@ -95,16 +108,20 @@ Table all_rows(const std::vector<BenchmarkRow>& rows) {
 
 std::string to_html(const Report& report) {
     std::string content;
+    bool compares = false;
     for (const Block& block : report.blocks) {
+        compares = compares || std::holds_alternative<PictureComparison>(block);
         content += std::visit([](const auto& one) { return html_of(one); }, block);
     }
     for (const Callout& callout : counter_callouts(report)) content += html_of(callout);
-    return fill_template(page_template, {{"title", escape_html(report.title)},
-                                         {"summary", escape_html(report.summary)},
-                                         {"command", escape_html(report.command)},
-                                         {"content", content},
-                                         {"machine", html_of(machine_table(report.machine))},
-                                         {"rows", html_of(all_rows(report.rows))}});
+    return fill_template(page_template,
+                         {{"title", escape_html(report.title)},
+                          {"summary", escape_html(report.summary)},
+                          {"command", escape_html(report.command)},
+                          {"content", content},
+                          {"machine", html_of(machine_table(report.machine))},
+                          {"script", compares ? fmt::format("<script>\n{}</script>\n", comparison_script) : ""},
+                          {"rows", html_of(all_rows(report.rows))}});
 }
 
 }  // namespace tandem

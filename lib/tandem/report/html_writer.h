@@ -7,7 +7,8 @@
 
 namespace tandem {
 
-/// A self-contained page: plots are SVG, images are data: URIs, styles are inline, and there is no script. It is light
+/// A self-contained page: plots are SVG, images are data: URIs, styles are inline. A script is part of it only if
+/// it compares pictures. It is light
 /// or dark like the reader's system. All text is escaped. The machine and all rows are at the end.
 [[nodiscard]] std::string to_html(const Report& report);
 

@@ -1,6 +1,7 @@
 #include "tandem/report/json_writer.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "tandem/effects/names.h"
 
@@ -10,16 +11,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Summary& summary) {
-    return {{"count", summary.count},
-            {"median", summary.median},
-            {"median_absolute_deviation", summary.deviation},
-            {"min", summary.least},
-            {"max", summary.most}};
-}
-
 Json json_of(const std::optional<Interval>& interval) {
     return interval ? Json::array({interval->low, interval->high}) : Json();
+}
+
+Json json_of(const Summary& summary) {
+    return {{"count", summary.count}, {"median", summary.median}, {"median_absolute_deviation", summary.deviation},
+            {"min", summary.least},   {"max", summary.most},      {"interval_95", json_of(summary.interval)}};
 }
 
 Json json_of(const Machine& machine) {
@@ -57,6 +55,8 @@ Json json_of(const BenchmarkRow& row) {
     }
     Json figures = Json::object();
     for (const auto& [name, value] : row.figures) figures[name] = value;
+    Json series = Json::object();
+    for (const auto& [name, values] : row.series) series[name] = values;
     Json factor;
     if (row.factor) {
         factor = {{"over", row.factor->over},
@@ -83,6 +83,7 @@ Json json_of(const BenchmarkRow& row) {
             {"factor", factor},
             {"errors", errors},
             {"figures", figures},
+            {"series", series},
             {"counters", json_of(row.counters)},
             {"registers", row.registers},
             {"occupancy", row.occupancy},
@@ -99,6 +100,16 @@ Json json_of(const std::vector<ReferenceValue>& references) {
     return list;
 }
 
+/// A plot with two axes, and what it shows.
+template <class Plot>
+Json plot_with(const Plot& plot, const char* name, Json content) {
+    return {{"title", plot.title},
+            {"x", json_of(plot.x)},
+            {"y", json_of(plot.y)},
+            {name, std::move(content)},
+            {"references", json_of(plot.references)}};
+}
+
 Json json_of(const LinePlot& plot) {
     Json lines = Json::array();
     for (const Line& line : plot.lines) {
@@ -106,11 +117,7 @@ Json json_of(const LinePlot& plot) {
         for (const Point& point : line.points) points.push_back({point.x, point.y});
         lines.push_back({{"label", line.label}, {"points", points}});
     }
-    return {{"title", plot.title},
-            {"x", json_of(plot.x)},
-            {"y", json_of(plot.y)},
-            {"lines", lines},
-            {"references", json_of(plot.references)}};
+    return plot_with(plot, "lines", std::move(lines));
 }
 
 Json json_of(const BarPlot& plot) {
@@ -122,6 +129,26 @@ Json json_of(const BarPlot& plot) {
             {"value", json_of(plot.value)},
             {"bars", bars},
             {"references", json_of(plot.references)}};
+}
+
+Json json_of(const ScatterPlot& plot) {
+    Json series = Json::array();
+    for (const ScatterSeries& one : plot.series) {
+        Json points = Json::array();
+        for (const ScatterPoint& point : one.points) {
+            points.push_back({{"label", point.label},
+                              {"mark", point.mark},
+                              {"shape", plot.shapes.empty() ? "" : plot.shapes[point.shape % plot.shapes.size()]},
+                              {"x", point.at.x},
+                              {"y", point.at.y},
+                              {"x_interval_95", json_of(std::optional(point.x))},
+                              {"y_interval_95", json_of(std::optional(point.y))},
+                              {"faded", point.faded},
+                              {"failed", point.failed}});
+        }
+        series.push_back({{"label", one.label}, {"points", points}});
+    }
+    return plot_with(plot, "series", std::move(series));
 }
 
 Json json_of(const Table& table) {
@@ -149,6 +176,7 @@ struct BlockCollector {
     void operator()(const Table& table) const { document["tables"].push_back(json_of(table)); }
     void operator()(const LinePlot& plot) const { document["plots"].push_back(json_of(plot)); }
     void operator()(const BarPlot& plot) const { document["plots"].push_back(json_of(plot)); }
+    void operator()(const ScatterPlot& plot) const { document["plots"].push_back(json_of(plot)); }
     void operator()(const Callout& callout) const {
         document["callouts"].push_back({{"kind", kind_name(callout.kind)}, {"text", callout.text}});
     }
@@ -156,6 +184,7 @@ struct BlockCollector {
     void operator()(const Paragraph&) const {}
     void operator()(const Command&) const {}
     void operator()(const PictureGrid&) const {}
+    void operator()(const PictureComparison&) const {}
 };
 
 }  // namespace

@@ -39,6 +39,33 @@ struct LinePlot {
     std::vector<ReferenceValue> references;
 };
 
+/// A point with the intervals of both coordinates, drawn as a box around it.
+struct ScatterPoint {
+    Point at;
+    Interval x;
+    Interval y;
+    std::string label;      ///< shown when the mouse is over it
+    std::string mark;       ///< a short text beside it; may be empty
+    std::size_t shape = 0;  ///< of ScatterPlot::shapes
+    bool faded = false;     ///< grey, and not on the line of its series
+    bool failed = false;    ///< a cross at the upper end, since its y says nothing
+};
+
+struct ScatterSeries {
+    std::string label;
+    std::vector<ScatterPoint> points;
+};
+
+/// Points in the colours of their series, with a line through those that are neither faded nor failed.
+struct ScatterPlot {
+    std::string title;
+    Axis x;
+    Axis y;
+    std::vector<std::string> shapes;  ///< what a shape means; up to five
+    std::vector<ScatterSeries> series;
+    std::vector<ReferenceValue> references;
+};
+
 struct Bar {
     std::string label;
     double value = 0;

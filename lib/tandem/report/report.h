@@ -52,7 +52,21 @@ struct PictureGrid {
     std::vector<Picture> pictures;
 };
 
-using Block = std::variant<Heading, Paragraph, Command, Callout, Table, LinePlot, BarPlot, PictureGrid>;
+/// A picture, and a map of where it errs.
+struct ComparedPicture {
+    Picture picture;
+    Picture error_map;
+};
+
+/// Pictures of one size, two of them on top of each other with a divider to move, a zoom and the maps of their errors.
+/// Without scripts the page shows all of them.
+struct PictureComparison {
+    std::string title;
+    std::vector<ComparedPicture> pictures;
+};
+
+using Block = std::variant<Heading, Paragraph, Command, Callout, Table, LinePlot, BarPlot, ScatterPlot, PictureGrid,
+                           PictureComparison>;
 
 struct Report {
     std::string title;

@@ -49,10 +49,11 @@ struct BenchmarkRow {
     double rays = 0;                   ///< rays per measurement; 0 if not known
     std::optional<Factor> factor;
     std::vector<ErrorFigure> errors;
-    std::vector<std::pair<std::string, double>> figures;  ///< other results, by name: "mean FLIP"
-    RenderCounters counters;                              ///< summed over the measurements
-    int registers = 0;                                    ///< of the kernel; 0 if not known
-    double occupancy = 0;                                 ///< 0 if not known
+    std::vector<std::pair<std::string, double>> figures;              ///< other results, by name: "mean FLIP"
+    std::vector<std::pair<std::string, std::vector<double>>> series;  ///< results with one value per measurement
+    RenderCounters counters;                                          ///< summed over the measurements
+    int registers = 0;                                                ///< of the kernel; 0 if not known
+    double occupancy = 0;                                             ///< 0 if not known
     std::string note;
 };
 

@@ -50,10 +50,28 @@ double median_absolute_deviation(std::span<const double> values) {
     return median_in_place(distances);
 }
 
+std::optional<Interval> interval_of_median(std::span<const double> values) {
+    const std::size_t count = values.size();
+    // The k-th value from either end: the chance of fewer than k values beyond the median is at most 2.5 %
+    double chance = std::exp2(-static_cast<double>(count));  // of exactly `below` values on one side
+    double total = 0;
+    std::size_t below = 0;
+    while (below < count / 2 && total + chance <= 0.025) {
+        total += chance;
+        chance *= static_cast<double>(count - below) / static_cast<double>(below + 1);
+        ++below;
+    }
+    if (below == 0) return std::nullopt;
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    return Interval{sorted[below - 1], sorted[count - below]};
+}
+
 Summary summarize(std::span<const double> values) {
     if (values.empty()) return {};
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    return {values.size(), median(values), median_absolute_deviation(values), *least, *most};
+    return {values.size(), median(values), median_absolute_deviation(values),
+            *least,        *most,          interval_of_median(values)};
 }
 
 Ratio ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,

@@ -15,6 +15,16 @@ namespace tandem {
 /// The median of the distances to the median, not scaled: half of the values lie within it.
 [[nodiscard]] double median_absolute_deviation(std::span<const double> values);
 
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+/// An interval that contains the median of the distribution with at least 95 % probability, whatever the distribution:
+/// two of the measurements, as far from both ends. Empty for fewer than six values, which are too few.
+/// Source: H. A. David, H. N. Nagaraja, "Order Statistics", 3rd edition, 2003, section 7.1.
+[[nodiscard]] std::optional<Interval> interval_of_median(std::span<const double> values);
+
 /// A summary of repeated measurements of one thing. All zero if there are none.
 struct Summary {
     std::size_t count = 0;
@@ -22,14 +32,10 @@ struct Summary {
     double deviation = 0;  ///< median absolute deviation
     double least = 0;
     double most = 0;
+    std::optional<Interval> interval{};  ///< interval_of_median()
 };
 
 [[nodiscard]] Summary summarize(std::span<const double> values);
-
-struct Interval {
-    double low = 0;
-    double high = 0;
-};
 
 /// A ratio of two medians.
 struct Ratio {

@@ -4,70 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "tandem/report/format_number.h"
 #include "tandem/report/html_text.h"
 #include "tandem/report/plot_axis.h"
+#include "tandem/report/svg_parts.h"
 
 namespace tandem {
 
+using namespace svg;
+
 namespace {
 
-constexpr double width = 860;
-constexpr int colours = 6;                ///< classes c0 to c5 of the page
 constexpr std::size_t most_marked = 200;  ///< longer lines get no dots with tooltips
-constexpr double letter = 7;              ///< approximate width of a letter, pixels
-constexpr double line_plot_height = 260;  ///< of the area inside the axes
-constexpr double line_plot_left = 70;     ///< room for tick labels and the axis' name
-constexpr double legend_line = 20;
 constexpr double bar_pitch = 34;
 
-double letters(const std::string& text) {
-    // Bytes that begin a UTF-8 character.
-    return static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+std::string line_symbol(double x, double y, int index) {
+    return line_element(x, y, x + 18, y, fmt::format("line c{}", index % colours).c_str());
 }
 
-std::string text_element(double x, double y, const char* classes, const std::string& text) {
-    return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" class="{}">{}</text>)", x, y, classes, escape_html(text));
-}
-
-std::string line_element(double x1, double y1, double x2, double y2, const char* classes) {
-    return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" class="{}"/>)", x1, y1, x2, y2,
-                       classes);
-}
-
-std::string svg_element(double height, const std::string& title, const std::string& content) {
-    return fmt::format(R"(<svg viewBox="0 0 {} {:.0f}" role="img" aria-label="{}">)"
-                       "{}</svg>\n",
-                       width, height, escape_html(title), content);
-}
-
-/// Adds legend lines from the top; returns their height.
-double draw_legend(const LinePlot& plot, std::string& svg) {
-    double x = line_plot_left;
-    double y = legend_line;
-    int colour = 0;
-    for (const Line& line : plot.lines) {
-        const double needed = 34 + letter * letters(line.label);
-        if (x + needed > width && x > line_plot_left) {
-            x = line_plot_left;
-            y += legend_line;
-        }
-        svg += line_element(x, y - 5, x + 18, y - 5, fmt::format("line c{}", colour++ % colours).c_str());
-        svg += text_element(x + 24, y, "start", line.label);
-        x += needed;
-    }
-    return y + 12;
-}
-
-void draw_line(const Line& line, int colour, const AxisScale& x, const AxisScale& y, double top, std::string& svg) {
+void draw_line(const Line& line, int colour, const Area& area, const AxisScale& x, const AxisScale& y,
+               std::string& svg) {
     std::string path;
     std::string dots;
     for (const Point& point : line.points) {
         if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-        const double px = line_plot_left + x.position(point.x);
-        const double py = top + line_plot_height - y.position(point.y);
+        const double px = area.left + x.position(point.x);
+        const double py = area.bottom() - y.position(point.y);
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
         if (line.points.size() <= most_marked) {
             dots += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.2"><title>{}: {}, {}</title></circle>)", px, py,
@@ -82,43 +45,25 @@ void draw_line(const Line& line, int colour, const AxisScale& x, const AxisScale
 
 std::string to_svg(const LinePlot& plot) {
     std::vector<double> xs, ys;
+    std::vector<LegendEntry> legend;
     for (const Line& line : plot.lines) {
+        legend.push_back({line.label, line_symbol, static_cast<int>(legend.size())});
         for (const Point& point : line.points) {
             xs.push_back(point.x);
             ys.push_back(point.y);
         }
     }
     for (const ReferenceValue& reference : plot.references) ys.push_back(reference.value);
-    const double plot_width = width - line_plot_left - 16;
-    const AxisScale x(xs, plot.x.logarithmic, plot_width);
-    const AxisScale y(ys, plot.y.logarithmic, line_plot_height);
-
     std::string svg;
-    const double top = draw_legend(plot, svg);
-    const double bottom = top + line_plot_height;
-    for (const Tick& tick : y.ticks()) {
-        const double at = bottom - y.position(tick.value);
-        svg += line_element(line_plot_left, at, width - 16, at, "grid");
-        svg += text_element(line_plot_left - 8, at + 4, "end small", tick.label);
-    }
-    for (const Tick& tick : x.ticks()) {
-        const double at = line_plot_left + x.position(tick.value);
-        svg += line_element(at, bottom, at, bottom + 5, "axis");
-        svg += text_element(at, bottom + 20, "middle small", tick.label);
-    }
-    svg += line_element(line_plot_left, bottom, width - 16, bottom, "axis");
-    svg += text_element(line_plot_left + plot_width / 2, bottom + 40, "middle small", plot.x.label);
-    svg += fmt::format(R"svg(<text transform="translate(14 {:.1f}) rotate(-90)" class="middle small">{}</text>)svg",
-                       top + line_plot_height / 2, escape_html(plot.y.label));
-    for (const ReferenceValue& reference : plot.references) {
-        const double at = bottom - y.position(reference.value);
-        svg += line_element(line_plot_left, at, width - 16, at, "reference");
-        svg += text_element(width - 20, at - 5, "end small muted", reference.label);
-    }
+    Area area;
+    area.top = draw_legend(legend, svg);
+    const AxisScale x(xs, plot.x.logarithmic, area.right() - area.left);
+    const AxisScale y(ys, plot.y.logarithmic, area.height);
+    draw_axes(area, plot.x, x, plot.y, y, plot.references, svg);
     for (std::size_t i = 0; i < plot.lines.size(); ++i) {
-        draw_line(plot.lines[i], static_cast<int>(i), x, y, top, svg);
+        draw_line(plot.lines[i], static_cast<int>(i), area, x, y, svg);
     }
-    return svg_element(bottom + 48, plot.title, svg);
+    return svg_element(area.bottom() + 48, plot.title, svg);
 }
 
 std::string to_svg(const BarPlot& plot) {

@@ -10,5 +10,6 @@ namespace tandem {
 /// One <svg> element; all text is escaped.
 [[nodiscard]] std::string to_svg(const LinePlot& plot);
 [[nodiscard]] std::string to_svg(const BarPlot& plot);
+[[nodiscard]] std::string to_svg(const ScatterPlot& plot);
 
 }  // namespace tandem

@@ -73,7 +73,9 @@ struct TextBlocks {
     }
     void operator()(const LinePlot&) const {}
     void operator()(const BarPlot&) const {}
+    void operator()(const ScatterPlot&) const {}
     void operator()(const PictureGrid&) const {}
+    void operator()(const PictureComparison&) const {}
 };
 
 }  // namespace

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/temporary_folder.h"
 #include "tandem/backends/make_backend.h"
 
 namespace tandem::bench {
@@ -30,18 +32,35 @@ Outcome run_bench(const std::string& arguments) {
 }
 
 TEST(BenchProgram, BadUsageIsStatusTwo) {
-    for (const char* arguments :
-         {"", "nonsense", "versus --size 12", "versus named:nothing", "parity --frames 5-4", "versus --rays parallel",
-          "versus --backends tape", "targets --only nothing", "paper --spp 0", "hard --cases Z1",
-          "hard --check /nowhere/answers", "hard --rays 1", "effects", "effects /nowhere/scene.gltf",
-          "effects named:paper --tier sloppy", "effects named:paper --repetitions 0"}) {
+    for (const char* arguments : {"",
+                                  "nonsense",
+                                  "versus --size 12",
+                                  "versus named:nothing",
+                                  "parity --frames 5-4",
+                                  "versus --rays parallel",
+                                  "versus --backends tape",
+                                  "targets --only nothing",
+                                  "paper --spp 0",
+                                  "hard --cases Z1",
+                                  "hard --check /nowhere/answers",
+                                  "hard --rays 1",
+                                  "effects",
+                                  "effects /nowhere/scene.gltf",
+                                  "effects named:paper --tier sloppy",
+                                  "effects named:paper --repetitions 0",
+                                  "accuracy --vary colour",
+                                  "accuracy --seeds 1",
+                                  "accuracy --parts all",
+                                  "accuracy closed:furnace/100",
+                                  "accuracy --samples 0",
+                                  "accuracy --rebuild-references"}) {
         EXPECT_EQ(run_bench(arguments).status, 2) << arguments;
     }
 }
 
 TEST(BenchProgram, HelpAndListsAreStatusZero) {
     for (const char* arguments : {"--help", "parity --help", "versus --help", "paper --help", "targets --help",
-                                  "hard --help", "effects --help"}) {
+                                  "hard --help", "effects --help", "accuracy --help", "accuracy --list"}) {
         EXPECT_EQ(run_bench(arguments).status, 0) << arguments;
     }
     const Outcome list = run_bench("targets --list");
@@ -67,6 +86,23 @@ TEST(BenchProgram, EffectsOfAScenePassAndSayTheirPrice) {
     for (const char* part : {"without reflection", "shadows alone", "Mean FLIP", "The price of not specialising"}) {
         EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
     }
+}
+
+TEST(BenchProgram, AccuracySweepsASceneAndKeepsItsReferences) {
+    const test::TemporaryFolder folder;
+    const std::string command =
+        "accuracy named:paper --backends cpu --size 20x18 --samples 1,4 --seeds 6 --references " +
+        folder.file("references") + " --json -";
+    const Outcome outcome = run_bench(command);
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto json = nlohmann::json::parse(outcome.output);
+    EXPECT_EQ(json["rows"].size(), 2U * (3 + 3)) << "three tiers and three tessellations";
+    EXPECT_GT(json["rows"][0]["figures"]["RMSE"], 0);
+    EXPECT_EQ(json["rows"][0]["series"]["mean FLIP"].size(), 6U);
+    EXPECT_TRUE(std::filesystem::exists(folder.file("references/named_paper-20x18-a.pfm.txt")));
+    EXPECT_EQ(run_bench(command + " --reference-samples 3").status, 2) << "they have another number of samples";
+    EXPECT_EQ(run_bench(command + " --reference-samples 3 --rebuild-references").status, 0);
+    EXPECT_EQ(run_bench(command + " --reference-samples 3").status, 0);
 }
 
 TEST(BenchProgram, WithoutAGpuCudaAloneIsStatusThree) {

@@ -1,0 +1,127 @@
+#include "accuracy/references.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "accuracy/settings.h"
+#include "frame_timing.h"
+#include "output.h"
+#include "pictures.h"
+#include "tandem/base/error.h"
+#include "tandem/images/image_io.h"
+#include "tandem/render/motion_blur.h"
+
+namespace tandem::bench {
+
+namespace {
+
+/// Far from the seeds of a report, which count upwards.
+std::uint64_t seed_of(const ReferenceOptions& options, char which) {
+    return options.seed ^ (which == 'a' ? 0x9E3779B97F4A7C15U : 0xC2B2AE3D27D4EB4FU);
+}
+
+RenderJob job_of(const ReferenceOptions& options, char which) {
+    RenderJob job;
+    job.width = options.size.width;
+    job.height = options.size.height;
+    job.samples = options.samples;
+    job.seed = seed_of(options, which);
+    job.tier = Tier::precise;
+    job.limits = unlimited;
+    return job;
+}
+
+ImageMetadata metadata_of(const AccuracyScene& scene, const Backend& backend, const RenderJob& job) {
+    ImageMetadata metadata = describe_picture(job, backend.name());
+    metadata.scene_hash = frame_hash(scene.scene, plan_frame(scene.scene, {}, job));
+    metadata.limits = to_string(job.limits);
+    return metadata;
+}
+
+/// What makes a stored reference another one than the wanted; empty if it is the one.
+std::string mismatch(const ImageMetadata& stored, const ImageMetadata& wanted) {
+    const auto differs = [](const char* what, const auto& has, const auto& wants) {
+        return has == wants ? std::string() : fmt::format("{} {}, not {}", what, has, wants);
+    };
+    for (const std::string& difference :
+         {differs("width", stored.width, wanted.width), differs("height", stored.height, wanted.height),
+          differs("samples", stored.samples, wanted.samples), differs("seed", stored.seed, wanted.seed),
+          differs("limits", stored.limits, wanted.limits), differs("tier", stored.tier, wanted.tier),
+          differs("scene", stored.scene_hash, wanted.scene_hash)}) {
+        if (!difference.empty()) return difference;
+    }
+    return {};
+}
+
+FloatImage read_reference(const std::string& path, const ImageMetadata& wanted) {
+    DecodedImage stored = read_image(path);
+    const std::string problem =
+        stored.metadata ? mismatch(*stored.metadata, wanted) : "no metadata of Tandem's beside the image";
+    if (!problem.empty()) {
+        throw InputError(
+            fmt::format("the reference {} has {}: render it again with --rebuild-references, or name "
+                        "another folder",
+                        path, problem));
+    }
+    return std::move(stored.image);
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) {
+        throw InputError(fmt::format("cannot make the folder {} for references: {}", folder, problem.message()));
+    }
+}
+
+FloatImage image_of(const AccuracyScene& scene, Backend& backend, const ReferenceOptions& options, char which) {
+    const RenderJob job = job_of(options, which);
+    const std::string path = reference_path(scene, options, which);
+    if (!path.empty() && !options.rebuild && std::filesystem::exists(path)) {
+        return read_reference(path, metadata_of(scene, backend, job));
+    }
+    log_progress(fmt::format("{}: reference {} with {} samples per pixel on {}", scene.name, which, options.samples,
+                             backend.name()));
+    TimedFrame frame = render_timed(backend, scene.scene, job);
+    FloatImage image = film_to_image(frame.film);
+    if (!path.empty()) {
+        make_folder(options.folder);
+        ImageMetadata metadata = metadata_of(scene, backend, job);
+        metadata.film_sha256 = film_hash(frame.film);
+        write_image(path, image, metadata, {.durability = Durability::written});
+    }
+    return image;
+}
+
+}  // namespace
+
+std::string reference_path(const AccuracyScene& scene, const ReferenceOptions& options, char which) {
+    if (options.folder.empty()) return {};
+    std::string name;
+    for (const char c : scene.name) {
+        const bool plain =
+            (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.';
+        name += plain ? c : '_';
+    }
+    return fmt::format("{}/{}-{}x{}-{}.pfm", options.folder, name, options.size.width, options.size.height, which);
+}
+
+DescribedReference make_reference(const AccuracyScene& scene, Backend& backend, const ReferenceOptions& options) {
+    if (scene.truth) {
+        FloatImage truth{options.size.width, options.size.height, {}};
+        truth.pixels.assign(pixel_count(truth), *scene.truth);
+        return {Reference(std::move(truth)), fmt::format("The reference is a closed form: {}.", scene.closed_form)};
+    }
+    FloatImage a = image_of(scene, backend, options, 'a');
+    FloatImage b = image_of(scene, backend, options, 'b');
+    const std::string place = options.folder.empty() ? "" : fmt::format(", kept in {}", options.folder);
+    return {Reference(std::move(a), std::move(b)),
+            fmt::format("The references are two images in the tier precise, with {} samples per pixel each, the seeds "
+                        "{} and {}, and paths of up to 255 vertices of each kind{}.",
+                        options.samples, seed_of(options, 'a'), seed_of(options, 'b'), place)};
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,102 @@
+#include "accuracy/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "accuracy/accuracy_scenes.h"
+#include "tandem/base/error.h"
+#include "tandem/compile/derive.h"
+#include "tandem/compile/prepare.h"
+#include "tandem/render/render_job.h"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr std::array axis_names = {"baseline", "tier", "effects", "depth", "tessellation"};
+constexpr std::array<PathLimits, 3> varied_limits = {PathLimits{0, 0, 0}, PathLimits{2, 4, 1}, unlimited};
+
+void add_effects(const std::vector<EffectNeed>& needs, Setting base, SettingPlan& plan) {
+    if (needs.empty()) plan.skipped.emplace_back("Effects: the scene needs none.");
+    base.axis = Axis::effects;
+    for (const EffectNeed& need : needs) {
+        base.name = fmt::format("without {}", to_string(need.effect));
+        base.forced = {{}, need.effect};
+        plan.settings.push_back(base);
+    }
+}
+
+void add_depths(const std::vector<EffectNeed>& needs, Setting base, SettingPlan& plan) {
+    if (!mask_of(needs).has_any(bouncing_effects)) {
+        plan.skipped.emplace_back("Depth: every path of the scene has one vertex.");
+        return;
+    }
+    base.axis = Axis::depth;
+    for (const PathLimits& limits : varied_limits) {
+        base.name = fmt::format("limits {}", to_string(limits));
+        base.limits = limits;
+        plan.settings.push_back(base);
+    }
+}
+
+void add_tessellations(const Scene& scene, const std::vector<int>& levels, Setting base, SettingPlan& plan) {
+    if (!tessellated_twin(scene, 0)) {
+        plan.skipped.emplace_back(
+            "Tessellation: the scene has no sphere, or one with a texture that follows the sphere's own coordinates.");
+        return;
+    }
+    base.axis = Axis::tessellation;
+    for (const int level : levels) {
+        base.name = fmt::format("{} triangles a sphere", triangles_per_sphere(level));
+        base.level = level;
+        plan.settings.push_back(base);
+    }
+}
+
+}  // namespace
+
+const char* to_string(Axis axis) { return axis_names[static_cast<std::size_t>(axis)]; }
+
+VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> tiers) {
+    if (tiers.empty()) throw InputError("accuracy needs a tier: fast, strict or precise");
+    VariedAxes axes{.tiers = std::move(tiers), .effects = false, .depth = false, .tessellation = false};
+    bool varies_tier = false;
+    for (const std::string& name : names) {
+        if (name == "tier") {
+            varies_tier = true;
+        } else if (name == "effects") {
+            axes.effects = true;
+        } else if (name == "depth") {
+            axes.depth = true;
+        } else if (name == "tessellation") {
+            axes.tessellation = true;
+        } else if (name != "samples") {
+            throw InputError(
+                fmt::format("no axis \"{}\"; there are samples, tier, effects, depth and tessellation", name));
+        }
+    }
+    const auto strict = std::find(axes.tiers.begin(), axes.tiers.end(), Tier::strict);
+    if (strict != axes.tiers.end()) std::rotate(axes.tiers.begin(), strict, strict + 1);
+    if (!varies_tier) axes.tiers.resize(1);
+    return axes;
+}
+
+SettingPlan plan_settings(const Scene& scene, const VariedAxes& axes) {
+    SettingPlan plan;
+    for (const Tier tier : axes.tiers) {
+        plan.settings.push_back(
+            {.axis = plan.settings.empty() ? Axis::baseline : Axis::tier, .name = to_string(tier), .tier = tier});
+    }
+    const Setting base = plan.settings.front();
+    const std::vector<EffectNeed> needs = derive_effects(scene, prepare(scene));
+    if (axes.tiers.size() == 1) plan.skipped.emplace_back("Tier: not asked for.");
+    axes.effects ? add_effects(needs, base, plan) : void(plan.skipped.emplace_back("Effects: not asked for."));
+    axes.depth ? add_depths(needs, base, plan) : void(plan.skipped.emplace_back("Depth: not asked for."));
+    axes.tessellation ? add_tessellations(scene, axes.levels, base, plan)
+                      : void(plan.skipped.emplace_back("Tessellation: not asked for."));
+    return plan;
+}
+
+}  // namespace tandem::bench

@@ -1,0 +1,52 @@
+/// What the accuracy report varies.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tandem/effects/names.h"
+#include "tandem/kernel/path_limits.h"
+#include "tandem/render/tier.h"
+#include "tandem/scene/scene.h"
+
+namespace tandem::bench {
+
+/// What differs from the baseline: the tier strict with all effects, default limits and analytic shapes. Every setting
+/// is rendered with every number of samples.
+enum class Axis { baseline, tier, effects, depth, tessellation };
+
+[[nodiscard]] const char* to_string(Axis axis);
+
+struct Setting {
+    Axis axis = Axis::baseline;
+    std::string name;  ///< "strict", "without shadows", "limits 2,4,1", "80 triangles a sphere"
+    Tier tier = Tier::strict;
+    ForcedEffects forced{};
+    PathLimits limits{};
+    std::optional<int> level{};  ///< of tessellation
+};
+
+/// The limits of references: paths end by themselves.
+inline constexpr PathLimits unlimited{255, 255, 255};
+
+struct VariedAxes {
+    std::vector<Tier> tiers;  ///< without strict, the baseline is the first of them
+    bool effects = true;
+    bool depth = true;
+    bool tessellation = true;
+    std::vector<int> levels = {1, 3, 5};  ///< of tessellation
+};
+
+/// "tier,effects": every name but samples, which are always varied, and baseline. Throws InputError that lists them.
+[[nodiscard]] VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> tiers);
+
+struct SettingPlan {
+    std::vector<Setting> settings;     ///< the baseline first
+    std::vector<std::string> skipped;  ///< what was not varied, in sentences
+};
+
+/// The settings of a scene, for frame 0.
+[[nodiscard]] SettingPlan plan_settings(const Scene& scene, const VariedAxes& axes);
+
+}  // namespace tandem::bench
