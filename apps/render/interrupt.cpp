@@ -14,7 +14,7 @@ std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take locks");
 
 void on_signal(int) {
-    constexpr std::string_view message = "\nfinishing the frames in progress; press again to stop at once\n";
+    constexpr std::string_view message = "\nfinishing what is in progress; press again to stop at once\n";
     const int error = errno;
     interrupted = true;
     if (::write(STDERR_FILENO, message.data(), message.size()) < 0) {

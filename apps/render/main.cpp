@@ -1,24 +1,27 @@
 /// tandem-render renders frames of a scene to image files. docs/images.md describes formats, names and resuming.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <optional>
-#include <utility>
+#include <string_view>
 
 #include "common/arguments.h"
 #include "common/run_main.h"
 #include "render/interrupt.h"
+#include "render/plan_command.h"
 #include "render/render_command.h"
+#include "render/scene_source.h"
+#include "render/verify_main.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"
 #include "tandem/film/plane_names.h"
-#include "tandem/gltf/load_scene.h"
 #include "tandem/scene/framing.h"
 #include "tandem/scene/named_scenes.h"
-#include "tandem/scene/read_environment.h"
 
 namespace {
 
@@ -34,15 +37,59 @@ struct Words {
     std::string limits = to_string(PathLimits{});
     std::string planes;  // empty: the colour alone
     std::string light = "default";
-    std::string environment;  // a file; empty: the background of the scene
-    bool indirect = false;
-    double rotation = 0;  // of its picture, degrees
-    float intensity = 1;
+    SceneSource source;
     std::string backend = "cpu";
     std::string specialise = "always";
-    int instants = 0;                               // 0: as the cameras say
+    CheckpointOptions checkpoint;  // no file: none
+    double target_error = 0;       // 0: none
+    std::string metric = "rmse";
+    double time_budget = 0;  // seconds; 0: none
+    bool plan = false;
     std::optional<std::string> exposure, transfer;  // as the scene says if not given
 };
+
+/// The most samples per pixel for a target, if the user does not say.
+constexpr int most_samples_of_target = 65536;
+
+RenderTarget target_of(const Words& words) {
+    RenderTarget target{.error = words.target_error, .metric = parse_metric(words.metric)};
+    if (words.time_budget > 0) target.seconds = words.time_budget;
+    return target;
+}
+
+void declare_target(CLI::App& app, Words& words) {
+    auto* const error =
+        app.add_option("--target-error", words.target_error,
+                       fmt::format("sample each tile until the image has about this error (docs/long-renders.md); "
+                                   "--spp is then the most samples per pixel, {} if not given",
+                                   most_samples_of_target))
+            ->type_name("E")
+            ->check(CLI::PositiveNumber);
+    app.add_option("--metric", words.metric,
+                   "of that error: rmse, in units of radiance, or relmse, the mean of relative squared errors")
+        ->needs(error)
+        ->check(CLI::IsMember({"rmse", "relmse"}))
+        ->capture_default_str();
+    app.add_option("--time-budget", words.time_budget,
+                   "seconds in which to render a frame: no round of samples starts that would end later")
+        ->type_name("SECONDS")
+        ->check(CLI::PositiveNumber);
+}
+
+void declare_checkpoint(CLI::App& app, Words& words) {
+    auto* const file = app.add_option("--checkpoint", words.checkpoint.file,
+                                      "render one frame in tiles, and write the finished ones to this file now and "
+                                      "then and when interrupted; it is removed when the image is written")
+                           ->type_name("FILE");
+    app.add_option("--checkpoint-every", words.checkpoint.every, "seconds from one checkpoint to the next")
+        ->type_name("SECONDS")
+        ->needs(file)
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    app.add_flag("--resume", words.checkpoint.resume,
+                 "go on from the file of --checkpoint, if it exists: on any backend, with the same bits")
+        ->needs(file);
+}
 
 void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
     // Input, output and frames
@@ -50,10 +97,11 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     std::string scenes;
     for (const std::string& name : scene_names()) scenes += " named:" + name;
     app.set_version_flag("--version", version());
-    app.add_option("SCENE", command.scene, "glTF file, or a built-in scene:" + scenes)->required();
-    app.add_option("-o,--output", sequence.output,
-                   "image file: .png, .ppm, .pfm or .exr; %04d or #### in the name stands for the frame number")
-        ->required();
+    app.add_option("SCENE", words.source.scene, "glTF file, or a built-in scene:" + scenes)->required();
+    app.add_option(
+        "-o,--output", sequence.output,
+        "image file: .png, .ppm, .pfm or .exr; %04d or #### in the name stands for the frame number; not needed "
+        "with --plan");
     app.add_option("--size", words.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
     auto* const samples =
         app.add_option("--spp", sequence.job.samples,
@@ -70,7 +118,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->type_name("A-B|all")
         ->excludes(frame);
     // Camera and lights
-    app.add_option("--camera", sequence.camera,
+    app.add_option("--camera", words.source.camera,
                    "name of a camera's node or, if no camera has that name, a view of the whole scene: " +
                        view_names() + ". Default: the scene's first camera, or auto if there is none")
         ->type_name("NAME");
@@ -81,17 +129,17 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     auto* const picture =
         app.add_option(
-               "--env", words.environment,
+               "--env", words.source.environment,
                "light the scene by an equirectangular picture of its environment: .hdr, .exr or .pfm. It replaces "
                "the background and the default lights")
             ->type_name("FILE");
-    app.add_option("--env-rotation", words.rotation,
+    app.add_option("--env-rotation", words.source.rotation,
                    "rotation of that picture about the vertical axis, counter-clockwise as seen from above, in degrees")
         ->type_name("DEG")
         ->needs(picture)
         ->check(CLI::Range(-36000.0, 36000.0))
         ->capture_default_str();
-    app.add_option("--env-intensity", words.intensity, "factor of that picture's values")
+    app.add_option("--env-intensity", words.source.intensity, "factor of that picture's values")
         ->type_name("X")
         ->needs(picture)
         ->check(CLI::Range(0.0F, most_environment_intensity))
@@ -101,7 +149,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         "--effects", words.effects,
         "force effects on or off, as in -shadows,+refraction; or all, or none. Default: the effects that the "
         "scene needs");
-    app.add_option("--shutter-instants", words.instants,
+    app.add_option("--shutter-instants", words.source.instants,
                    "number of instants at which a frame with an open shutter is rendered, at most one per sample. "
                    "Default: that of the camera")
         ->type_name("N")
@@ -113,9 +161,22 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                "very many large primitives overlap (docs/images.md)")
             ->type_name("R,T,D")
             ->capture_default_str();
-    app.callback([&sequence, samples, limits] {
-        sequence.fewer_samples = samples->empty();
-        sequence.shorter_paths = limits->empty() && samples->empty();
+    declare_target(app, words);
+    app.add_flag("--plan", words.plan,
+                 "render nothing; print how many samples and how much time a frame will take, from a short probe, and "
+                 "whether that is within --time-budget (status 1 if not)");
+    app.callback([&command, &words, samples, limits] {
+        SequenceOptions& options = command.sequence;
+        if (options.output.empty() && !words.plan) throw CLI::RequiredError("-o,--output");
+        if (words.target_error > 0 || words.time_budget > 0) {
+            options.target = target_of(words);
+            if (samples->empty() && !(words.plan && words.target_error == 0)) {
+                options.job.samples = most_samples_of_target;
+            }
+            return;
+        }
+        options.fewer_samples = samples->empty();
+        options.shorter_paths = limits->empty() && samples->empty();
     });
     std::string planes;
     for (const PlaneInfo& info : plane_infos()) planes += std::string("; ") + info.name + ": " + info.help;
@@ -124,7 +185,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                    "beside a .pfm file" +
                        planes)
         ->type_name("LIST");
-    app.add_flag("--indirect", words.indirect,
+    app.add_flag("--indirect", words.source.indirect,
                  "simulate indirect light instead of ambient light, even if the file does not ask for it");
     // How to render
     app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
@@ -134,6 +195,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
         ->capture_default_str();
+    declare_checkpoint(app, words);
     // Files and messages
     app.add_option(
            "--exposure", words.exposure,
@@ -152,17 +214,6 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_flag("--quiet", command.quiet, "print only errors");
 }
 
-/// The picture of --env, if there is one.
-std::optional<EnvironmentImage> environment_of(const Words& words, bool quiet) {
-    if (words.environment.empty()) return std::nullopt;
-    EnvironmentFile file = read_environment(words.environment);
-    if (file.negative_texels > 0 && !quiet) {
-        std::fprintf(stderr, "tandem-render: '%s' has %zu texels with negative values, which become 0\n",
-                     words.environment.c_str(), file.negative_texels);
-    }
-    return EnvironmentImage{std::move(file.picture), words.rotation * (pi / 180), words.intensity};
-}
-
 FrameRange frames_of(const Words& words, const Scene& scene) {
     if (words.frames.empty()) return {words.frame, words.frame};
     if (words.frames != "all") return parse_frames(words.frames);
@@ -173,9 +224,13 @@ FrameRange frames_of(const Words& words, const Scene& scene) {
     return {0, count - 1};
 }
 
-/// Prints everything in the file that is not rendered as specified; tandem-gltf info prints the whole report.
-void print_import_notes(const ImportReport& report) {
-    for (const ImportNote& note : report.notes()) {
+/// Prints everything in the files that is not rendered as specified; tandem-gltf info prints the whole report.
+void print_import_notes(const OpenedScene& opened, const SceneSource& source) {
+    if (opened.negative_texels > 0) {
+        std::fprintf(stderr, "tandem-render: '%s' has %zu texels with negative values, which become 0\n",
+                     source.environment.c_str(), opened.negative_texels);
+    }
+    for (const ImportNote& note : opened.import.notes()) {
         if (note.treatment == Treatment::rendered) continue;
         std::fprintf(stderr, "tandem-render: %s\n", to_string(note).c_str());
     }
@@ -190,6 +245,10 @@ void print_ignored_display_options(const SequenceOptions& options) {
 
 int render(int argc, char** argv) {
     CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
+    app.footer(
+        "tandem-render verify IMAGE [SCENE] draws parts of an image again and says whether they match (tandem-render "
+        "verify --help). A scene file named 'verify' is ./verify.\nExit status: 0 done; 1 the frame did not reach its "
+        "target; 2 wrong usage or input; 3 the machine lacks something; 130 interrupted.");
     RenderCommand command;
     Words words;
     BackendOptions backend_options;
@@ -209,32 +268,30 @@ int render(int argc, char** argv) {
     if (!words.planes.empty()) sequence.job.planes = parse_planes(words.planes);
     if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);
     if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
+    if (!words.checkpoint.file.empty()) sequence.checkpoint = words.checkpoint;
     check(sequence.job);
 
     const std::atomic<bool>& interrupted = watch_interrupts();
-    ImportReport import;
-    std::optional<EnvironmentImage> environment = environment_of(words, command.quiet);
-    Scene scene = load_scene(command.scene, &import,
-                             {.camera = sequence.camera,
-                              .aspect = aspect_of({width, height}),
-                              .default_light = words.light == "default" && !environment});
-    if (environment) light_by(scene, *std::move(environment));
-    if (words.indirect) {
-        scene.indirect_light = true;
-        scene.environment.ambient = {0, 0, 0};
-    }
-    if (words.instants > 0) set_shutter_instants(scene, words.instants);
-    if (!command.quiet) print_import_notes(import);
+    words.source.default_light = words.light == "default";
+    command.scene = words.source.scene;
+    sequence.camera = words.source.camera;
+    sequence.scene_source = to_json(words.source);
+    const OpenedScene opened = open_scene(words.source, aspect_of({width, height}));
+    if (!command.quiet) print_import_notes(opened, words.source);
+    const Scene& scene = opened.scene;
     sequence.frames = frames_of(words, scene);
-    check_output(sequence);
-    if (!command.quiet) print_ignored_display_options(sequence);
+    if (!words.plan) check_output(sequence);
+    if (!command.quiet && !words.plan) print_ignored_display_options(sequence);
     backend_options.specialise = parse_specialise(words.specialise);
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
+    if (words.plan) return run_plan(command, scene, *backend);
     return run_render(command, scene, *backend, interrupted);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    return tandem::run_main("tandem-render", [&] { return render(argc, argv); });
+    const bool verifies = argc > 1 && std::string_view(argv[1]) == "verify";
+    return tandem::run_main("tandem-render",
+                            [&] { return verifies ? tandem::verify(argc, argv) : render(argc, argv); });
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/run_main.h"
 #include "render/progress.h"
 #include "render/render_report.h"
 #include "tandem/base/version.h"
@@ -27,6 +28,13 @@ void write_json(const std::string& target, const nlohmann::ordered_json& json) {
 }
 
 void print_how_to_resume(const RenderCommand& command, std::size_t done, std::size_t total) {
+    if (const auto& checkpoint = command.sequence.checkpoint; checkpoint && done < total) {
+        std::fprintf(stderr,
+                     "tandem-render: interrupted; the finished tiles are in '%s'. Run the same command again with "
+                     "--resume to go on from there, on any backend.\n",
+                     checkpoint->file.c_str());
+        return;
+    }
     const char* advice = command.sequence.force ? " without --force" : "";
     std::fprintf(stderr, "tandem-render: interrupted; %zu of %zu frames are done. ", done, total);
     if (done < total) std::fprintf(stderr, "Run the same command again%s to render the rest.", advice);
@@ -57,6 +65,19 @@ void print_reduced_quality(const FrameRecord& first) {
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 
+/// Prints the error that a frame has reached, and why it has no more samples.
+void print_reached(const FrameRecord& record) {
+    const std::string sentence =
+        fmt::format("frame {}: error {} (95 %), with {:.1f} samples per pixel on average; stopped by the {}",
+                    record.metadata.frame, record.metadata.error, record.mean_samples, record.metadata.stopped_by);
+    std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
+}
+
+/// Whether the frame has an error as its target that it was stopped short of.
+bool is_short(const FrameRecord& record, const SequenceOptions& options) {
+    return options.target && options.target->error > 0 && record.metadata.stopped_by != to_string(StoppedBy::target);
+}
+
 }  // namespace
 
 int run_render(const RenderCommand& command, const Scene& scene, Backend& backend,
@@ -70,13 +91,15 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     const auto& exposure = command.sequence.exposure;
     const bool finds_exposure = exposure && exposure->automatic && !command.quiet;
-    bool exposure_is_printed = false, reduction_is_printed = command.quiet;
+    bool exposure_is_printed = false, reduction_is_printed = command.quiet, falls_short = false;
     ProgressBar progress(total, !command.quiet && stderr_is_terminal());
     const auto on_frame = [&](const FrameRecord& record) {
         progress.advance(!record.skipped);
         progress.clear();
         if (finds_exposure && !std::exchange(exposure_is_printed, true)) print_exposure(record);
         if (!std::exchange(reduction_is_printed, true)) print_reduced_quality(record);
+        if (record.mean_samples > 0 && !command.quiet) print_reached(record);
+        falls_short = falls_short || is_short(record, command.sequence);
         if (prints_lines) {
             std::puts(frame_line(record).c_str());
             std::fflush(stdout);
@@ -102,7 +125,7 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
                                   {"interrupted", stopped},
                                   {"frames", std::move(frames)}});
     }
-    if (!stopped) return 0;
+    if (!stopped) return falls_short ? exit_short_of_target : exit_done;
     print_how_to_resume(command, done, total);
     return exit_interrupted;
 }

@@ -15,12 +15,13 @@
 
 #include "render/frame_pattern.h"
 #include "tandem/base/error.h"
-#include "tandem/base/version.h"
+#include "tandem/base/seconds.h"
 #include "tandem/compile/cutout_kinds.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
 #include "tandem/kernel/surface.h"
 #include "tandem/render/foreground.h"
+#include "tandem/render/frame_metadata.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/render/ray_cost.h"
 #include "tandem/render/ready_frame.h"
@@ -35,15 +36,12 @@ constexpr std::size_t most_with_backend = 2;
 constexpr const char* automatic_exposure = "auto";
 
 /// Seconds from one call to the next.
-class Stopwatch {
+class LapWatch {
   public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
+    double lap() { return std::exchange(watch_, Stopwatch()).seconds(); }
 
   private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    Stopwatch watch_;
 };
 
 /// Films wait in memory for their writers: at most 4 GiB of them, but at least one.
@@ -67,6 +65,14 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
         if (file.image.width != wanted.width || file.image.height != wanted.height) return std::nullopt;
         wanted.film_sha256 = file.metadata->film_sha256;
         wanted.backend = file.metadata->backend;
+        wanted.scene_source = file.metadata->scene_source;
+        wanted.forced_effects = file.metadata->forced_effects;
+        if (!wanted.target.empty()) {
+            if (file.metadata->stopped_by == to_string(StoppedBy::interrupt)) return std::nullopt;
+            wanted.tile_samples = file.metadata->tile_samples;
+            wanted.error = file.metadata->error;
+            wanted.stopped_by = file.metadata->stopped_by;
+        }
         if (any_exposure) {
             if (wanted.exposure_rule != file.metadata->exposure_rule) return std::nullopt;
             wanted.exposure_stops = file.metadata->exposure_stops;
@@ -97,7 +103,7 @@ EncodedImage encode_frame(Film film, const FrameRecord& record, ImageFormat form
 
 /// Hashes, encodes and writes a film in a thread of its own.
 FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const WriteOptions& options) {
-    Stopwatch watch;
+    LapWatch watch;
     record.metadata.film_sha256 = film_hash(film);
     record.seconds.hash = watch.lap();
     const EncodedImage encoded = encode_frame(std::move(film), record, format, options);
@@ -110,11 +116,12 @@ FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const
 
 class Sequence {
   public:
-    Sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
+    Sequence(const Scene& scene, Backend& backend, const SequenceOptions& options, const std::atomic<bool>& interrupted,
              const std::function<void(const FrameRecord&)>& on_frame)
         : scene_(scene),
           backend_(backend),
           options_(options),
+          interrupted_(interrupted),
           on_frame_(on_frame),
           pattern_(options.output),
           format_(format_of(options.output, options.write)),
@@ -143,10 +150,10 @@ class Sequence {
     Sequence(const Sequence&) = delete;
     Sequence& operator=(const Sequence&) = delete;
 
-    std::size_t run(const std::atomic<bool>& interrupted) {
+    std::size_t run() {
         const FrameRange& frames = options_.frames;
         try {
-            for (std::int32_t i = 0; i < frames.count() && !interrupted; ++i) {
+            for (std::int32_t i = 0; i < frames.count() && !interrupted_; ++i) {
                 start(frames.first + i);
                 report_written();
             }
@@ -173,7 +180,7 @@ class Sequence {
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
         PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = effects_};
-        Stopwatch watch;
+        LapWatch watch;
         std::optional<PreparedScene> prepared;
         if (std::exchange(work_is_open_, false)) {
             prepared = choose_work(prepare_options);
@@ -188,7 +195,9 @@ class Sequence {
         record.bounds_per_ray = bounds_per_ray_;
         record.has_short_paths = limits_ != options_.job.limits;
         record.has_opaque_masks = effects_ != options_.effects;
-        if (is_blurred(plan)) {
+        if (options_.checkpoint || options_.target) {
+            start_in_tiles(plan, job, std::move(record));
+        } else if (is_blurred(plan)) {
             start_blurred(plan, job, std::move(record));
         } else {
             if (!prepared) prepared = prepare(scene_, plan.instants.front().prepare);
@@ -216,8 +225,8 @@ class Sequence {
     }
 
     void start_still(const PreparedScene& prepared, const FramePlan& plan, const RenderJob& job, FrameRecord record,
-                     Stopwatch& watch) {
-        record.metadata = describe(job, scene_hash(prepared));
+                     LapWatch& watch) {
+        record.metadata = metadata_of(job, scene_hash(prepared));
         record.seconds.prepare = watch.lap();
         if (is_finished(record)) return;
         while (with_backend_ >= most_with_backend) pass_to_writer();
@@ -231,14 +240,51 @@ class Sequence {
     void start_blurred(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
         std::error_code ignored;
         if (!options_.force && std::filesystem::exists(record.file, ignored)) {
-            record.metadata = describe(job, frame_hash(scene_, plan));
+            record.metadata = metadata_of(job, frame_hash(scene_, plan));
             if (is_finished(record)) return;
         }
-        while (with_backend_ > 0) pass_to_writer();
-        resident_.reset();
+        leave_backend();
         FrameHash hash(plan);
         RenderedFrame frame = render_frame(backend_, scene_, plan, &hash);
-        record.metadata = describe(job, hash.get());
+        record.metadata = metadata_of(job, hash.get());
+        pass_at_once(std::move(frame), plan, job, std::move(record));
+    }
+
+    /// Renders a frame in tiles, and no other frame meanwhile. An interrupted frame may not start.
+    void start_in_tiles(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
+        record.metadata = metadata_of(job, frame_hash(scene_, plan));
+        if (is_finished(record)) return;
+        leave_backend();
+        if (options_.target) {
+            if (auto frame = to_target(plan, record)) pass_at_once(*std::move(frame), plan, job, std::move(record));
+            return;
+        }
+        const ImageMetadata film = describe(job, record.metadata.scene_hash, backend_.name());
+        auto frame = render_with_checkpoints(backend_, scene_, plan, film, *options_.checkpoint, interrupted_);
+        if (frame) pass_at_once(*std::move(frame), plan, job, std::move(record));
+    }
+
+    /// Renders a frame to the target, and says in its record how it ended.
+    std::optional<RenderedFrame> to_target(const FramePlan& plan, FrameRecord& record) const {
+        const Stopwatch watch;
+        auto result = render_to_target(backend_, scene_, plan, *options_.target, interrupted_,
+                                       [&watch] { return watch.seconds(); });
+        if (!result) return std::nullopt;
+        record.metadata.tile_samples = std::move(result->tile_samples);
+        record.metadata.error = fmt::format("{} {}", to_string(options_.target->metric), to_string(result->error));
+        record.metadata.stopped_by = to_string(result->stopped_by);
+        record.mean_samples = result->mean_samples;
+        return std::move(result->frame);
+    }
+
+    /// Waits until the backend renders nothing, and releases its scene.
+    void leave_backend() {
+        while (with_backend_ > 0) pass_to_writer();
+        resident_.reset();
+    }
+
+    /// Passes a film that is complete to the writers.
+    void pass_at_once(RenderedFrame frame, const FramePlan& plan, const RenderJob& job, FrameRecord record) {
         record.seconds.prepare = frame.prepare;
         record.seconds.backend = frame.load;
         ++with_backend_;
@@ -259,20 +305,13 @@ class Sequence {
         return true;
     }
 
-    ImageMetadata describe(const RenderJob& job, std::string scene_hash) const {
-        ImageMetadata metadata{.film_sha256 = {},
-                               .scene_hash = std::move(scene_hash),
-                               .frame = job.frame,
-                               .width = job.width,
-                               .height = job.height,
-                               .samples = job.samples,
-                               .seed = job.seed,
-                               .limits = to_string(job.limits),
-                               .tier = to_string(job.tier),
-                               .backend = backend_.name(),
-                               .version = version(),
-                               .planes = to_string(job.planes),
-                               .exposure_rule = exposure_rule_};
+    /// The metadata of the file, except for the film's hash.
+    ImageMetadata metadata_of(const RenderJob& job, std::string scene_hash) const {
+        ImageMetadata metadata = describe(job, std::move(scene_hash), backend_.name());
+        metadata.exposure_rule = exposure_rule_;
+        metadata.scene_source = options_.scene_source;
+        metadata.forced_effects = to_string(effects_);
+        if (options_.target) metadata.target = to_string(*options_.target);
         return as_written(std::move(metadata), job.width, job.height, format_, write_);
     }
 
@@ -334,6 +373,10 @@ class Sequence {
         writing_.pop_front();
         const FrameRecord record = first.get();
         ++done_;
+        if (options_.checkpoint && !record.skipped) {
+            std::error_code ignored;
+            std::filesystem::remove(options_.checkpoint->file, ignored);
+        }
         on_frame_(record);
     }
 
@@ -358,6 +401,7 @@ class Sequence {
     const Scene& scene_;
     Backend& backend_;
     const SequenceOptions& options_;
+    const std::atomic<bool>& interrupted_;
     const std::function<void(const FrameRecord&)>& on_frame_;
     FramePattern pattern_;
     ImageFormat format_;
@@ -396,6 +440,19 @@ void check_output(const SequenceOptions& options) {
         throw InputError(fmt::format("'{}' has no placeholder for the frame number; use a name such as frame-####.png",
                                      options.output));
     }
+    if (options.target) {
+        if (options.checkpoint) {
+            throw InputError(
+                "--checkpoint cannot be used with --target-error or --time-budget; give a number of samples (--spp)");
+        }
+        check(*options.target, options.job);
+    }
+    if (options.checkpoint) {
+        if (options.frames.count() > 1) {
+            throw InputError("--checkpoint is for one frame; a sequence goes on from its finished files");
+        }
+        check_output(*options.checkpoint);
+    }
     check_can_write(pattern.path(static_cast<std::uint32_t>(options.frames.first)));
 }
 
@@ -404,7 +461,7 @@ std::size_t render_sequence(const Scene& scene, Backend& backend, const Sequence
                             const std::function<void(const FrameRecord&)>& on_frame) {
     check(options.job);
     check_output(options);
-    return Sequence(scene, backend, options, on_frame).run(interrupted);
+    return Sequence(scene, backend, options, interrupted, on_frame).run();
 }
 
 }  // namespace tandem

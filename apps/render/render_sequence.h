@@ -10,7 +10,9 @@
 #include "common/arguments.h"
 #include "tandem/effects/names.h"
 #include "tandem/images/image_io.h"
+#include "tandem/render/adaptive_frame.h"
 #include "tandem/render/backend.h"
+#include "tandem/render/checkpointed_frame.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem {
@@ -28,8 +30,11 @@ struct SequenceOptions {
     WriteOptions write;  ///< its display is that of the scene, except for these two:
     std::optional<TransferFunction> transfer;
     std::optional<ExposureChoice> exposure;
-    bool force = false;  ///< render frames even if their files exist
-    int writers = 0;     ///< threads that hash, encode and write; 0: one per core
+    bool force = false;                           ///< render frames even if their files exist
+    std::optional<CheckpointOptions> checkpoint;  ///< for one frame
+    std::optional<RenderTarget> target;           ///< of every frame; the job has the most samples
+    std::string scene_source;                     ///< for the metadata: to_json() of where the scene is from
+    int writers = 0;                              ///< threads that hash, encode and write; 0: one per core
 };
 
 /// The time of a frame by phase, in seconds. Frames overlap, so the sums are more than the wall time.
@@ -50,6 +55,7 @@ struct FrameRecord {
     std::size_t nan_values = 0;  ///< EncodedImage
     double bounds_per_ray = 0;   ///< if samples or path lengths were reduced because of it, else 0
     bool has_short_paths = false;
+    double mean_samples = 0;        ///< per pixel, of a frame with a target
     bool has_opaque_masks = false;  ///< alpha masks are ignored for the same reason
     // of RenderStats
     std::string variant{};
@@ -71,6 +77,10 @@ struct FrameRecord {
 /// the file of that frame exists and its exposure was automatic, the exposure is taken from the file.
 ///
 /// With `fewer_samples` or `shorter_paths` the first frame decides for all.
+///
+/// With a `checkpoint` the frame is rendered by render_with_checkpoints(), whose file is removed when the image is
+/// written. If it is interrupted, the frame is not finished. With a `target` frames are rendered by render_to_target().
+/// A frame that a signal stopped short of it is written, but not taken as finished by the next run.
 ///
 /// Returns the number of finished frames. Throws InputError for invalid options, scenes and paths, if possible before
 /// the first frame; the first error of a backend or a writer is passed on, once the frames that other writers hold are

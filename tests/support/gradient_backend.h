@@ -9,11 +9,12 @@
 
 #include "support/plane_film.h"
 #include "tandem/render/backend.h"
+#include "tandem/render/copy_window.h"
 
 namespace tandem::test {
 
-/// The film that GradientBackend renders.
-inline Film gradient_film(const RenderJob& job) {
+/// The whole film that GradientBackend renders of a job.
+inline Film whole_gradient_film(const RenderJob& job) {
     Film film(job.width, job.height, job.samples, job.planes);
     fill_planes(film, 1 + job.frame);
     const auto share = [](int i, int count) { return (i + 0.5) / count; };
@@ -26,6 +27,14 @@ inline Film gradient_film(const RenderJob& job) {
                 Vec3d{share(x, job.width), share(y, job.height), third} * static_cast<double>(job.samples);
         }
     }
+    return film;
+}
+
+/// The film that GradientBackend renders.
+inline Film gradient_film(const RenderJob& job) {
+    const FilmWindow window = window_of(job);
+    Film film(window.width, window.height, job.samples, job.planes);
+    copy_window(film, 0, 0, whole_gradient_film(job), window);
     return film;
 }
 

@@ -75,6 +75,9 @@ ConstFilmPlanes Film::planes() const {
 }
 
 void Film::add(const Film& later) {
+    if (has_own_samples() || later.has_own_samples()) {
+        throw InputError("a film whose pixels have different numbers of samples cannot be added to another");
+    }
     if (later.width_ != width_ || later.height_ != height_ || later.plane_mask_ != plane_mask_) {
         throw InputError(fmt::format(
             "a film of {} x {} with the planes '{}' cannot be added to one of {} x {} with '{}'", later.width_,
@@ -98,6 +101,9 @@ std::string film_hash(const Film& film) {
     hash.update_value(std::int32_t{film.width()});
     hash.update_value(std::int32_t{film.height()});
     hash.update_value(std::int32_t{film.samples()});
+    for (std::size_t i = 0; film.has_own_samples() && i < film.pixel_count(); ++i) {
+        hash.update_value(film.samples_of(i));
+    }
     hash.update(film.sums().data(), film.sums().size_bytes());
     return hash.hex();
 }

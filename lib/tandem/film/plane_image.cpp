@@ -1,21 +1,13 @@
 #include "tandem/film/plane_image.h"
 
-#include <limits>
 #include <type_traits>
 
+#include "tandem/film/variance.h"
 #include "tandem/math/fp_environment.h"
 
 namespace tandem {
 
 namespace {
-
-/// The unbiased variance of the mean of `samples` values, from their sum and the sum of their squares. Rounding cannot
-/// make it negative.
-double variance_of_mean(double sum, double squares, double samples) {
-    if (samples < 2) return std::numeric_limits<double>::infinity();
-    const double deviation = squares - sum * sum / samples;
-    return deviation > 0 ? deviation / (samples - 1) / samples : 0;
-}
 
 /// The value of a pixel in files; `sum`: that of the colour.
 template <PlaneRule rule>
@@ -32,7 +24,7 @@ PlaneImage image_of(FilmPlane plane, const Value* values, const Film& film) {
     if constexpr (std::is_same_v<Value, Vec3d>) {
         image.values.reserve(3 * pixels);
         for (std::size_t i = 0; i < pixels; ++i) {
-            const Vec3f at = written<rule>(values[i], film.sums()[i], film.samples());
+            const Vec3f at = written<rule>(values[i], film.sums()[i], film.samples_of(i));
             image.values.insert(image.values.end(), {at.x, at.y, at.z});
         }
     } else if constexpr (std::is_same_v<Value, float>) {

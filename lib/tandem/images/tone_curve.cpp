@@ -139,6 +139,13 @@ ToneMapped tone_map(const Film& film, const Display& display) {
     const DefaultFpEnvironment guard;
     const double samples = film.samples();
     const auto means = [&](std::size_t first, std::size_t count, float* to) {
+        if (film.has_own_samples()) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const Vec3f mean = film.mean(first + i);
+                std::copy_n(&mean.x, 3, to + 3 * i);
+            }
+            return;
+        }
         const auto* sums = reinterpret_cast<const double*>(&film.sums()[first]);
         // as Film::mean(), whose narrow() cannot be vectorised
         for (std::size_t i = 0; i < 3 * count; ++i) to[i] = static_cast<float>(sums[i] / samples);

@@ -18,38 +18,6 @@ namespace {
 
 constexpr std::size_t most_in_flight = 2;
 
-void add(PhaseTimes& total, const PhaseTimes& part) {
-    total.build += part.build;
-    total.compile += part.compile;
-    total.upload += part.upload;
-    total.render += part.render;
-    total.download += part.download;
-}
-
-/// Appends the text unless it is there already.
-void add_once(std::string& list, const std::string& text) {
-    if (text.empty() || list.find(text) != std::string::npos) return;
-    list += (list.empty() ? "" : "; ") + text;
-}
-
-void add(RenderStats& total, const RenderStats& part) {
-    add(total.seconds, part.seconds);
-    // these are facts about the scene, so they are not added up over the instants
-    const std::uint64_t primitives = std::max(total.counters.dropped_primitives, part.counters.dropped_primitives);
-    const std::uint64_t lights = std::max(total.counters.dropped_lights, part.counters.dropped_lights);
-    total.counters += part.counters;
-    total.counters.dropped_primitives = primitives;
-    total.counters.dropped_lights = lights;
-    total.rays += part.rays;
-    total.device_bytes = std::max(total.device_bytes, part.device_bytes);
-    total.registers = std::max(total.registers, part.registers);
-    total.occupancy = total.occupancy > 0 ? std::min(total.occupancy, part.occupancy) : part.occupancy;
-    add_once(total.variant, part.variant);
-    add_once(total.warning, part.warning);
-    total.effects |= part.effects;
-    total.carried |= part.carried;
-}
-
 /// The instants of one frame in a backend.
 class Exposure {
   public:

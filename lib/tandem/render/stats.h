@@ -52,4 +52,9 @@ struct RenderStats {
     std::string warning;   ///< a problem that did not affect the film; empty if there was none
 };
 
+void add(PhaseTimes& total, const PhaseTimes& part);
+/// Adds another part of the same frame: another instant, other pixels or later samples. Times, rays and events are
+/// added; counts of the scene and the memory are the largest; each variant and each warning is named once.
+void add(RenderStats& total, const RenderStats& part);
+
 }  // namespace tandem

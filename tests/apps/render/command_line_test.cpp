@@ -39,7 +39,8 @@ TEST(CommandLine, HelpAndVersion) {
     const Finished help = tandem_render("--help");
     EXPECT_EQ(help.status, 0);
     for (const char* word : {"SCENE", "--frames", "--ppm-text", "--force", "--shutter-instants", "--exposure",
-                             "--transfer", "--aov", "albedo", "--env", "named:paper"}) {
+                             "--transfer", "--aov", "albedo", "--env", "named:paper", "--checkpoint", "--resume",
+                             "--target-error", "--time-budget", "--plan", "verify"}) {
         EXPECT_NE(help.printed.find(word), std::string::npos) << word;
     }
     const Finished shown = tandem_render("--version");
@@ -72,6 +73,18 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
           Case{"named:paper -o a.jpg", ".png"},
           Case{"named:paper -o '" + folder.file("none/a.png") + "'", "none"},
           Case{"named:paper --threads -1" + out, "--threads"},
+          Case{"named:paper --resume" + out, "--checkpoint"},
+          Case{"named:paper --checkpoint a --checkpoint-every -1" + out, "--checkpoint-every"},
+          Case{"named:paper --checkpoint '" + folder.file("none/c") + "'" + out, "no folder"},
+          Case{"named:paper --target-error 0" + out, "--target-error"},
+          Case{"named:paper --target-error 0.1 --spp 1" + out, "allow 2 or more"},
+          Case{"named:paper --target-error 0.1 --metric psnr" + out, "psnr"},
+          Case{"named:paper --metric relmse" + out, "--target-error"},
+          Case{"named:paper --time-budget -1" + out, "--time-budget"},
+          Case{"verify", "IMAGE"},
+          Case{"verify '" + folder.file("none.png") + "'", "none.png"},
+          Case{"verify '" + picture_of_bytes + "'", "cannot verify"},
+          Case{"verify '" + picture_of_bytes + "' --all --tiles 3", "--all"},
           Case{"named:paper --env '" + folder.file("none.hdr") + "'" + out, "none.hdr"},
           Case{"named:paper --env '" + picture_of_bytes + "'" + out, "8 bits"},
           Case{"named:paper --env-rotation 90" + out, "--env"},

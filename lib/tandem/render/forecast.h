@@ -1,0 +1,40 @@
+/// How many samples and how much time a frame will take, from a short probe.
+#pragma once
+
+#include <functional>
+
+#include "tandem/render/adaptive_frame.h"
+
+namespace tandem {
+
+/// A value, and the interval that should have the true one in about 95 % of cases.
+struct ForecastRange {
+    double value = 0;
+    double low = 0;
+    double high = 0;
+};
+
+struct Forecast {
+    ForecastRange samples{};   ///< per pixel, on average
+    ForecastRange seconds{};   ///< preparation, loading and all samples; without the probe and without files
+    double probe_seconds = 0;  ///< what the probe took
+    double short_pixels = 0;   ///< the share of pixels, 0 to 1, that do not reach the target with the job's samples
+};
+
+/// Renders probe_passes times the whole film with a few samples per pixel, and predicts render_to_target(), or the
+/// samples of the job if the target has no error. The samples of a tile follow from its errors in the probe, which fall
+/// with the number of samples; the interval moves them all to the lower or to the upper ends of their intervals. The
+/// time is that of the probe's samples in the same rows of tiles; its interval is from the spread of the passes
+/// (Student's t). The interval does not know of light that the probe did not find, nor of other load to come.
+/// `clock`: seconds. Throws as render_to_target() does.
+[[nodiscard]] Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target,
+                                const std::function<double()>& clock);
+
+inline constexpr int probe_passes = 4;
+
+enum class Fits { yes, perhaps, no };
+
+/// Whether the frame will be done within that time.
+[[nodiscard]] Fits fits(const Forecast& forecast, double seconds);
+
+}  // namespace tandem
