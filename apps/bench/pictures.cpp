@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "tandem/base/version.h"
 #include "tandem/images/image_io.h"
+#include "tandem/render/frame_metadata.h"
 
 namespace tandem::bench {
 
@@ -28,18 +28,7 @@ FloatImage shrunk(const FloatImage& image, int step) {
 
 }  // namespace
 
-ImageMetadata describe_picture(const RenderJob& job, const std::string& backend) {
-    ImageMetadata metadata;
-    metadata.frame = job.frame;
-    metadata.width = job.width;
-    metadata.height = job.height;
-    metadata.samples = job.samples;
-    metadata.seed = job.seed;
-    metadata.tier = to_string(job.tier);
-    metadata.backend = backend;
-    metadata.version = version();
-    return metadata;
-}
+ImageMetadata describe_picture(const RenderJob& job, const std::string& backend) { return describe(job, {}, backend); }
 
 void write_picture(const std::string& path, Film film, const ImageMetadata& metadata, const Display& display) {
     write_image(path, std::move(film), metadata,
