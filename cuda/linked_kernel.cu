@@ -4,7 +4,7 @@
 // others.
 //
 // TANDEM_SHORT_PATHS is defined for paths of one vertex, without synchronising_effects. Their code fits into the
-// instruction caches, and TANDEM_HD_SHARED is inline.
+// instruction caches, and TANDEM_HD_CALL_ON(device) is inline.
 #include "cuda/linked_facts.h"
 
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;

@@ -55,11 +55,14 @@ TANDEM_HD_INLINE Mask<Real> shines(const Quad&, const Vec3<Double<Real>>&, const
 
 }  // namespace area_lights_detail
 
+/// The lambdas are inlined by force: g++ leaves them as calls otherwise, and scenes with area lights take a tenth
+/// longer.
+///
 /// One area light, sampled with AreaLight's probabilities, at a vertex, in the lanes of `active`.
 /// Source: P. Shirley et al., 1996 (kernel/lights/sphere_light.h).
 template <class Effects, class Real>
-TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, const LitVertex<Real>& at,
-                                                      const Mask<Real>& active) {
+TANDEM_HD_CALL_ON(host)
+IncidentLight<Real> sample_area_light(const SceneView& scene, const LitVertex<Real>& at, const Mask<Real>& active) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const D zero(0.0);
@@ -76,33 +79,35 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
     LightSample<Real> drawn = {{zero, zero, zero}, {zero, zero, zero}, zero, zero};
     Vec3<Real> radiance = black<Real>();
     Word primitive(no_primitive);
-    for_each_unique_lane(light, active, [&](std::uint32_t index, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const AreaLight& chosen = scene.area_lights[index];
-        const std::uint32_t material = scene.material_of[chosen.primitive];
-        LightSample<Real> of_light = drawn;
-        Vec3<Real> emitted = broadcast<Real>(scene.optics[material].emission);
-        Mask<Real> lights = here && at.point.primitive != Word(chosen.primitive);
-        visit_primitive(scene, chosen.primitive, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-            using Body = std::decay_t<decltype(body)>;
-            if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_emit_light(kind_of<Body>)) return;
-                of_light = sample_light(
-                    area_lights_detail::view_light<Real>(body, position, chosen.halves_overlap != 0), u, v);
-                lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
-                if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
-                const MaterialTextures& textures = scene.textures.materials[material];
-                if (textures.emission.texture == no_texture) return;
-                emitted = emitted * light_texture_factor<Real>(scene, textures, body, of_light);
-            }
+    for_each_unique_lane(
+        light, active, [&](std::uint32_t index, const Mask<Real>& here) __attribute__((always_inline)) {
+            const AreaLight& chosen = scene.area_lights[index];
+            const std::uint32_t material = scene.material_of[chosen.primitive];
+            LightSample<Real> of_light = drawn;
+            Vec3<Real> emitted = broadcast<Real>(scene.optics[material].emission);
+            Mask<Real> lights = here && at.point.primitive != Word(chosen.primitive);
+            visit_primitive(
+                scene, chosen.primitive, [&](const auto& body) __attribute__((always_inline)) {
+                    using Body = std::decay_t<decltype(body)>;
+                    if constexpr (area_lights_detail::is_light<Body>) {
+                        if (!may_emit_light(kind_of<Body>)) return;
+                        of_light = sample_light(
+                            area_lights_detail::view_light<Real>(body, position, chosen.halves_overlap != 0), u, v);
+                        lights = lights && area_lights_detail::shines<Real>(body, position, of_light.direction);
+                        if (!Effects::has(Effect::textures) || !has_textures(scene.textures)) return;
+                        const MaterialTextures& textures = scene.textures.materials[material];
+                        if (textures.emission.texture == no_texture) return;
+                        emitted = emitted * light_texture_factor<Real>(scene, textures, body, of_light);
+                    }
+                });
+            D pdf = select(lights, of_light.pdf, zero);
+            if (known_area_lights() != KnownAreaLights::one) pdf = pdf * constant<D>(chosen.probability);
+            drawn.direction = select(here, of_light.direction, drawn.direction);
+            drawn.point = select(here, of_light.point, drawn.point);
+            drawn.pdf = select(here, pdf, drawn.pdf);
+            radiance = select(here, emitted, radiance);
+            primitive = select(here, Word(chosen.primitive), primitive);
         });
-        D pdf = select(lights, of_light.pdf, zero);
-        if (known_area_lights() != KnownAreaLights::one) pdf = pdf * constant<D>(chosen.probability);
-        drawn.direction = select(here, of_light.direction, drawn.direction);
-        drawn.point = select(here, of_light.point, drawn.point);
-        drawn.pdf = select(here, pdf, drawn.pdf);
-        radiance = select(here, emitted, radiance);
-        primitive = select(here, Word(chosen.primitive), primitive);
-    });
     IncidentLight<Real> result = {{nothing, nothing, nothing}, to_real<Real>(drawn.point), primitive};
     result.casts_shadows = Mask<Real>(scene.area_lights_cast_shadows != 0);
     Mask<Real> seen = active && drawn.pdf > zero;
@@ -117,23 +122,25 @@ TANDEM_HD_STAGE IncidentLight<Real> sample_area_light(const SceneView& scene, co
 /// The density, 1/sr, with which sample_area_light() samples `direction` from `point`, where `primitive` is hit; 0 if
 /// that is no area light.
 template <class Real>
-TANDEM_HD_STAGE Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive,
-                                            const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& direction,
-                                            const Mask<Real>& active) {
+TANDEM_HD_CALL_ON(host)
+Double<Real> area_light_pdf(const SceneView& scene, const UInt<Real>& primitive, const Vec3<Double<Real>>& point,
+                            const Vec3<Double<Real>>& direction, const Mask<Real>& active) {
     using D = Double<Real>;
     D result(0.0);
-    for_each_unique_lane(primitive, active, [&](std::uint32_t id, const Mask<Real>& here) TANDEM_INLINE_LAMBDA {
-        const double probability = probability_of(scene.area_lights, scene.area_light_count, id);
-        if (!(probability > 0.0)) return;
-        visit_primitive(scene, id, [&](const auto& body) TANDEM_INLINE_LAMBDA {
-            using Body = std::decay_t<decltype(body)>;
-            if constexpr (area_lights_detail::is_light<Body>) {
-                if (!may_emit_light(kind_of<Body>)) return;
-                const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point, false), direction);
-                result = select(here, of_light * constant<D>(probability), result);
-            }
+    for_each_unique_lane(
+        primitive, active, [&](std::uint32_t id, const Mask<Real>& here) __attribute__((always_inline)) {
+            const double probability = probability_of(scene.area_lights, scene.area_light_count, id);
+            if (!(probability > 0.0)) return;
+            visit_primitive(
+                scene, id, [&](const auto& body) __attribute__((always_inline)) {
+                    using Body = std::decay_t<decltype(body)>;
+                    if constexpr (area_lights_detail::is_light<Body>) {
+                        if (!may_emit_light(kind_of<Body>)) return;
+                        const D of_light = pdf_of(area_lights_detail::view_light<Real>(body, point, false), direction);
+                        result = select(here, of_light * constant<D>(probability), result);
+                    }
+                });
         });
-    });
     return result;
 }
 

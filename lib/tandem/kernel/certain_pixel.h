@@ -31,7 +31,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJo
 
 /// One sample by the general code, out of line.
 template <class Effects, class Tracer>
-TANDEM_HD_COLD Vec3f careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
+TANDEM_HD_CALL Vec3f careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
                                       std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
     const SampleId<float> id = {&job->keys, job->frame, job->number_in_film(x, y), sample};
     PathTally<float> tally;

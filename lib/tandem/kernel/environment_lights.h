@@ -50,8 +50,8 @@ concept EnvironmentKind = std::is_trivially_copyable_v<Kind> && requires(const K
 /// A direction sampled by the environment `view`, weighted against paths that follow a lobe. Phong highlights do not
 /// show the environment, nor the gradient.
 template <class Effects, class Real, class View>
-TANDEM_HD_STAGE IncidentLight<Real> sample_environment_light(const SceneView& scene, const View& view,
-                                                             const LitVertex<Real>& at) {
+TANDEM_HD_CALL_ON(host)
+IncidentLight<Real> sample_environment_light(const SceneView& scene, const View& view, const LitVertex<Real>& at) {
     using D = Double<Real>;
     const D zero(0.0);
     const auto drawn = sample_environment<Real>(view, at.sample.block_at_vertex(Dimension::environment, at.number));
@@ -92,7 +92,8 @@ struct EnvironmentLight {
 /// not black from inside. Only diffuse lobes show it. For scenes without indirect light: with it, the continued path
 /// adds the background. Paths that microfacets reflect find the gradient by themselves.
 template <class Effects, class Real>
-TANDEM_HD_STAGE IncidentLight<Real> sample_environment_gradient(const SceneView& scene, const LitVertex<Real>& at) {
+TANDEM_HD_CALL_ON(host)
+IncidentLight<Real> sample_environment_gradient(const SceneView& scene, const LitVertex<Real>& at) {
     const auto random = at.sample.block_at_vertex(Dimension::environment, at.number);
     const auto drawn = sample_cosine_hemisphere<Real>(at.surface.normal, widen(to_unit_interval<Real>(random.word[0])),
                                                       widen(to_unit_interval<Real>(random.word[1])));

@@ -52,8 +52,8 @@ TANDEM_HD Real share_of_found(const SceneView& scene, const PathState<Effects, R
 /// The environment `view` for a path that leaves the scene, with its MIS weight against the sample of the previous
 /// vertex.
 template <class Effects, class Real, bool bounces, class View>
-TANDEM_HD_STAGE Vec3<Real> found_environment(const SceneView& scene, const View& view,
-                                             const PathState<Effects, Real, bounces>& path) {
+TANDEM_HD_CALL_ON(host)
+Vec3<Real> found_environment(const SceneView& scene, const View& view, const PathState<Effects, Real, bounces>& path) {
     using D = Double<Real>;
     const auto sight = see_environment<Real>(view, widen(path.ray.direction));
     if constexpr (bounces) {

@@ -72,8 +72,9 @@ TANDEM_HD Real share_of_sample(const SceneView& scene, const FollowedLobes<Real>
 
 /// The sum over the lobes that work in the local frame.
 template <class Effects, class Real, class Density>
-TANDEM_HD_STAGE Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVertex<Real>& at, const Vec3<Real>& light,
-                                            const Vec3<Double<Real>>& to_light, const Density& pdf) {
+TANDEM_HD_CALL_ON(host)
+Vec3<Real> reflect_in_frame(const SceneView& scene, const LitVertex<Real>& at, const Vec3<Real>& light,
+                            const Vec3<Double<Real>>& to_light, const Density& pdf) {
     using D = Double<Real>;
     const LocalView<Real> view = local_view<Effects>(at.surface, at.point, at.to_viewer);
     const Vec3<D> wi = to_frame(view.frame, to_light);

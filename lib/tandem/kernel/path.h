@@ -32,8 +32,9 @@ TANDEM_HD void find_vertex(const SceneView& scene, const Ray<Real>& ray, const F
 }
 /// The same out of line, for kernels whose loop is long.
 template <class Effects, std::uint32_t kinds, class Real, class From>
-TANDEM_HD_STAGE void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                    const Closest<Real>& hit, const Mask<Real>& found, Vertex<Real>& vertex) {
+TANDEM_HD_CALL_ON(host)
+void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
+                    const Mask<Real>& found, Vertex<Real>& vertex) {
     find_vertex<Effects, kinds>(scene, ray, source, hit, found, vertex);
 }
 

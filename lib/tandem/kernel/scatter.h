@@ -44,9 +44,9 @@ TANDEM_HD LobeSample<Real> sample_in_world(const Lobe& lobe, const ShadingFrame<
     return lobe.sample_about(shading.normals, shading.to_viewer, u);
 }
 template <class Effects, class Lobe, class Real>
-TANDEM_HD_STAGE LobeSample<Real> sample_in_frame(const Lobe& lobe, const Surface<Real>& surface,
-                                                 const SurfacePoint<Real>& point, const ShadingFrame<Real>& shading,
-                                                 const Vec3<Double<Real>>& u) {
+TANDEM_HD_CALL_ON(host)
+LobeSample<Real> sample_in_frame(const Lobe& lobe, const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                                 const ShadingFrame<Real>& shading, const Vec3<Double<Real>>& u) {
     const LocalView<Real> view = local_view<Effects>(surface, point, shading.to_viewer);
     LobeSample<Real> drawn = lobe.sample(view.wo, u);
     drawn.wi = from_frame(view.frame, drawn.wi.x, drawn.wi.y, drawn.wi.z);
@@ -63,10 +63,10 @@ TANDEM_HD_STAGE LobeSample<Real> sample_in_frame(const Lobe& lobe, const Surface
 /// Source: J. Kajiya, "The Rendering Equation", SIGGRAPH 1986; one ray at an interface after E. Veach's thesis, 1997,
 /// 5.2.
 template <class Effects, class Real>
-TANDEM_HD_STAGE Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
-                                   const UInt<Real>& vertex, const Surface<Real>& surface,
-                                   const SurfacePoint<Real>& point, const ShadingFrame<Real>& shading,
-                                   LobeWeights<Real> weights, PathState<Effects, Real, true>& path) {
+TANDEM_HD_CALL_ON(host)
+Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                   const UInt<Real>& vertex, const Surface<Real>& surface, const SurfacePoint<Real>& point,
+                   const ShadingFrame<Real>& shading, LobeWeights<Real> weights, PathState<Effects, Real, true>& path) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const Real zero(0.0F);

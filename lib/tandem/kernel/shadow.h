@@ -19,7 +19,8 @@ TANDEM_HD void count_rays(const Mask<Real>& traced, UInt<Real>& rays) {
 namespace shadow_detail {
 
 template <class Real, class From, class Tracer>
-TANDEM_HD_SHARED Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, Mask<Real> active) {
+TANDEM_HD_CALL_ON(device)
+Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, Mask<Real> active) {
     return tracer.closest(ray, source, active);
 }
 
@@ -72,8 +73,9 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
 
 /// Whether `light` is blocked at `point`, in the lanes of `active`. A light exactly at the point counts as blocked.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD_STAGE Mask<Real> is_blocked(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
-                                      const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
+TANDEM_HD_CALL_ON(host)
+Mask<Real> is_blocked(const Tracer& tracer, const SceneView& scene, const IncidentLight<Real>& light,
+                      const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
     ShadowRay<Real> shadow = spawn_shadow_ray(point, light.position_or_direction, light.primitive, light.is_far);
     shadow.active = shadow.active && active;
     return (active && !shadow.active) || is_blocked_by_opaque<Effects>(tracer, scene, light, shadow, rays);

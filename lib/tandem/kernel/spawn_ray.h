@@ -198,8 +198,9 @@ TANDEM_HD void keep(const Mask<Real>& here, const SurfacePoint<Real>& own, Surfa
 
 /// The surface point at `hit` of `ray` from `source`, in the lanes of `found`.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
-TANDEM_HD_STAGE SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                                 const Closest<Real>& hit, const Mask<Real>& found) {
+TANDEM_HD_CALL_ON(host)
+SurfacePoint<Real> surface_point(const SceneView& scene, const Ray<Real>& ray, const From& source,
+                                 const Closest<Real>& hit, const Mask<Real>& found) {
     SurfacePoint<Real> result = {ray.origin, widen(ray.direction)};
     for_each_unique_lane(hit.primitive, found, [&](std::uint32_t id, const Mask<Real>& here) {
         keep(here, surface_point_of<kinds>(scene, id, ray, source, hit.t, here), result);

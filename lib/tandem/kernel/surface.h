@@ -75,9 +75,10 @@ TANDEM_HD constexpr bool has_pictures() {
 /// `normal` perturbed by a normal map, unit. Where `turned`, on the back of a double-sided face, `normal` is reversed,
 /// and so is the map's normal of the front.
 template <class Real>
-TANDEM_HD_STAGE Vec3<Double<Real>> bent_normal(const SceneView& scene, const MaterialTextures& textures,
-                                               const Parametrisation<Real>& at, const Vec3<Double<Real>>& normal,
-                                               const Mask<Real>& turned) {
+TANDEM_HD_CALL_ON(host)
+Vec3<Double<Real>> bent_normal(const SceneView& scene, const MaterialTextures& textures,
+                               const Parametrisation<Real>& at, const Vec3<Double<Real>>& normal,
+                               const Mask<Real>& turned) {
     const auto texel = sample<Real>(scene.textures, textures.normal, at.u, at.v);
     const auto front = select(turned, -normal, normal);
     const auto bent = mapped_normal<Real>(tangent_frame(front, at.dp_du, at.dp_dv), texel, textures.normal_scale);
@@ -87,15 +88,17 @@ TANDEM_HD_STAGE Vec3<Double<Real>> bent_normal(const SceneView& scene, const Mat
 /// The tangent along which microfacets are rougher. `normal`: the one for shading, unit; on both sides of a face the
 /// grooves are the same lines. Without usable coordinates the direction is that of frame_around().
 template <class Real>
-TANDEM_HD_STAGE Vec3<Double<Real>> brushed_tangent(const Anisotropy& anisotropy, const Parametrisation<Real>& at,
-                                                   const Vec3<Double<Real>>& normal, const Rgba<Real>& texel) {
+TANDEM_HD_CALL_ON(host)
+Vec3<Double<Real>> brushed_tangent(const Anisotropy& anisotropy, const Parametrisation<Real>& at,
+                                   const Vec3<Double<Real>>& normal, const Rgba<Real>& texel) {
     return rough_tangent<Real>(anisotropy, tangent_frame(normal, at.dp_du, at.dp_dv), texel);
 }
 
 /// Is the surface opaque at `hit`, or masked out, in the lanes of `found`?
 template <std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
-TANDEM_HD_STAGE Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                        const Closest<Real>& hit, const Mask<Real>& found) {
+TANDEM_HD_CALL_ON(host)
+Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
+                        const Mask<Real>& found) {
     Mask<Real> opaque(true);
     for_each_unique_lane(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
         if (!has_textures(scene.textures)) return;

@@ -9,16 +9,17 @@
 ///                         linker could keep the copy that an older machine cannot run.
 /// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes,
 ///                         lights). Not forced on the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET).
-/// TANDEM_INLINE_LAMBDA    the same, after the parameters of a lambda
-/// TANDEM_HD_COLD          host and device, never inline: for code that few rays need, so that it takes no registers
-///                         from the common path. Pass arguments by value.
-/// TANDEM_HD_CALL          host and device, never inline: for long functions. On the host each file has its own copy.
-///                         Pass arguments by value.
-/// TANDEM_HD_SHARED        on the device a single copy, called from many places: warps wait if the code is larger than
-///                         the instruction caches (docs/performance.md). Always inline on the host, and in kernels that
-///                         fit into the caches (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
-/// TANDEM_HD_STAGE         a step of the path loop. On the host a call, as TANDEM_HD_CALL, so that compile time grows
-///                         linearly with the code; inline on the device, where a call needs a stack.
+/// TANDEM_HD_CALL          host and device, never inline: for long functions, and for code that few rays need, so that
+/// it
+///                         takes no registers from the common path. Each file has its own copy. Pass arguments by
+///                         value.
+/// TANDEM_HD_CALL_ON(side) a call on one side, always inline on the other.
+///     host                a step of the path loop: a call keeps compile time linear in the code; on the device it
+///     would
+///                         need a stack.
+///     device              long code with many callers: warps wait if the code is larger than the instruction caches
+///                         (docs/performance.md). Inline in kernels that fit into the caches too (TANDEM_SHORT_PATHS,
+///                         cuda/linked_kernel.cu).
 /// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
 ///                         short
 /// TANDEM_KEEP_ROUNDING    (x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions of
@@ -49,17 +50,17 @@
 #define TANDEM_KEEP_LOOP
 #endif
 
+#define TANDEM_HD_CALL_ON(side) TANDEM_HD_CALL_ON_##side
+
 #if TANDEM_COMPILING_CUDA
 #define TANDEM_HD __host__ __device__ __forceinline__
 #define TANDEM_HD_INLINE TANDEM_HD
-#define TANDEM_INLINE_LAMBDA
-#define TANDEM_HD_COLD __host__ __device__ __noinline__
 #define TANDEM_HD_CALL static __host__ __device__ __noinline__
-#define TANDEM_HD_STAGE static __host__ __device__ __forceinline__
+#define TANDEM_HD_CALL_ON_host static __host__ __device__ __forceinline__
 #if defined(TANDEM_SHORT_PATHS)
-#define TANDEM_HD_SHARED TANDEM_HD
+#define TANDEM_HD_CALL_ON_device TANDEM_HD
 #else
-#define TANDEM_HD_SHARED static __host__ __device__ __noinline__
+#define TANDEM_HD_CALL_ON_device static __host__ __device__ __noinline__
 #endif
 #else
 #if defined(TANDEM_ISA_TAG)
@@ -69,13 +70,10 @@
 #endif
 #if defined(TANDEM_ONE_INSTRUCTION_SET)
 #define TANDEM_HD_INLINE TANDEM_HD
-#define TANDEM_INLINE_LAMBDA
 #else
 #define TANDEM_HD_INLINE [[gnu::always_inline]] inline
-#define TANDEM_INLINE_LAMBDA __attribute__((always_inline))
 #endif
-#define TANDEM_HD_COLD TANDEM_HD_CALL
 #define TANDEM_HD_CALL [[gnu::noinline]] static
-#define TANDEM_HD_STAGE TANDEM_HD_CALL
-#define TANDEM_HD_SHARED TANDEM_HD_INLINE
+#define TANDEM_HD_CALL_ON_host TANDEM_HD_CALL
+#define TANDEM_HD_CALL_ON_device TANDEM_HD_INLINE
 #endif

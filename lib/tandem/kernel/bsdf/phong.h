@@ -21,7 +21,8 @@ struct PhongMaterial {
 /// Gives: within 1 ulp of float for every shininess up to 1e8. The cosine stays double, because rounding it to float
 ///        has a relative error of shininess * 2^-24, 45 % at 1e6 (docs/numerics.md).
 template <class Real>
-TANDEM_HD_SHARED Real specular_lobe(Double<Real> cosine, Real shininess) {
+TANDEM_HD_CALL_ON(device)
+Real specular_lobe(Double<Real> cosine, Real shininess) {
     using D = Double<Real>;
     const D one(1.0);
     const D clamped = select(cosine > one, one, cosine);

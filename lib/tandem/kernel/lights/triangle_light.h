@@ -70,8 +70,9 @@ inline constexpr double smallest_height = is_fast<Real> ? 0x1p-14 : 0x1p-40;
 ///         IEEE Trans. Biomed. Eng. 30(2), 1983, times |a|.
 /// Everything here is tested by tests/kernel/lights/triangle_light_test.cpp.
 template <class Real>
-TANDEM_HD_SHARED TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> point, Vec3<Double<Real>> v0,
-                                                             Vec3<Double<Real>> v1, Vec3<Double<Real>> v2) {
+TANDEM_HD_CALL_ON(device)
+TriangleLightView<Real> view_triangle_light(Vec3<Double<Real>> point, Vec3<Double<Real>> v0, Vec3<Double<Real>> v1,
+                                            Vec3<Double<Real>> v2) {
     using D = Double<Real>;
     using triangle_light_detail::one_plus_cosine;
     const D zero(0.0F);
@@ -150,7 +151,8 @@ TANDEM_HD_INLINE D one_minus_cosine(const D& length, const D& cosine, const D& s
 ///         Where its squares would underflow (smallest_spherical), points are uniform over the area, by the limit of
 ///         the spherical map.
 template <class Real>
-TANDEM_HD_SHARED LightSample<Real> sample_light(TriangleLightView<Real> view, Double<Real> u, Double<Real> v) {
+TANDEM_HD_CALL_ON(device)
+LightSample<Real> sample_light(TriangleLightView<Real> view, Double<Real> u, Double<Real> v) {
     using D = Double<Real>;
     using namespace triangle_light_detail;
     const D one(1.0F);
@@ -197,8 +199,8 @@ struct TriangleLightHit {
 /// For a unit direction. `within`: the relative distance inside the edges that a hit needs; negative values allow hits
 /// outside.
 template <class Real>
-TANDEM_HD_SHARED TriangleLightHit<Real> find_on_light(TriangleLightView<Real> view, Vec3<Double<Real>> direction,
-                                                      double within) {
+TANDEM_HD_CALL_ON(device)
+TriangleLightHit<Real> find_on_light(TriangleLightView<Real> view, Vec3<Double<Real>> direction, double within) {
     using D = Double<Real>;
     const Vec3<D> normal = accurate_cross(view.edge1, view.edge2);
     const D sign = select(view.shows_front, D(-1.0F), D(1.0F));

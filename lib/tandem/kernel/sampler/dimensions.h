@@ -21,7 +21,8 @@ enum class Dimension : std::uint32_t {
 namespace sampler_detail {
 
 template <class Word>
-TANDEM_HD_SHARED PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
+TANDEM_HD_CALL_ON(device)
+PhiloxBlock<Word> philox_by_call(PhiloxBlock<Word> counter, std::uint32_t key0, std::uint32_t key1) {
     return philox4x32<Word>(counter, key0, key1);
 }
 

@@ -31,7 +31,7 @@ namespace box_detail {
 /// Whether the line enters every slab before it leaves any. Compares the quotients exactly: (face - origin) as a pair
 /// of doubles, cross-multiplied. Skips axes along which the line does not move.
 template <class Real>
-TANDEM_HD_COLD Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
+TANDEM_HD_CALL Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper,
                                             Vec3<Double<Real>> origin, Vec3<Double<Real>> direction) {
     using D = Double<Real>;
     const D zero(0.0);
@@ -68,10 +68,9 @@ TANDEM_HD_COLD Mask<Real> overlaps_in_pairs(Vec3<Double<Real>> lower, Vec3<Doubl
 /// Source: T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986; A. Williams et al., "An Efficient and Robust
 ///         Ray-Box Intersection Algorithm", 2005; evaluated in double. Tested by tests/kernel/shapes/box_test.cpp.
 template <class Real>
-requires(!is_fast<Real>) TANDEM_HD_SHARED BoxCrossing<Real> cross_box(Vec3<Double<Real>> lower,
-                                                                      Vec3<Double<Real>> upper,
-                                                                      Vec3<Double<Real>> origin,
-                                                                      Vec3<Double<Real>> direction) {
+requires(!is_fast<Real>) TANDEM_HD_CALL_ON(device)
+BoxCrossing<Real> cross_box(Vec3<Double<Real>> lower, Vec3<Double<Real>> upper, Vec3<Double<Real>> origin,
+                            Vec3<Double<Real>> direction) {
     using D = Double<Real>;
     const D zero(0.0);
     const D infinity(__builtin_huge_val());

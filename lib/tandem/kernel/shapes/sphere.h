@@ -33,7 +33,7 @@ struct Quadratic {
 /// In pairs of doubles, to 2^-100: for a nearly tangent line and an origin nearly on the sphere. The discriminant is a
 /// r^2 - |offset x direction|^2 (Lagrange's identity), which cancels in its last subtraction only.
 template <class Real>
-TANDEM_HD_COLD Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
+TANDEM_HD_CALL Quadratic<Double<Real>> quadratic_in_pairs(Vec3<Double<Real>> origin, Vec3<Double<Real>> centre,
                                                           Vec3<Double<Real>> direction, Double<Real> radius) {
     using D = Double<Real>;
     using P = Pair<D>;
@@ -202,7 +202,7 @@ namespace sphere_detail {
 
 /// first_hit() of the exact roots, infinite for a miss.
 template <class Real>
-TANDEM_HD_COLD Double<Real> exact_first_hit(Sphere sphere, Ray<Real> ray) {
+TANDEM_HD_CALL Double<Real> exact_first_hit(Sphere sphere, Ray<Real> ray) {
     Double<Real> t;
     const Mask<Real> hit = first_hit(sphere_roots(sphere, ray), t);
     return select(hit, t, Double<Real>(__builtin_huge_val()));
