@@ -21,6 +21,7 @@ struct DeviceSceneView {
     BvhView bvh;               ///< without nodes for a scene of few primitives, which are tested one by one
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
     CertainScene certain;      ///< for that view
+    bool diverges;             ///< even neighbouring rays of a hierarchy take ways of different lengths
 };
 
 /// The tracers: how the primitives of a scene are found.
@@ -61,9 +62,16 @@ struct DeviceRays {
     double* wide_t;
     DeviceCounters* counters;
     std::size_t count;
-    void* candidates;   ///< candidate_bytes for each ray, unless they are coherent
+    void* candidates;   ///< candidate_bytes for each ray, if may_refill()
     bool are_coherent;  ///< neighbouring rays take nearly the same way
+    std::uint32_t row;  ///< rays per row of an image, a multiple of 8; 0: the rays are no image
+    std::size_t tiled;  ///< the rays of the rows in whole tiles of 8 x 4
 };
+
+/// Whether rays may be traced by two kernels (refill_kernels.h).
+[[nodiscard]] inline bool may_refill(const DeviceSceneView& scene, bool are_coherent) {
+    return !are_coherent || scene.diverges;
+}
 
 /// What a ray's candidates take between the two kernels that trace incoherent rays.
 inline constexpr std::size_t candidate_bytes = 16;

@@ -14,12 +14,14 @@ struct BvhView {
     const Sphere* entry_spheres;
     const std::uint32_t* entry_ids;
     const EntryTriangle* entry_triangles;  ///< null unless all primitives are triangles
-    const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds
+    const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds; or see placed_by_entry
     StructureFrame frame;
     unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
     /// The bits of 256.0F, of which bytes of planes become a part. A member, so that the compiler does not know it:
     /// a permutation of bytes takes one constant, and that is its pattern.
     std::uint32_t bits_of_256 = 0x43800000U;
+    std::uint32_t placed_by_entry =
+        0;  ///< 1: all primitives are parallelepipeds, with placements in the order of entries
 };
 
 namespace bvh_detail {
@@ -64,12 +66,12 @@ TANDEM_HD_INLINE Sphere load_entry_sphere(const BvhView& bvh, std::uint32_t i) {
 TANDEM_HD_INLINE EntryTriangle load_entry_triangle(const BvhView& bvh, std::uint32_t i) {
     const auto* address = reinterpret_cast<const char*>(bvh.entry_triangles + i);
     const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32);
-    return {{float_of(p.a), float_of(p.b), float_of(p.c)},
-            {float_of(p.d), float_of(q.a), float_of(q.b)},
-            {float_of(q.c), float_of(q.d), float_of(r.a)},
-            r.b,
-            static_cast<FaceSides>(r.c),
-            0};
+    return {{{float_of(p.a), float_of(p.b), float_of(p.c)},
+             {float_of(p.d), float_of(q.a), float_of(q.b)},
+             {float_of(q.c), float_of(q.d), float_of(r.a)},
+             float_of(r.b)},
+            r.c,
+            static_cast<FaceSides>(r.d)};
 }
 
 TANDEM_HD_INLINE RoughPlacement load_placement(const BvhView& bvh, std::uint32_t i) {

@@ -23,7 +23,7 @@ struct CertainSphere {
     double distance2_per_radius;  ///< |offset|^2 / radius
     // for the test in float, u = 2^-24
     Vec3f rough_offset;
-    float rough_c;
+    float rough_c, rough_inverse_radius;
     float margin;  ///< 24 u |offset|^2
     float slack;   ///< 16 u |offset| times the length of the longest direction
 };
@@ -42,6 +42,7 @@ struct CertainMaterial {
 
 struct CertainLight {
     Vec3d offset;  ///< light - origin
+    Vec3f rough_offset;
     Vec3f intensity;
 };
 
@@ -116,6 +117,13 @@ inline bool exact_difference(const Vec3d& a, const Vec3d& b, Vec3d& difference) 
     return two_sum(a.x, -b.x).low == 0 && two_sum(a.y, -b.y).low == 0 && two_sum(a.z, -b.z).low == 0;
 }
 
+/// Whether 2^-24 of each component is exact, and its products with whole numbers are.
+inline bool can_be_scaled(const Vec3d& step) {
+    const auto can = [](double a) { return a == 0 || absolute(a) >= 0x1p-100; };
+    const Vec3d rounded = widen(narrow(step));
+    return can(rounded.x) && can(rounded.y) && can(rounded.z);
+}
+
 /// The lengths of camera rays' directions, at least and at most: the depth along the view axis is the same for all.
 struct DirectionLengths {
     double least, most;
@@ -147,6 +155,7 @@ inline bool make(const Sphere& sphere, const Vec3d& origin, double longest, Cert
     result.distance2_per_radius = distance2.high / radius;
     result.rough_offset = narrow(result.offset);
     result.rough_c = narrow(result.c);
+    result.rough_inverse_radius = narrow(result.inverse_radius);
     result.margin = narrow(24 * 0x1p-24 * 1.001 * distance2.high);
     result.slack = narrow(16 * 0x1p-24 * 1.001 * distance * longest);
     return exact && is_moderate(radius) && is_moderate(distance) && result.c >= 0.25 * distance2.high;
@@ -186,6 +195,7 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     if (camera.orthographic || camera.has_lens) return view;
     const DirectionLengths lengths = direction_lengths(camera, pixels);
     if (!(lengths.least >= smallest && lengths.most <= largest)) return view;
+    if (!can_be_scaled(camera.direction_dx) || !can_be_scaled(camera.direction_dy)) return view;
     const Environment& sky = scene.environment;
     view.is_finite_sky = is_plain_colour(sky.bottom) && is_plain_colour(sky.top) ? 1 : 0;
     if (view.is_finite_sky == 0 || !scene.fits) return view;
@@ -211,7 +221,8 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     farthest = 0;
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const PunctualLight& light = scene.lights[i];
-        view.lights[i] = {widen(light.position) - origin, light.intensity};
+        const Vec3d offset = widen(light.position) - origin;
+        view.lights[i] = {offset, narrow(offset), light.intensity};
         valid = valid && is_plain_colour(light.intensity);
         farthest = greater(farthest, norm1(widen(light.position)));
     }
