@@ -23,7 +23,7 @@
 #pragma once
 
 #include "tandem/kernel/traversal/certain_hit.h"
-#include "tandem/math/fast_float.h"
+#include "tandem/math/fast_math.h"
 
 namespace tandem {
 
@@ -100,14 +100,15 @@ TANDEM_HD_INLINE CertainPoint<T> point_on(const CertainBox& box, std::uint32_t a
     return point;
 }
 
-/// base^n for n >= 1 and base in [0, 1], in double within 2 n 2^-53 of itself.
-template <class T>
-TANDEM_HD_INLINE T whole_power(T base, std::uint32_t n) {
-    for (; (n & 1U) == 0; n >>= 1) base = base * base;
-    T power = base;
-    for (n >>= 1; n != 0; n >>= 1) {
-        base = base * base;
-        if ((n & 1U) != 0) power = power * base;
+/// base^n for n = odd 2^squarings and base in [0, 1], within 2 n 2^-53 of itself.
+TANDEM_HD_INLINE double whole_power(double base, std::uint32_t odd, std::uint32_t squarings) {
+    TANDEM_KEEP_LOOP
+    for (; squarings != 0; --squarings) base *= base;
+    double power = base;
+    TANDEM_KEEP_LOOP
+    for (odd >>= 1; odd != 0; odd >>= 1) {
+        base *= base;
+        if ((odd & 1U) != 0) power *= base;
     }
     return power;
 }
@@ -117,7 +118,7 @@ struct Weight {
     float low, high;
 };
 TANDEM_HD_INLINE Weight bounded(double value, double error) {
-    return {narrow(greater(value - error, 0.0)), narrow(greater(value + error, 0.0))};
+    return {rough_greater(0.0F, narrow(value - error)), rough_greater(0.0F, narrow(value + error))};
 }
 
 /// The cosine of the diffuse lobe and the base of the highlight, at a light.
@@ -165,7 +166,7 @@ TANDEM_HD_INLINE bool certain_light(const CertainView& view, const Vec3f& direct
         for (std::uint32_t i = 0; i < view.light_count; ++i) {
             const CertainLight& light = view.lights[i];
             const auto at = cosines_at(point, light, along, facing);
-            const T power = whole_power(at.highlight, material.shininess);
+            const T power = tandem::power<T>(at.highlight, T(material.shininess));
             low = low + (broadcast<Real>(material.specular) * power +
                          broadcast<Real>(material.diffuse) * greater(at.diffuse, T(0.0F))) *
                             broadcast<Real>(light.intensity);
@@ -184,7 +185,7 @@ TANDEM_HD_INLINE bool certain_light(const CertainView& view, const Vec3f& direct
                                                   at.inverse_distance, multiply_add(64.0, point.growth, 64.0));
             certain = certain && error < 0x1p-30;
 
-            const double power = whole_power(at.highlight, material.shininess);
+            const double power = whole_power(at.highlight, material.odd_part, material.squarings);
             const double n = static_cast<double>(material.shininess);
             const double slope = at.highlight < 0.25 ? material.small_slope : 4.0 * n * power;
             const Weight diffuse = bounded(at.diffuse, error);

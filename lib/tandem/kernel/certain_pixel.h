@@ -79,14 +79,14 @@ TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJo
             for (; sample < job.samples; ++sample) sum = sum + heights_of(sample, 1);
             const double samples = job.samples;
             result.sum = gradient<double>(scene.environment, sum / samples) * samples;
-            return result;
-        }
+        } else {
 #if TANDEM_ON_DEVICE
 #pragma unroll 4
 #endif
-        for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            id.sample = job.first_sample + sample;
-            result.sum = result.sum + to_wide(gradient(scene.environment, height_of(directions.of(id))));
+            for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
+                id.sample = job.first_sample + sample;
+                result.sum = result.sum + to_wide(gradient(scene.environment, height_of(directions.of(id))));
+            }
         }
         return result;
     });

@@ -1,6 +1,7 @@
 #include "tandem/render/ray_coherence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tandem {
 
@@ -38,7 +39,10 @@ double distance(const Ray<float>& a, const Ray<float>& b, float reach) {
 double unlikeness(std::span<const Ray<float>> rays, float reach, std::size_t step) {
     double sum = 0;
     for (std::size_t i = 0; i < row_samples; ++i) {
-        const std::size_t at = (rays.size() - step - 2) * i / row_samples;
+        // places that have nothing to do with the length of rows: multiples of the golden ratio, modulo 1
+        const double place = static_cast<double>(i) * 0.6180339887498949;
+        const auto at =
+            static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(rays.size() - step - 1));
         const double next = distance(rays[at], rays[at + 1], reach), other = distance(rays[at], rays[at + step], reach);
         const double share = other / (next + other);
         sum += share >= 0 ? share : 0.5;  // NaN: rays that cannot be traced, or that are equal
@@ -66,11 +70,11 @@ std::uint32_t row_length(std::span<const Ray<float>> rays, float reach) {
     // rays far apart in the batch: if the next ones are no more alike than those, the rays have no order
     if (unlikeness(rays, reach, count / 2 + count / 7) < 0.75) return 0;
     std::size_t best = 0;
-    double least = 0.6;
+    double least = 0.63;
     for (std::size_t row = least_row; row <= most_row && least_rows * row <= count; row += row_step) {
         if (count % row != 0) continue;
         const double found = unlikeness(rays, reach, row);
-        if (found < least) {
+        if (found < 0.95 * least) {
             least = found;
             best = row;
         }

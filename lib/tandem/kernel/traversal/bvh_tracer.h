@@ -78,7 +78,7 @@ struct BvhStructure {
         const HitInterval interval = interval_at<Real>(entry, source, query, id);
         if (!(interval.lo <= limit)) return false;
         if (search == Search::any && interval.hi < enough) return true;
-        if constexpr (search == Search::nearest) limit = lesser(limit, interval.hi);
+        if constexpr (search == Search::nearest) limit = rough_lesser(limit, interval.hi);
         candidates.add(interval.lo, keeps_entries<From> ? entry : id, limit);
         return false;
     }

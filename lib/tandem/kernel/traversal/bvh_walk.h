@@ -131,12 +131,6 @@ struct Walk {
         at = top;
         top = stack.get(--depth);
     }
-    template <class Stack>
-    TANDEM_HD_INLINE void push(Stack& stack, std::int32_t child) {
-        stack.set(depth++, top);
-        top = child;
-    }
-
     /// From a node to the nearest child that the ray enters within [start, limit], or to the top of the stack.
     template <bool starts_late, class Stack>
     TANDEM_HD_INLINE void descend(Stack& stack, const BvhView& bvh, const NodeRay& ray, float start, float limit) {
@@ -151,13 +145,15 @@ struct Walk {
         constexpr int fullest = bvh_stack_size - (bvh_width - 1);
         const bool is_full = depth > fullest;
         depth = is_full ? fullest : depth;
-        if (entered.key[1] != no_child) {
-            if (entered.key[2] != no_child) {
-                if (entered.key[3] != no_child) push(stack, child(3));
-                push(stack, child(2));
-            }
-            push(stack, child(1));
-        }
+        // the farthest child lowest, without a branch within a branch
+        const bool one = entered.key[1] != no_child, two = entered.key[2] != no_child;
+        const bool three = entered.key[3] != no_child;
+        const std::int32_t second = child(2), third = child(3);
+        if (one) stack.set(depth, top);
+        if (two) stack.set(depth + 1, three ? third : second);
+        if (three) stack.set(depth + 2, second);
+        top = one ? child(1) : top;
+        depth += (one ? 1 : 0) + (two ? 1 : 0) + (three ? 1 : 0);
         at = is_full ? no_child : child(0);
     }
 };

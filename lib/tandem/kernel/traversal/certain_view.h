@@ -37,7 +37,8 @@ struct CertainMaterial {
     Vec3f ambient;  ///< times the ambient light
     Vec3f diffuse, specular;
     std::uint32_t shininess;
-    double small_slope;  ///< of c^shininess for c <= 0.26, at most
+    std::uint32_t odd_part, squarings;  ///< shininess = odd_part * 2^squarings
+    double small_slope;                 ///< of c^shininess for c <= 0.26, at most
 };
 
 struct CertainLight {
@@ -56,6 +57,7 @@ struct CertainView {
     CertainLight lights[max_lights];
     double extent;  ///< bounds the coordinates of the origin, the lights and the solids, summed
     std::uint32_t sphere_count, box_count, light_count;
+    std::uint32_t slots;          ///< those of the solids, as bits
     std::uint32_t is_valid;       ///< 0 or 1
     std::uint32_t is_finite_sky;  ///< 1: the background of camera rays is finite, with any camera of moderate size
 };
@@ -180,6 +182,8 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     const bool whole = material.shininess >= 1 && material.shininess <= CertainView::max_shininess &&
                        material.shininess == static_cast<float>(static_cast<std::uint32_t>(material.shininess));
     result.shininess = whole ? static_cast<std::uint32_t>(material.shininess) : 1;
+    result.odd_part = result.shininess;
+    for (; result.odd_part % 2 == 0; result.odd_part /= 2) ++result.squarings;
     result.small_slope = result.shininess;
     for (std::uint32_t i = 1; i < result.shininess; ++i) result.small_slope *= 0.26;
     return whole && is_plain_colour(result.ambient) && is_plain_colour(result.diffuse) &&
@@ -229,6 +233,7 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     view.sphere_count = scene.sphere_count;
     view.box_count = scene.box_count;
     view.light_count = scene.light_count;
+    view.slots = ((1U << scene.sphere_count) - 1) | ((1U << scene.box_count) - 1) << CertainView::max_spheres;
     view.extent = 1.001 * (extent + farthest);
     view.is_valid = valid && view.extent <= largest ? 1 : 0;
     return view;

@@ -38,7 +38,7 @@ inline constexpr float infinity = __builtin_huge_valf();
 inline constexpr float largest = 1e36F;
 
 /// `a` if it is positive, else 0; also for NaN.
-TANDEM_HD_INLINE float not_negative(float a) { return a > 0.0F ? a : 0.0F; }
+TANDEM_HD_INLINE float not_negative(float a) { return rough_greater(0.0F, a); }
 
 }  // namespace interval_detail
 
@@ -135,10 +135,10 @@ TANDEM_HD_INLINE void cut(SolidCrossings& c, float position, float speed, float 
     const float width = absolute(inverse);
     const float grown = (half + margin) * width;
     const float shrunk = (half - margin) * width;
-    c.outer_near = greater(c.outer_near, middle - grown);
-    c.outer_far = lesser(c.outer_far, middle + grown);
-    c.inner_near = greater(c.inner_near, middle - shrunk);
-    c.inner_far = lesser(c.inner_far, middle + shrunk);
+    c.outer_near = rough_greater(c.outer_near, middle - grown);
+    c.outer_far = rough_lesser(c.outer_far, middle + grown);
+    c.inner_near = rough_greater(c.inner_near, middle - shrunk);
+    c.inner_far = rough_lesser(c.inner_far, middle + shrunk);
 }
 
 inline constexpr SolidCrossings whole_line = {-infinity, infinity, -infinity, infinity, false};
