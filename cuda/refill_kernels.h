@@ -68,15 +68,9 @@ class SharedStack {
 };
 
 /// Rays of a warp are replaced when fewer than this walk.
-#ifndef TRY_WALKING
-#define TRY_WALKING 26
-#endif
-#ifndef TRY_BATCH
-#define TRY_BATCH 4
-#endif
-inline constexpr int least_walking = TRY_WALKING;
+inline constexpr int least_walking = 26;
 /// Entries wait until so many threads have one, or hardly any other walks.
-inline constexpr int entry_batch = TRY_BATCH;
+inline constexpr int entry_batch = 6;
 /// Rays that a warp takes from the queue at a time.
 inline constexpr std::uint32_t queue_chunk = 128;
 
@@ -154,12 +148,6 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
                 queue_has_more = false;
                 next = end = 0;
             }
-#if defined(TRY_PREFETCH)
-            if (lane < 24 && next < end) {
-                asm volatile(
-                    "prefetch.global.L2 [%0];" ::"l"(reinterpret_cast<const char*>(job.rays + next) + lane * 128));
-            }
-#endif
         }
         const unsigned int rank = __popc(idle & ((1U << lane) - 1));
         if (!has_ray && rank < end - next) {
