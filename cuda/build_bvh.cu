@@ -272,7 +272,9 @@ class Builder {
     void write_tree() {
         Arena arena;
         const std::size_t entries = std::size_t{count_} + spare_entries;
-        const std::size_t placements = std::size_t{scene_.ellipsoid_count} + scene_.parallelepiped_count;
+        const bool by_entry = placed_by_entry(scene_);
+        const std::size_t placements =
+            by_entry ? entries : std::size_t{scene_.ellipsoid_count} + scene_.parallelepiped_count;
         const bool only_triangles = scene_.triangle_count == count_;
         const auto nodes = arena.add<BvhNode>(built_.node_count);
         const auto spheres = arena.add<Sphere>(entries);
@@ -281,19 +283,22 @@ class Builder {
         const auto rough = arena.add<RoughPlacement>(placements);
         memory_.tree.reserve(arena.bytes());
         std::byte* base = memory_.tree.data();
-        const TreeArrays to = {reinterpret_cast<BvhNode*>(base + nodes), reinterpret_cast<Sphere*>(base + spheres),
+        const TreeArrays to = {reinterpret_cast<BvhNode*>(base + nodes),
+                               reinterpret_cast<Sphere*>(base + spheres),
                                reinterpret_cast<std::uint32_t*>(base + ids),
                                only_triangles ? reinterpret_cast<EntryTriangle*>(base + triangles) : nullptr,
-                               reinterpret_cast<RoughPlacement*>(base + rough)};
+                               reinterpret_cast<RoughPlacement*>(base + rough),
+                               by_entry};
         run_kernel(nodes_kernel, built_.node_count, scene_, tree_, plans_, built_.node_count, to);
         launch(doing, spare_entries_kernel, 1, spare_entries, stream_, to, count_);
-        if (placements > 0)
+        if (placements > 0 && !by_entry)
             run_kernel(placements_kernel, static_cast<std::uint32_t>(placements), scene_, to.placements);
         built_.view.nodes = to.nodes;
         built_.view.entry_spheres = to.spheres;
         built_.view.entry_ids = to.ids;
         built_.view.entry_triangles = to.triangles;
         built_.view.placements = to.placements;
+        built_.view.placed_by_entry = by_entry ? 1 : 0;
     }
 
     static constexpr const char* doing = "building a BVH";

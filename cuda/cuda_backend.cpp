@@ -232,10 +232,11 @@ class CudaBackend final : public Backend {
     }
 
     double trace(const DeviceScene& resident, const TraceJob& job) {
-        const bool coherent = job.coherence == Coherence::unknown
-                                  ? are_coherent(job.rays, reach(resident.view().bvh.frame.bounds))
-                                  : job.coherence == Coherence::coherent;
-        if (!coherent) candidates_.reserve(job.rays.size() * candidate_bytes);
+        const float size = reach(resident.view().bvh.frame.bounds);
+        const bool coherent =
+            job.coherence == Coherence::unknown ? are_coherent(job.rays, size) : job.coherence == Coherence::coherent;
+        const std::uint32_t row = row_length(job.rays, size);
+        if (may_refill(resident.view(), coherent)) candidates_.reserve(job.rays.size() * candidate_bytes);
         hits_.reserve(job.hits.size_bytes());
         wide_t_.reserve(job.wide_t.size_bytes());
         counters_.reserve(sizeof(DeviceCounters));
@@ -249,10 +250,12 @@ class CudaBackend final : public Backend {
                                  .counters = reinterpret_cast<DeviceCounters*>(counters_.data()),
                                  .count = job.rays.size(),
                                  .candidates = candidates_.data(),
-                                 .are_coherent = coherent};
+                                 .are_coherent = coherent,
+                                 .row = row,
+                                 .tiled = row == 0 ? 0 : job.rays.size() / row / 4 * 4 * row};
         check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
         trace_start_.record(compute_.get());
-        trace_kernels(resident.tier())(resident.view(), rays, compute_.get());
+        trace_kernels(resident.tier(), ask_of(rays))(resident.view(), rays, compute_.get());
         trace_end_.record(compute_.get());
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);

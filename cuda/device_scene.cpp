@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tandem/base/memory.h"
+#include "tandem/kernel/traversal/collapse.h"
 
 namespace tandem::cuda {
 
@@ -46,6 +47,23 @@ class Layout {
     std::vector<Part> parts_;
     std::size_t bytes_ = 0;
 };
+
+/// Whether rays pass many triangles near by before they hit one: from the boxes of some triangles, whose areas over the
+/// area of the scene's box add up to the number of boxes that a line through the scene meets. Then neighbouring rays
+/// take ways of different lengths. Triangles of a closed surface have a few such boxes, those without order dozens.
+bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
+    constexpr std::uint32_t most_inspected = 1024;
+    constexpr double many = 8;
+    const std::uint32_t count = scene.triangle_count;
+    if (count == 0 || count != primitive_count(scene)) return false;
+    const std::uint32_t inspected = count < most_inspected ? count : most_inspected;
+    double area = 0;
+    for (std::uint32_t i = 0; i < inspected; ++i) {
+        const auto id = static_cast<std::uint32_t>(std::uint64_t{count} * i / inspected);
+        area += wide_half_area(tandem::bounds(scene.triangles[id]));
+    }
+    return area / inspected * count > many * wide_half_area(bounds);
+}
 
 constexpr std::size_t much_memory = std::size_t{1} << 28;
 
@@ -110,6 +128,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
         const BuiltBvh built = build_bvh(view_.scene, memory_->bvh, stream.get(), effort_for(count));
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;
+        view_.diverges = rays_diverge(host, built.view.frame.bounds);
     }
     memory_->build_end.record(stream.get());
     release_if_large(memory_->bvh.scratch);

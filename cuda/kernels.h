@@ -21,6 +21,7 @@ struct DeviceSceneView {
     BvhView bvh;               ///< without nodes for a scene of few primitives, which are tested one by one
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
     CertainScene certain;      ///< for that view
+    bool diverges;             ///< even neighbouring rays of a hierarchy take ways of different lengths
 };
 
 /// The tracers: how the primitives of a scene are found.
@@ -61,30 +62,50 @@ struct DeviceRays {
     double* wide_t;
     DeviceCounters* counters;
     std::size_t count;
-    void* candidates;   ///< candidate_bytes for each ray, unless they are coherent
+    void* candidates;   ///< candidate_bytes for each ray, if may_refill()
     bool are_coherent;  ///< neighbouring rays take nearly the same way
+    std::uint32_t row;  ///< rays per row of an image, a multiple of 8; 0: the rays are no image
+    std::size_t tiled;  ///< the rays of the rows in whole tiles of 8 x 4
 };
+
+/// Whether rays may be traced by two kernels (refill_kernels.h).
+[[nodiscard]] inline bool may_refill(const DeviceSceneView& scene, bool are_coherent) {
+    return !are_coherent || scene.diverges;
+}
 
 /// What a ray's candidates take between the two kernels that trace incoherent rays.
 inline constexpr std::size_t candidate_bytes = 16;
 
+/// The queries of a trace: nearest hits of rays that start in space or on surfaces, or whether shadow rays are blocked.
+enum class Ask { nearest, nearest_from_surface, occluded };
+
+[[nodiscard]] inline Ask ask_of(const DeviceRays& rays) {
+    if (rays.ends != nullptr) return Ask::occluded;
+    return rays.sources != nullptr ? Ask::nearest_from_surface : Ask::nearest;
+}
+
 /// Starts tracing the rays.
 using TraceLaunch = void(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 
-// In a file for each tier (kernels_*.cu).
-#define TANDEM_TIER(name, promise) extern TraceLaunch launch_trace_##name;
+// For each query and tier: trace.cu.
+#define TANDEM_TIER(name, promise) \
+    extern TraceLaunch trace_nearest_##name, trace_nearest_from_surface_##name, trace_occluded_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
-[[nodiscard]] inline TraceLaunch& trace_kernels(Tier tier) {
+[[nodiscard]] inline TraceLaunch& trace_kernels(Tier tier, Ask ask) {
+    const auto of_query = [ask](TraceLaunch & nearest, TraceLaunch & from_surface, TraceLaunch & occluded) -> auto& {
+        if (ask == Ask::nearest) return nearest;
+        return ask == Ask::nearest_from_surface ? from_surface : occluded;
+    };
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \
-        return launch_trace_##name;
+        return of_query(trace_nearest_##name, trace_nearest_from_surface_##name, trace_occluded_##name);
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
     }
-    return launch_trace_strict;
+    return of_query(trace_nearest_strict, trace_nearest_from_surface_strict, trace_occluded_strict);
 }
 
 }  // namespace tandem::cuda

@@ -1,7 +1,7 @@
-/// The tracing of incoherent rays, in two kernels. In the first, threads whose rays have ended take new ones, and only
-/// candidates are kept; in the second, all threads decide. With a decision in the loop that refills, the walk would
-/// have no registers left.
-/// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 4 (persistent
+/// The tracing of rays whose neighbours may take other ways, in two kernels. In the first, threads whose rays have
+/// ended take new ones, and only candidates are kept; in the second, all threads decide. With a decision in the loop
+/// that refills, the walk would have no registers left. Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray
+/// Traversal on GPUs", HPG 2009, section 4 (persistent
 ///         threads, replacement of ended rays).
 #pragma once
 
@@ -24,10 +24,10 @@ inline constexpr unsigned int refill_blocks = std::is_same_v<Real, double>      
                                               : (Tracer::kinds & ~PrimitiveKinds::bodies) != 0 ? 8
                                                                                                : 10;
 
-/// In the first place of FoundCandidates: there were too many.
-inline constexpr std::uint32_t crowded = no_primitive - 1;
+/// In the first place of FoundCandidates: there were too many; a shadow ray is certainly blocked.
+inline constexpr std::uint32_t crowded = no_primitive - 1, blocked = no_primitive - 2;
 
-/// The ids that a walk found; no_primitive where there is none.
+/// What a walk kept, as decide_kept() takes it; no_primitive where there is none.
 template <int most>
 struct alignas(4 * most) FoundCandidates {
     std::uint32_t id[most];
@@ -35,28 +35,42 @@ struct alignas(4 * most) FoundCandidates {
 static_assert(sizeof(FoundCandidates<4>) <= candidate_bytes);
 
 /// The stack of a walk: what is used most in shared memory, the rest in local memory.
-struct SharedStack {
+class SharedStack {
+  public:
     static constexpr int quick = 20;
 
-    std::int32_t* mine;  ///< in shared memory; the next entry is a block's threads away
-    std::int32_t* rest;
-
+    /// `mine`: in shared memory; the next entry is a block's threads away.
+    __device__ __forceinline__ SharedStack(std::int32_t* mine, std::int32_t* rest)
+        : mine_(static_cast<std::uint32_t>(__cvta_generic_to_shared(mine))), rest_(rest) {
+        asm volatile("" : "+r"(mine_));  // to be kept: nvcc would compute it again for each access
+    }
     __device__ __forceinline__ void set(int i, std::int32_t child) const {
         if (i < quick) {
-            mine[i * static_cast<int>(block_threads)] = child;
+            asm volatile("st.shared.s32 [%0], %1;" ::"r"(address(i)), "r"(child));
         } else {
-            rest[i - quick] = child;
+            rest_[i - quick] = child;
         }
     }
     __device__ __forceinline__ std::int32_t get(int i) const {
-        return i < quick ? mine[i * static_cast<int>(block_threads)] : rest[i - quick];
+        if (i >= quick) return rest_[i - quick];
+        std::int32_t child;
+        asm volatile("ld.shared.s32 %0, [%1];" : "=r"(child) : "r"(address(i)));
+        return child;
     }
+
+  private:
+    __device__ __forceinline__ std::uint32_t address(int i) const {
+        return mine_ + static_cast<std::uint32_t>(i) * (block_threads * sizeof(std::int32_t));
+    }
+
+    std::uint32_t mine_;
+    std::int32_t* rest_;
 };
 
 /// Rays of a warp are replaced when fewer than this walk.
 inline constexpr int least_walking = 26;
 /// Entries wait until so many threads have one, or hardly any other walks.
-inline constexpr int entry_batch = 4;
+inline constexpr int entry_batch = 6;
 /// Rays that a warp takes from the queue at a time.
 inline constexpr std::uint32_t queue_chunk = 128;
 
@@ -65,21 +79,23 @@ template <class Real, Ask ask, class Tracer>
 __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
     find_candidates(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
     constexpr unsigned int all = 0xFFFFFFFFU;
+    constexpr Search search = ask == Ask::occluded ? Search::any : Search::nearest;
+    constexpr std::uint32_t is_blocked = 2;  // in Candidates::overflow
     using From = decltype(source_of<Real, ask>(job, 0));
     using Found = FoundCandidates<Tracer::most_candidates>;
     __shared__ std::int32_t quick_stack[SharedStack::quick * block_threads];
     std::int32_t rest[bvh_stack_size - SharedStack::quick];
-    const SharedStack stack = {quick_stack + threadIdx.x, rest};
+    const SharedStack stack(quick_stack + threadIdx.x, rest);
     const unsigned int lane = threadIdx.x % 32;
     auto* const found = static_cast<Found*>(job.candidates);
     const auto count = static_cast<std::uint32_t>(job.count);
 
     bvh_detail::Walk walk = {no_child, no_child, 0};
     QueryRay query{};
-    NodeRay node_ray{};
+    Vec3f inverse_direction{};
     From source = source_of<Real, ask>(job, 0);
     Candidates<Tracer::most_candidates> candidates;
-    float limit = 0.0F;
+    float limit = 0.0F, enough = 0.0F;
     std::uint32_t index = 0;
     bool has_ray = false;
     std::uint32_t next = 0, end = 0;  // of the rays that the warp has taken
@@ -91,7 +107,7 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
         limit = 3e38F;
         walk.at = no_child;
         walk.depth = 0;
-        const Ray<float> ray = job.rays[index];
+        const Ray<float> ray = load_ray(job, index);
         if (!is_traceable(ray)) {
             atomicAdd(&job.counters->rejected_rays, 1ULL);
             return;
@@ -99,8 +115,13 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
         source = source_of<Real, ask>(job, index);
         const Proposal<Real> proposal = tracer.propose(to_real<Real>(ray));
         if (!proposal.active) return;
+        if constexpr (search == Search::any) {
+            const auto t_max = constant<Double<Real>>(job.ends[index].t);
+            limit = to_plain(proposal.limit(t_max));
+            enough = to_plain(proposal.start(t_max));
+        }
         query = make_query_ray(proposal, tracer.bvh.frame, source);
-        node_ray = make_node_ray(query.origin, query.direction);
+        inverse_direction = make_node_ray(query.origin, query.direction).inverse_direction;
         walk = bvh_detail::Walk::from_root(stack);
     };
     const auto finish = [&] {
@@ -109,6 +130,7 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
             result.id[k] = candidates.lo[k] <= limit ? candidates.id[k] : no_primitive;
         }
         if (candidates.overflow != 0 || walk.depth > 0) result.id[0] = crowded;
+        if (search == Search::any && candidates.overflow == is_blocked) result.id[0] = blocked;
         found[index] = result;
         has_ray = false;
     };
@@ -129,7 +151,7 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
         }
         const unsigned int rank = __popc(idle & ((1U << lane) - 1));
         if (!has_ray && rank < end - next) {
-            index = next + rank;
+            index = static_cast<std::uint32_t>(ray_at(job, next + rank));
             begin();
         }
         const auto taken = static_cast<std::uint32_t>(__popc(idle));
@@ -145,15 +167,19 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
         const int least = can_refill ? least_walking : 1;
         do {
             if (!walk.is_done() && !walk.is_at_entry()) {
+                const NodeRay node_ray = {query.origin, inverse_direction};
                 walk.template descend<false>(stack, tracer.bvh, node_ray, 0.0F, limit);
             }
             const int waiting = __popc(__ballot_sync(all, walk.is_at_entry()));
             const int moving = __popc(__ballot_sync(all, !walk.is_done() && !walk.is_at_entry()));
             if (waiting >= entry_batch || moving < entry_batch) {
                 if (walk.is_at_entry()) {
-                    (void)tracer.template keep<Search::nearest, Real>(walk.entry(), source, query, 0.0F, limit,
-                                                                      candidates);
-                    walk.pop(stack);
+                    if (tracer.template keep<search, Real>(walk.entry(), source, query, enough, limit, candidates)) {
+                        candidates.overflow = is_blocked;
+                        walk.at = no_child;
+                    } else {
+                        walk.pop(stack);
+                    }
                 }
             }
         } while (__popc(__ballot_sync(all, !walk.is_done())) >= least);
@@ -168,20 +194,30 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
     if (i >= job.count) return;
     using Found = FoundCandidates<Tracer::most_candidates>;
     const std::uint32_t first = static_cast<const Found*>(job.candidates)[i].id[0];
+    constexpr Search search = ask == Ask::occluded ? Search::any : Search::nearest;
     Closest<Real> closest = no_hit<Real>();
-    const Ray<Real> ray = to_real<Real>(job.rays[i]);
+    if constexpr (search == Search::any) {
+        if (first == blocked) return write_shadow(job, i, true);
+        closest = closest_starting_at<Real>(constant<Double<Real>>(job.ends[i].t));
+    }
+    const Double<Real> start = closest.t;
+    const Ray<Real> ray = to_real<Real>(load_ray(job, i));
     const auto source = source_of<Real, ask>(job, i);
     if (first == crowded) [[unlikely]] {
-        closest = tracer.template decide_crowd<Search::nearest>(tracer, ray, source, closest, 3e38F);
+        closest = tracer.template decide_crowd<search>(tracer, ray, source, closest, 3e38F);
     } else {
         // each from memory, because an index into registers would put them there
         TANDEM_KEEP_LOOP
         for (int k = 0; k < Tracer::most_candidates; ++k) {
-            const std::uint32_t id = static_cast<const Found*>(job.candidates)[i].id[k];
-            if (id != no_primitive) tracer.decide(ray, source, id, closest);
+            const std::uint32_t kept = static_cast<const Found*>(job.candidates)[i].id[k];
+            if (kept != no_primitive) tracer.decide_kept(ray, source, kept, closest);
         }
     }
-    write_hit(job, i, closest);
+    if constexpr (search == Search::any) {
+        write_shadow(job, i, closest.t < start);
+    } else {
+        write_hit(job, i, closest);
+    }
 }
 
 /// Starts both kernels.

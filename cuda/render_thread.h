@@ -41,8 +41,10 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
     if (!Effects::has_any(all_effects)) {
         const CertainView& view = tracer.certain;
         if (slots == 0 && view.is_finite_sky != 0) return render_sky<Effects, Real>(tracer.scene, job, x, y);
-        if constexpr (std::is_same_v<Real, float>) {
-            if (view.is_valid != 0) return render_certain_pixel<Effects>(tracer, view, tracer.scene, job, x, y, slots);
+        if constexpr (!std::is_same_v<Real, double>) {
+            if (view.is_valid != 0) {
+                return render_certain_pixel<Effects, Real>(tracer, view, tracer.scene, job, x, y, slots);
+            }
         }
     }
     const CulledTracer culled = {tracer, slots};

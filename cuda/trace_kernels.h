@@ -1,5 +1,5 @@
-/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h). Included by one .cu file per
-/// tier, each compiled with the flags of its tier and with TANDEM_SHORT_PATHS (cuda/CMakeLists.txt).
+/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h) and the query. trace.cu has
+/// them, compiled for each query with the flags of each tier and with TANDEM_SHORT_PATHS (cuda/CMakeLists.txt).
 #pragma once
 
 #if !defined(TANDEM_SHORT_PATHS)
@@ -14,28 +14,25 @@ namespace tandem::cuda {
 template <class Real, class Tracer>
 inline constexpr unsigned int trace_blocks = [] {
     if (!can_refill<Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;
-    if (Tracer::kinds == PrimitiveKinds::sphere) return 10U;
+    if (Tracer::kinds == PrimitiveKinds::sphere || Tracer::kinds == PrimitiveKinds::parallelepiped) return 10U;
     return Tracer::kinds == PrimitiveKinds::triangle ? 8U : resident_blocks<Real, Tracer>;
 }();
 
 template <class Real, Ask ask, class Tracer>
 __global__ void __launch_bounds__(block_threads, trace_blocks<Real, Tracer>)
     trace_kernel(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
-    const std::size_t i = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
-    if (i >= job.count) return;
-    const Ray<float> ray = job.rays[i];
+    const std::size_t place = static_cast<std::size_t>(blockIdx.x) * block_threads + threadIdx.x;
+    if (place >= job.count) return;
+    const std::size_t i = ray_at(job, place);
+    const Ray<float> ray = load_ray(job, i);
     const bool traceable = is_traceable(ray);
     if (!traceable) atomicAdd(&job.counters->rejected_rays, 1ULL);
+    const auto source = source_of<Real, ask>(job, i);
     if constexpr (ask == Ask::occluded) {
-        ShadowSource<Real> source;
-        if (job.sources != nullptr) static_cast<Source<Real>&>(source) = to_real<Real>(job.sources[i]);
-        source.light = job.ends[i].light;
         const auto t_max = constant<Double<Real>>(job.ends[i].t);
-        const bool occluded = tracer.occluded(to_real<Real>(ray), t_max, source, traceable);
-        job.hits[i] = {0.0F, occluded ? some_primitive : no_primitive};
-        if (job.wide_t != nullptr) job.wide_t[i] = 0.0;
+        write_shadow(job, i, tracer.occluded(to_real<Real>(ray), t_max, source, traceable));
     } else {
-        write_hit(job, i, tracer.closest(to_real<Real>(ray), source_of<Real, ask>(job, i), traceable));
+        write_hit(job, i, tracer.closest(to_real<Real>(ray), source, traceable));
     }
 }
 
@@ -46,31 +43,27 @@ void launch_one(const Tracer& tracer, const DeviceRays& rays, cudaStream_t strea
            stream, tracer, rays);
 }
 
-/// Nearest hits. Incoherent rays are traced by two kernels.
+/// Rays whose neighbours may take other ways are traced by two kernels.
 template <class Real, Ask ask, class Tracer>
-void launch_nearest(const Tracer& tracer, const DeviceRays& rays, cudaStream_t stream) {
-    if constexpr (can_refill<Tracer>) {
-        if (!rays.are_coherent && rays.count <= most_queued_rays) {
+void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
+    if constexpr (can_refill<Tracer> && !is_fast<Real>) {
+        if (may_refill(scene, rays.are_coherent) && rays.count <= most_queued_rays) {
             return trace_with_refill<Real, ask>(tracer, rays, stream);
         }
     }
     launch_one<Real, ask>(tracer, rays, stream);
 }
 
-template <class Real>
+template <class Real, Ask ask>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
-        if (rays.ends != nullptr) {
-            launch_one<Real, Ask::occluded>(tracer, rays, stream);
-        } else if constexpr (is_fast<Real> && can_refill<Tracer>) {
+        if constexpr (is_fast<Real> && can_refill<Tracer> && ask != Ask::occluded) {
             // Decisions in leaves are slower for incoherent rays even in float alone, and the hits of a ray must not
             // depend on the others that it is traced with.
-            launch_trace_strict(scene, rays, stream);
-        } else if (rays.sources != nullptr) {
-            launch_nearest<Real, Ask::nearest_from_surface>(tracer, rays, stream);
+            trace_kernels(Tier::strict, ask)(scene, rays, stream);
         } else {
-            launch_nearest<Real, Ask::nearest>(tracer, rays, stream);
+            launch_best<Real, ask>(tracer, scene, rays, stream);
         }
     });
 }

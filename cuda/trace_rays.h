@@ -7,17 +7,40 @@
 
 namespace tandem::cuda {
 
-/// The queries of a trace: nearest hits of rays that start in space or on surfaces, or whether shadow rays are blocked.
-enum class Ask { nearest, nearest_from_surface, occluded };
-
-/// The source of ray `i` in a search for nearest hits.
+/// The source of ray `i`.
 template <class Real, Ask ask>
 __device__ __forceinline__ auto source_of(const DeviceRays& job, std::size_t i) {
     if constexpr (ask == Ask::nearest) {
         return NoSource{};
-    } else {
+    } else if constexpr (ask == Ask::nearest_from_surface) {
         return to_real<Real>(job.sources[i]);
+    } else {
+        ShadowSource<Real> source;
+        if (job.sources != nullptr) static_cast<Source<Real>&>(source) = to_real<Real>(job.sources[i]);
+        source.light = job.ends[i].light;
+        return source;
     }
+}
+
+/// The ray of a place in the order of work. 32 places are a tile of 8 x 4 rays of an image, because these take more
+/// similar ways than 32 of a row.
+__device__ __forceinline__ std::size_t ray_at(const DeviceRays& job, std::size_t place) {
+    if (place >= job.tiled) return place;
+    const auto tile = static_cast<std::uint32_t>(place / 32), within = static_cast<std::uint32_t>(place % 32);
+    const std::uint32_t across = job.row / 8, down = tile / across;
+    return std::size_t{down * 4 + within / 8} * job.row + (tile - down * across) * 8 + within % 8;
+}
+
+__device__ __forceinline__ Ray<float> load_ray(const DeviceRays& job, std::size_t i) {
+    static_assert(sizeof(Ray<float>) == 24);
+    const auto* at = reinterpret_cast<const float2*>(job.rays + i);
+    const float2 a = __ldg(at), b = __ldg(at + 1), c = __ldg(at + 2);
+    return {{a.x, a.y, b.x}, {b.y, c.x, c.y}};
+}
+
+__device__ __forceinline__ void write_shadow(const DeviceRays& job, std::size_t i, bool occluded) {
+    job.hits[i] = {0.0F, occluded ? some_primitive : no_primitive};
+    if (job.wide_t != nullptr) job.wide_t[i] = 0.0;
 }
 
 template <class Real>

@@ -50,12 +50,14 @@ struct TreeArrays {
     std::uint32_t* ids;
     EntryTriangle* triangles;  ///< null unless all primitives are triangles
     RoughPlacement* placements;
+    bool placed_by_entry;
 };
 
 __device__ inline void write_entry(const SceneView& scene, const TreeArrays& to, std::uint32_t entry,
                                    std::uint32_t id) {
     to.ids[entry] = id;
     if (to.triangles != nullptr) to.triangles[entry] = entry_triangle(scene.triangles[id], id);
+    if (to.placed_by_entry) to.placements[entry] = rough_placement(scene.parallelepipeds[id]);
     visit_primitive(scene, id, [&](const auto& primitive) { to.spheres[entry] = sphere_around(primitive); });
 }
 
@@ -85,6 +87,7 @@ static __global__ void spare_entries_kernel(TreeArrays to, std::uint32_t count) 
     to.ids[entry] = to.ids[count - 1];
     to.spheres[entry] = to.spheres[count - 1];
     if (to.triangles != nullptr) to.triangles[entry] = to.triangles[count - 1];
+    if (to.placed_by_entry) to.placements[entry] = to.placements[count - 1];
 }
 
 static __global__ void placements_kernel(SceneView scene, RoughPlacement* placements) {

@@ -33,9 +33,11 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     bvh.stack_overflows = &counters->stack_overflows;
     if constexpr (decisions == Decisions::behind_walk) {
         constexpr std::uint32_t sphere = PrimitiveKinds::sphere, triangle = PrimitiveKinds::triangle;
+        constexpr std::uint32_t parallelepiped = PrimitiveKinds::parallelepiped;
         const std::uint32_t count = primitive_count(scene.scene);
         if (scene.scene.sphere_count == count) return f(BvhTracerFor<sphere, decisions>{scene.scene, bvh});
         if (scene.scene.triangle_count == count) return f(BvhTracerFor<triangle, decisions>{scene.scene, bvh});
+        if (bvh.placed_by_entry != 0) return f(BvhTracerFor<parallelepiped, decisions>{scene.scene, bvh});
     }
     return faces ? f(BvhTracerFor<all, decisions>{scene.scene, bvh})
                  : f(BvhTracerFor<bodies, decisions>{scene.scene, bvh});

@@ -10,6 +10,7 @@
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/oracle/oracle.h"
+#include "tandem/render/ray_coherence.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -20,7 +21,7 @@ constexpr std::size_t least_rays = 100'000;  // a sanitizer's build, five times 
 #else
 constexpr std::size_t least_rays = 1'000'000;
 #endif
-constexpr std::size_t rays_per_scene = least_rays / 100 * 11;  // fifteen scenes, some with a tenth of that
+constexpr std::size_t rays_per_scene = least_rays / 100 * 9;  // nineteen scenes, some with a tenth of that
 constexpr std::uint64_t scene_seed = 20;
 constexpr std::uint64_t ray_seed = 21;
 
@@ -53,7 +54,9 @@ const std::vector<Reference>& references() {
     static const std::vector<Reference> all = [] {
         std::vector<Reference> list;
         const auto oracle = make_backend("oracle");
-        for (const test::HardScene& parameters : test::hard_scenes()) {
+        std::vector<test::HardScene> scenes = test::hard_scenes();
+        for (test::HardScene& of_one_kind : test::scenes_of_one_kind()) scenes.push_back(std::move(of_one_kind));
+        for (const test::HardScene& parameters : scenes) {
             Reference r{parameters, test::make_scene(parameters, scene_seed), {}, {}};
             // the crowd is dear for brute force
             r.rays = test::make_rays(r.scene, parameters.count > 500 ? rays_per_scene / 10 : rays_per_scene, ray_seed);
@@ -109,6 +112,45 @@ TEST_P(ClosestHit, GivesTheBitsOfTheLeastProcessor) {
                 ASSERT_EQ(hits[i].primitive, expected[i].primitive)
                     << describe(reference.parameters, i, reference.rays[i]);
             }
+        }
+    }
+}
+
+// The rays of images are traced in tiles: in the order of the pixels, and shuffled, each has the same bits.
+TEST_P(ClosestHit, HasTheSameBitsForRaysOfImages) {
+    for (const char* name : {"spheres/2000", "boxes/2000", "triangles/3000", "icosphere/4", "mixed/500", "paper"}) {
+        const PreparedScene prepared = prepare(named_scene(name));
+        const auto scene = load(prepared);
+        constexpr std::size_t width = 72, height = 51;  // whole tiles, and rows that are in none
+        std::vector<Ray<float>> rays;
+        for (std::size_t i = 0; i < width * height; ++i) {
+            const double x = (static_cast<double>(i % width) + 0.5) / width - 0.5;
+            const double y = (static_cast<double>(i / width) + 0.5) / height - 0.5;
+            rays.push_back({{0, 0, 3.2F}, narrow(Vec3d{1.3 * x, -1.3 * y, -1})});
+        }
+        ASSERT_EQ(row_length(rays, 1), width);
+        std::vector<std::size_t> order(rays.size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i * 1001 % order.size();
+        std::vector<Ray<float>> shuffled;
+        for (const std::size_t i : order) shuffled.push_back(rays[i]);
+        ASSERT_EQ(row_length(shuffled, 1), 0U);
+        const std::vector<RayEnd> ends(rays.size(), RayEnd{3});
+        for (const bool shadow : {false, true}) {
+            std::vector<Hit> expected(rays.size());
+            const auto part = shadow ? std::span<const RayEnd>(ends) : std::span<const RayEnd>();
+            backend_->trace(*scene, {.rays = shuffled, .hits = expected, .ends = part});
+            std::size_t found = 0;
+            for (const Coherence coherence : {Coherence::unknown, Coherence::coherent, Coherence::incoherent}) {
+                std::vector<Hit> hits(rays.size());
+                backend_->trace(*scene, {.rays = rays, .hits = hits, .ends = part, .coherence = coherence});
+                for (std::size_t i = 0; i < order.size(); ++i) {
+                    const Hit& hit = hits[order[i]];
+                    ASSERT_EQ(hit.primitive, expected[i].primitive) << name << ", ray " << order[i];
+                    ASSERT_EQ(bits_of(hit.t), bits_of(expected[i].t)) << name << ", ray " << order[i];
+                    found += hit.primitive == no_primitive ? 0 : 1;
+                }
+            }
+            EXPECT_GT(found, rays.size() / 50) << name;
         }
     }
 }

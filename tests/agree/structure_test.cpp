@@ -13,6 +13,7 @@
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"
+#include "tandem/kernel/traversal/make_node.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -33,7 +34,7 @@ struct Structure {
     [[nodiscard]] BvhTracerFor<kinds, decisions> tracer() const {
         return {view(scene),
                 {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), bvh.entry_triangles.data(),
-                 bvh.placements.data(), frame, nullptr}};
+                 bvh.placements.data(), frame, nullptr, 0x43800000U, placed_by_entry(view(scene)) ? 1U : 0U}};
     }
     PreparedScene scene;
     StructureFrame frame;
@@ -114,6 +115,8 @@ void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float
         expect_same_of_kinds<PrimitiveKinds::sphere>(structure, rays, name);
     } else if (structure.scene.triangles.size() == count) {
         expect_same_of_kinds<PrimitiveKinds::triangle>(structure, rays, name);
+    } else if (structure.scene.parallelepipeds.size() == count) {
+        expect_same_of_kinds<PrimitiveKinds::parallelepiped>(structure, rays, name);
     }
 }
 
@@ -140,6 +143,15 @@ TEST(Bvh, NeverLosesAHit) {
         const SceneView scene = view(structure.scene);
         ASSERT_EQ(find_bvh_defect(structure.bvh, scene, structure.frame.margin), "") << parameters.name;
         expect_same_as_loop(structure, test::make_rays(structure.scene, 20'000, 6), parameters.name);
+    }
+}
+
+TEST(Bvh, NeverLosesAHitOfOneKind) {
+    for (const test::HardScene& parameters : test::scenes_of_one_kind()) {
+        const Structure structure(test::make_scene(parameters, 5));
+        ASSERT_EQ(structure.scene.parallelepipeds.size() == primitive_count(structure.scene),
+                  parameters.kinds == test::HardKinds::parallelepipeds);
+        expect_same_as_loop(structure, test::make_rays(structure.scene, 8'000, 6), parameters.name);
     }
 }
 

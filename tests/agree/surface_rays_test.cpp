@@ -55,7 +55,9 @@ const std::vector<Reference>& references() {
     static const std::vector<Reference> all = [] {
         std::vector<Reference> list;
         const auto oracle = make_backend("oracle");
-        for (const test::HardScene& parameters : test::hard_scenes()) {
+        std::vector<test::HardScene> scenes = test::hard_scenes();
+        for (test::HardScene& of_one_kind : test::scenes_of_one_kind()) scenes.push_back(std::move(of_one_kind));
+        for (const test::HardScene& parameters : scenes) {
             Reference r{parameters.name, test::make_scene(parameters, 30), {}, {}, {}, {}, {}};
             spawn_rays(r, parameters.count > 500 ? 5'000 : 60'000);
             const auto scene = oracle->load(r.scene);

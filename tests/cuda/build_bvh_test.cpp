@@ -14,6 +14,7 @@
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/traversal/collapse.h"
+#include "tandem/kernel/traversal/make_node.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::cuda {
@@ -33,7 +34,8 @@ Bvh download(const BuiltBvh& built, const SceneView& scene) {
     const std::size_t entries = primitive_count(scene) + spare_entries;
     return {download(built.view.nodes, built.node_count), download(built.view.entry_spheres, entries),
             download(built.view.entry_ids, entries),
-            download(built.view.placements, scene.ellipsoid_count + scene.parallelepiped_count),
+            download(built.view.placements,
+                     placed_by_entry(scene) ? entries : scene.ellipsoid_count + scene.parallelepiped_count),
             download(built.view.entry_triangles, entries)};
 }
 

@@ -52,5 +52,49 @@ TEST(AreCoherent, DoesNotHoldForRaysInAllDirectionsOrFromEverywhere) {
     EXPECT_TRUE(are_coherent(mostly, scene_size));
 }
 
+TEST(RowLength, IsThatOfImages) {
+    EXPECT_EQ(row_length(camera_rays(), scene_size), 64U);
+    std::vector<Ray<float>> wide, shadows, blurred;
+    test::Random random(6);
+    for (int y = 0; y < 90; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            const auto jitter = [&] { return random.uniform(0.0F, 1.0F); };
+            wide.push_back({{1, 2, 9}, {static_cast<float>(x - 80) / 80, static_cast<float>(y - 45) / 80, -1}});
+            blurred.push_back(
+                {{1, 2, 9},
+                 {(static_cast<float>(x - 80) + jitter()) / 80, (static_cast<float>(y - 45) + jitter()) / 80, -1}});
+            const Vec3f point = {static_cast<float>(x - 80) / 80, static_cast<float>(y - 45) / 80, -0.1F * jitter()};
+            shadows.push_back({point, Vec3f{0, 8, 0} - point});
+        }
+    }
+    EXPECT_EQ(row_length(wide, scene_size), 160U);
+    EXPECT_EQ(row_length(blurred, scene_size), 160U);
+    EXPECT_EQ(row_length(shadows, 1), 160U);
+}
+
+TEST(RowLength, IsNoneForOtherRays) {
+    EXPECT_EQ(row_length({}, scene_size), 0U);
+    EXPECT_EQ(row_length(std::vector<Ray<float>>(5), scene_size), 0U);
+    EXPECT_EQ(row_length(std::vector<Ray<float>>(4096), scene_size), 0U) << "they cannot be traced";
+    EXPECT_EQ(row_length(std::vector<Ray<float>>(4096, {{0, 0, 0}, {1, 2, 3}}), scene_size), 0U) << "they are equal";
+    test::Random random(7);
+    const auto anywhere = [&] {
+        return Vec3f{random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F)};
+    };
+    std::vector<Ray<float>> scattered, line;
+    for (int i = 0; i < 4096; ++i) {
+        scattered.push_back({anywhere(), anywhere()});
+        line.push_back({{static_cast<float>(i) / 4096, 0, 0}, {0, 0, -1}});
+    }
+    EXPECT_EQ(row_length(scattered, scene_size), 0U);
+    EXPECT_EQ(row_length(line, scene_size), 0U) << "one row";
+    // rows of other lengths than tiles can have
+    std::vector<Ray<float>> odd;
+    for (int i = 0; i < 60 * 60; ++i) {
+        odd.push_back({{0, 0, 0}, {static_cast<float>(i % 60) / 60, static_cast<float>(i / 60) / 60, -1}});
+    }
+    EXPECT_EQ(row_length(odd, scene_size) % 60, 0U);
+}
+
 }  // namespace
 }  // namespace tandem

@@ -50,11 +50,18 @@ std::vector<HardScene> hard_scenes() {
             {"mixed sizes", 100, 0, 5, 96},
             {"crowd", 1, 0, 2, 2000},
             {"few", 1, 0, 1, 8},
-            {"faces", 1, 0, 1.5, 96, true},
-            {"far faces", 1, 1e6, 0.5, 96, true},
-            {"tiny faces", 1e-6, 1e-3, 1, 96, true},
-            {"huge faces", 1e9, 0, 3, 96, true},
-            {"few faces", 1, 0, 1, 8, true}};
+            {"faces", 1, 0, 1.5, 96, HardKinds::faces},
+            {"far faces", 1, 1e6, 0.5, 96, HardKinds::faces},
+            {"tiny faces", 1e-6, 1e-3, 1, 96, HardKinds::faces},
+            {"huge faces", 1e9, 0, 3, 96, HardKinds::faces},
+            {"few faces", 1, 0, 1, 8, HardKinds::faces}};
+}
+
+std::vector<HardScene> scenes_of_one_kind() {
+    return {{"spheres", 1, 0, 1.5, 96, HardKinds::spheres},
+            {"turned boxes", 1, 0, 1.5, 96, HardKinds::parallelepipeds},
+            {"far turned boxes", 1, 1e3, 1, 96, HardKinds::parallelepipeds},
+            {"triangles", 1, 0, 1.5, 96, HardKinds::triangles}};
 }
 
 PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
@@ -72,16 +79,17 @@ PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed) {
         };
         node.trs.translation = middle + random.in_cube(parameters.scale);
         Geometry geometry;
-        if (parameters.faces) {
+        const HardKinds kinds = parameters.kinds;
+        if (kinds == HardKinds::faces || kinds == HardKinds::triangles) {
             geometry.shape = MeshShape{static_cast<std::uint32_t>(scene.meshes.size())};
-            scene.meshes.push_back(one_face(random, 10 * size(), i % 2 == 0));
-        } else if (i % 2 == 0) {
+            scene.meshes.push_back(one_face(random, 10 * size(), kinds == HardKinds::triangles || i % 2 == 0));
+        } else if (kinds == HardKinds::spheres || (kinds == HardKinds::solids && i % 2 == 0)) {
             geometry.shape = SphereShape{size()};
         } else {
             const double x = size(), y = size(), z = size();
             geometry.shape = BoxShape{{x, y, z}};
         }
-        if (i % 4 >= 2) {
+        if (kinds == HardKinds::parallelepipeds || (kinds != HardKinds::spheres && i % 4 >= 2)) {
             const Vec3d axis = random.in_cube(1);
             node.trs.rotation = {axis.x, axis.y, axis.z, random.uniform(0.1, 1)};
             const double x = random.uniform(0.2, 2), y = random.uniform(0.2, 2);

@@ -11,17 +11,24 @@
 
 namespace tandem::test {
 
+/// The kinds of primitives in a random scene: solids or faces in turn, or one kind, for which backends have tracers of
+/// its own.
+enum class HardKinds { solids, faces, spheres, parallelepipeds, triangles };
+
 /// The parameters of a random scene.
 struct HardScene {
     std::string name;
-    double scale;        ///< edge of the cloud of primitives, metres
-    double offset;       ///< distance of the cloud from the world's origin, metres
-    double spread;       ///< sizes are scale * 10^-U(0, spread)
-    int count;           ///< primitives
-    bool faces = false;  ///< triangles and quads in turn; else spheres, boxes, ellipsoids and parallelepipeds
+    double scale;   ///< edge of the cloud of primitives, metres
+    double offset;  ///< distance of the cloud from the world's origin, metres
+    double spread;  ///< sizes are scale * 10^-U(0, spread)
+    int count;      ///< primitives
+    HardKinds kinds = HardKinds::solids;
 };
 
 [[nodiscard]] std::vector<HardScene> hard_scenes();
+
+/// Scenes of one kind of primitive.
+[[nodiscard]] std::vector<HardScene> scenes_of_one_kind();
 
 [[nodiscard]] PreparedScene make_scene(const HardScene& parameters, std::uint64_t seed);
 

@@ -48,8 +48,10 @@ class BvhBuilder {
         std::vector<std::uint32_t> binary = {0};  // for each node, the one that it replaces
         for (std::size_t i = 0; i < binary.size(); ++i) add_node(binary[i], binary);
         for (int i = 0; i < spare_entries; ++i) add_entry(bvh_.entry_ids.back());
-        add_placements(std::span(scene_.ellipsoids, scene_.ellipsoid_count));
-        add_placements(std::span(scene_.parallelepipeds, scene_.parallelepiped_count));
+        if (!placed_by_entry(scene_)) {
+            add_placements(std::span(scene_.ellipsoids, scene_.ellipsoid_count));
+            add_placements(std::span(scene_.parallelepipeds, scene_.parallelepiped_count));
+        }
         return std::move(bvh_);
     }
 
@@ -83,6 +85,7 @@ class BvhBuilder {
         if (scene_.triangle_count == tree_.order.size()) {
             bvh_.entry_triangles.push_back(entry_triangle(scene_.triangles[id], id));
         }
+        if (placed_by_entry(scene_)) bvh_.placements.push_back(rough_placement(scene_.parallelepipeds[id]));
         visit_primitive(scene_, id,
                         [&](const auto& primitive) { bvh_.entry_spheres.push_back(sphere_around(primitive)); });
     }

@@ -17,7 +17,7 @@ struct Bvh {
     std::vector<BvhNode> nodes;  ///< the root is nodes[0]
     std::vector<Sphere> entry_spheres;
     std::vector<std::uint32_t> entry_ids;
-    std::vector<RoughPlacement> placements;      ///< of the ellipsoids, then the parallelepipeds
+    std::vector<RoughPlacement> placements;      ///< of the ellipsoids, then the parallelepipeds; or placed_by_entry()
     std::vector<EntryTriangle> entry_triangles;  ///< if all primitives are triangles
 };
 

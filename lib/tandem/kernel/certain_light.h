@@ -23,59 +23,92 @@
 #pragma once
 
 #include "tandem/kernel/traversal/certain_hit.h"
+#include "tandem/math/fast_math.h"
 
 namespace tandem {
 
 namespace certain_detail {
 
-TANDEM_HD_INLINE double fused_dot(const Vec3d& a, const Vec3d& b) {
-    return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
+/// Numbers of the view in the precision of T: double, or FastFloat from what the host rounded.
+template <class T, class Exact, class Rough>
+TANDEM_HD_INLINE auto in_precision(const Exact& exact, const Rough& rough) {
+    if constexpr (std::is_same_v<T, double>) {
+        return exact;
+    } else if constexpr (std::is_same_v<Rough, Vec3f>) {
+        return broadcast<T>(rough);
+    } else {
+        return T(rough);
+    }
+}
+
+TANDEM_HD_INLINE double fused(double a, double b, double c) { return multiply_add(a, b, c); }
+TANDEM_HD_INLINE FastFloat fused(FastFloat a, FastFloat b, FastFloat c) { return loose_multiply_add(a, b, c); }
+template <class T>
+TANDEM_HD_INLINE T fused_dot(const Vec3<T>& a, const Vec3<T>& b) {
+    return fused(a.z, b.z, fused(a.y, b.y, a.x * b.x));
 }
 /// a + b s
-TANDEM_HD_INLINE Vec3d fused_add(const Vec3d& a, const Vec3d& b, double s) {
-    return {multiply_add(b.x, s, a.x), multiply_add(b.y, s, a.y), multiply_add(b.z, s, a.z)};
+template <class T>
+TANDEM_HD_INLINE Vec3<T> fused_add(const Vec3<T>& a, const Vec3<T>& b, const T& s) {
+    return {fused(b.x, s, a.x), fused(b.y, s, a.y), fused(b.z, s, a.z)};
 }
+TANDEM_HD_INLINE double over(double a) { return close_reciprocal(a); }
+TANDEM_HD_INLINE FastFloat over(FastFloat a) { return rough_reciprocal(a.v); }
+TANDEM_HD_INLINE double inverse_root_of(double a) { return close_inverse_square_root(a); }
+TANDEM_HD_INLINE FastFloat inverse_root_of(FastFloat a) { return rough_inverse_square_root(a.v); }
 
 /// A point on a solid, seen along a unit direction.
+template <class T>
 struct CertainPoint {
-    Vec3d normal;
-    double s;       ///< distance from the origin of the ray
-    double growth;  ///< G, the growth of errors; 0 for a box
-    double reach;   ///< G r
+    Vec3<T> normal;
+    T s;       ///< distance from the origin of the ray
+    T growth;  ///< G, the growth of errors; 0 for a box
+    T reach;   ///< G r
 };
 
-TANDEM_HD_INLINE CertainPoint point_on(const CertainSphere& sphere, const Vec3d& direction) {
-    const double b = -fused_dot(sphere.offset, direction);
-    const double half2 = multiply_add(b, b, -sphere.c);
-    const double inverse_half = close_inverse_square_root(half2);
-    CertainPoint point;
-    point.s = multiply_add(-half2, inverse_half, b);
-    point.normal = fused_add(sphere.offset, direction, point.s) * sphere.inverse_radius;
-    point.growth = sphere.distance2_per_radius * inverse_half;
-    point.reach = point.growth * sphere.radius;
+template <class T>
+TANDEM_HD_INLINE CertainPoint<T> point_on(const CertainSphere& sphere, const Vec3<T>& direction) {
+    const auto offset = in_precision<T>(sphere.offset, sphere.rough_offset);
+    const T b = -fused_dot(offset, direction);
+    const T half2 = fused(b, b, -in_precision<T>(sphere.c, sphere.rough_c));
+    const T inverse_half = inverse_root_of(half2);
+    CertainPoint<T> point;
+    point.s = fused(-half2, inverse_half, b);
+    point.normal =
+        fused_add(offset, direction, point.s) * in_precision<T>(sphere.inverse_radius, sphere.rough_inverse_radius);
+    if constexpr (std::is_same_v<T, double>) {
+        point.growth = sphere.distance2_per_radius * inverse_half;
+        point.reach = point.growth * sphere.radius;
+    }
     return point;
 }
 
-TANDEM_HD_INLINE CertainPoint point_on(const CertainBox& box, std::uint32_t axis, const Vec3d& direction) {
-    const auto along = [axis](const Vec3d& a) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; };
-    const double speed = along(direction);
-    const bool forward = speed > 0.0;
-    const double out = forward ? -1.0 : 1.0;
-    CertainPoint point;
-    point.s = (forward ? along(box.lower) : along(box.upper)) * close_reciprocal(speed);
-    point.normal = {axis == 0 ? out : 0.0, axis == 1 ? out : 0.0, axis == 2 ? out : 0.0};
-    point.growth = 0.0;
-    point.reach = 0.0;
+template <class T>
+TANDEM_HD_INLINE CertainPoint<T> point_on(const CertainBox& box, std::uint32_t axis, const Vec3<T>& direction) {
+    const auto along = [axis](const auto& a) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; };
+    const T zero(0.0);
+    const T speed = along(direction);
+    const bool forward = speed > zero;
+    const T out(forward ? -1.0 : 1.0);
+    CertainPoint<T> point;
+    point.s = (forward ? along(in_precision<T>(box.lower, box.rough_lower))
+                       : along(in_precision<T>(box.upper, box.rough_upper))) *
+              over(speed);
+    point.normal = {axis == 0 ? out : zero, axis == 1 ? out : zero, axis == 2 ? out : zero};
+    point.growth = zero;
+    point.reach = zero;
     return point;
 }
 
-/// base^n for n >= 1 and base in [0, 1], within 2 n 2^-53 of itself.
-TANDEM_HD_INLINE double whole_power(double base, std::uint32_t n) {
-    for (; (n & 1U) == 0; n >>= 1) base *= base;
+/// base^n for n = odd 2^squarings and base in [0, 1], within 2 n 2^-53 of itself.
+TANDEM_HD_INLINE double whole_power(double base, std::uint32_t odd, std::uint32_t squarings) {
+    TANDEM_KEEP_LOOP
+    for (; squarings != 0; --squarings) base *= base;
     double power = base;
-    for (n >>= 1; n != 0; n >>= 1) {
+    TANDEM_KEEP_LOOP
+    for (odd >>= 1; odd != 0; odd >>= 1) {
         base *= base;
-        if ((n & 1U) != 0) power *= base;
+        if ((odd & 1U) != 0) power *= base;
     }
     return power;
 }
@@ -85,47 +118,85 @@ struct Weight {
     float low, high;
 };
 TANDEM_HD_INLINE Weight bounded(double value, double error) {
-    return {narrow(greater(value - error, 0.0)), narrow(greater(value + error, 0.0))};
+    return {rough_greater(0.0F, narrow(value - error)), rough_greater(0.0F, narrow(value + error))};
+}
+
+/// The cosine of the diffuse lobe and the base of the highlight, at a light.
+template <class T>
+struct CertainCosines {
+    T diffuse, highlight;
+    T inverse_distance;  ///< of the light
+};
+
+/// `facing`: the cosine of the normal and the way back.
+template <class T>
+TANDEM_HD_INLINE CertainCosines<T> cosines_at(const CertainPoint<T>& point, const CertainLight& light,
+                                              const Vec3<T>& along, const T& facing) {
+    const Vec3<T> way = fused_add(in_precision<T>(light.offset, light.rough_offset), along, -point.s);
+    CertainCosines<T> at;
+    at.inverse_distance = inverse_root_of(fused_dot(way, way));
+    at.diffuse = fused_dot(point.normal, way) * at.inverse_distance;
+    const T towards = -fused_dot(way, along) * at.inverse_distance;
+    const T highlight = fused(at.diffuse + at.diffuse, facing, -towards);
+    at.highlight = lesser(greater(highlight, T(0.0)), T(1.0));
+    return at;
+}
+
+template <class T>
+TANDEM_HD_INLINE CertainPoint<T> point_at(const CertainView& view, const CertainHit& hit, const Vec3<T>& along) {
+    if (hit.slot < CertainView::max_spheres) return point_on(view.spheres[hit.slot], along);
+    return point_on(view.boxes[hit.slot - CertainView::max_spheres], hit.axis, along);
 }
 
 }  // namespace certain_detail
 
+/// `T`: double, as above; or FastFloat: without bounds, always certain.
+template <class T = double, class Real>
 TANDEM_HD_INLINE bool certain_light(const CertainView& view, const Vec3f& direction, const CertainHit& hit,
-                                    Vec3f& radiance) {
+                                    Vec3<Real>& radiance) {
     using namespace certain_detail;
-    constexpr double u = 0x1p-53;
-    const Vec3d d = widen(direction);
-    const Vec3d along = d * close_inverse_square_root(fused_dot(d, d));
-    const CertainPoint point = hit.slot < CertainView::max_spheres
-                                   ? point_on(view.spheres[hit.slot], along)
-                                   : point_on(view.boxes[hit.slot - CertainView::max_spheres], hit.axis, along);
+    const Vec3<T> d = {T(direction.x), T(direction.y), T(direction.z)};
+    const Vec3<T> along = d * inverse_root_of(fused_dot(d, d));
+    const CertainPoint<T> point = point_at(view, hit, along);
     const CertainMaterial& material = view.materials[hit.slot];
-    const double facing = -fused_dot(point.normal, along);
-    Vec3f low = material.ambient, high = material.ambient;
-    bool certain = true;
-    TANDEM_KEEP_LOOP
-    for (std::uint32_t i = 0; i < view.light_count; ++i) {
-        const CertainLight& light = view.lights[i];
-        const Vec3d way = fused_add(light.offset, along, -point.s);
-        const double inverse_distance = close_inverse_square_root(fused_dot(way, way));
-        const double cosine = fused_dot(point.normal, way) * inverse_distance;
-        const double towards = -fused_dot(way, along) * inverse_distance;
-        const double highlight = multiply_add(cosine + cosine, facing, -towards);
-        const double error = u * multiply_add(multiply_add(32.0, view.extent, 64.0 * point.reach), inverse_distance,
-                                              multiply_add(64.0, point.growth, 64.0));
-        certain = certain && error < 0x1p-30;
+    const T facing = -fused_dot(point.normal, along);
+    Vec3<Real> low = broadcast<Real>(material.ambient);
+    if constexpr (is_fast<T>) {
+        TANDEM_KEEP_LOOP
+        for (std::uint32_t i = 0; i < view.light_count; ++i) {
+            const CertainLight& light = view.lights[i];
+            const auto at = cosines_at(point, light, along, facing);
+            const T power = tandem::power<T>(at.highlight, T(material.shininess));
+            low = low + (broadcast<Real>(material.specular) * power +
+                         broadcast<Real>(material.diffuse) * greater(at.diffuse, T(0.0F))) *
+                            broadcast<Real>(light.intensity);
+        }
+        radiance = low;
+        return true;
+    } else {
+        constexpr double u = 0x1p-53;
+        Vec3f high = material.ambient;
+        bool certain = true;
+        TANDEM_KEEP_LOOP
+        for (std::uint32_t i = 0; i < view.light_count; ++i) {
+            const CertainLight& light = view.lights[i];
+            const auto at = cosines_at(point, light, along, facing);
+            const double error = u * multiply_add(multiply_add(32.0, view.extent, 64.0 * point.reach),
+                                                  at.inverse_distance, multiply_add(64.0, point.growth, 64.0));
+            certain = certain && error < 0x1p-30;
 
-        const double base = lesser(greater(highlight, 0.0), 1.0);
-        const double power = whole_power(base, material.shininess);
-        const double n = static_cast<double>(material.shininess);
-        const double slope = base < 0.25 ? material.small_slope : 4.0 * n * power;
-        const Weight diffuse = bounded(cosine, error);
-        const Weight glossy = bounded(power, multiply_add(8.0 * error, slope, u * multiply_add(2.0, n, 256.0) * power));
-        low = low + (material.specular * glossy.low + material.diffuse * diffuse.low) * light.intensity;
-        high = high + (material.specular * glossy.high + material.diffuse * diffuse.high) * light.intensity;
+            const double power = whole_power(at.highlight, material.odd_part, material.squarings);
+            const double n = static_cast<double>(material.shininess);
+            const double slope = at.highlight < 0.25 ? material.small_slope : 4.0 * n * power;
+            const Weight diffuse = bounded(at.diffuse, error);
+            const Weight glossy =
+                bounded(power, multiply_add(8.0 * error, slope, u * multiply_add(2.0, n, 256.0) * power));
+            low = low + (material.specular * glossy.low + material.diffuse * diffuse.low) * light.intensity;
+            high = high + (material.specular * glossy.high + material.diffuse * diffuse.high) * light.intensity;
+        }
+        radiance = low;
+        return certain && low == high;
     }
-    radiance = low;
-    return certain && low == high;
 }
 
 }  // namespace tandem

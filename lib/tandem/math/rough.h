@@ -29,6 +29,22 @@ TANDEM_HD_INLINE float rough_inverse_square_root(float a) {
 #endif
 }
 
+/// lesser() and greater() where `a` is no NaN, also for -0 and +0: a single instruction on a GPU.
+TANDEM_HD_INLINE float rough_lesser(float a, float b) {
+#if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
+    return fminf(a, b);
+#else
+    return lesser(a, b);
+#endif
+}
+TANDEM_HD_INLINE float rough_greater(float a, float b) {
+#if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
+    return fmaxf(a, b);
+#else
+    return greater(a, b);
+#endif
+}
+
 /// 1 / a and 1 / sqrt(a) within 3 * 2^-53 of themselves, for a in [2^-500, 2^500]: a guess within 2^-18, and a step of
 /// third order, whose error is that of the guess cubed. The bits differ between processors.
 TANDEM_HD_INLINE double close_reciprocal(double a) {

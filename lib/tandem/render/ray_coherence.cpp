@@ -1,6 +1,7 @@
 #include "tandem/render/ray_coherence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tandem {
 
@@ -20,6 +21,35 @@ bool is_coherent_group(std::span<const Ray<float>> rays, float reach) {
     });
 }
 
+constexpr std::size_t least_row = 16, most_row = 65536, least_rows = 8;
+constexpr std::size_t row_step = 8;  ///< the width of a tile
+constexpr std::size_t row_samples = 32;
+
+/// Of origins, relative to the size of the scene, and of unit directions.
+double distance(const Ray<float>& a, const Ray<float>& b, float reach) {
+    const auto unit = [](const Vec3f& v) {
+        const Vec3d d = widen(v);
+        return d * (1 / square_root(dot(d, d)));
+    };
+    const Vec3d turn = unit(a.direction) - unit(b.direction);
+    return (norm1(widen(a.origin) - widen(b.origin)) / widen(reach)) + norm1(turn);
+}
+
+/// How much farther the other rays at `step` are than the next ones, from 0 (not at all) to 1: the mean of some places.
+double unlikeness(std::span<const Ray<float>> rays, float reach, std::size_t step) {
+    double sum = 0;
+    for (std::size_t i = 0; i < row_samples; ++i) {
+        // places that have nothing to do with the length of rows: multiples of the golden ratio, modulo 1
+        const double place = static_cast<double>(i) * 0.6180339887498949;
+        const auto at =
+            static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(rays.size() - step - 1));
+        const double next = distance(rays[at], rays[at + 1], reach), other = distance(rays[at], rays[at + step], reach);
+        const double share = other / (next + other);
+        sum += share >= 0 ? share : 0.5;  // NaN: rays that cannot be traced, or that are equal
+    }
+    return sum / row_samples;
+}
+
 }  // namespace
 
 bool are_coherent(std::span<const Ray<float>> rays, float reach) {
@@ -32,6 +62,24 @@ bool are_coherent(std::span<const Ray<float>> rays, float reach) {
         if (is_coherent_group(rays.subspan(first, group_size), reach)) ++coherent;
     }
     return 2 * coherent > tried;
+}
+
+std::uint32_t row_length(std::span<const Ray<float>> rays, float reach) {
+    const std::size_t count = rays.size();
+    if (count < least_rows * least_row) return 0;
+    // rays far apart in the batch: if the next ones are no more alike than those, the rays have no order
+    if (unlikeness(rays, reach, count / 2 + count / 7) < 0.75) return 0;
+    std::size_t best = 0;
+    double least = 0.63;
+    for (std::size_t row = least_row; row <= most_row && least_rows * row <= count; row += row_step) {
+        if (count % row != 0) continue;
+        const double found = unlikeness(rays, reach, row);
+        if (found < 0.95 * least) {
+            least = found;
+            best = row;
+        }
+    }
+    return static_cast<std::uint32_t>(best);
 }
 
 }  // namespace tandem

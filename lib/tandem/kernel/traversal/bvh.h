@@ -37,12 +37,22 @@ TANDEM_HD_INLINE std::int32_t child_of(const BvhNode& node, std::int32_t child) 
     return child < static_cast<std::int32_t>(inner_count(node)) ? node.first_inner + child : node.leaf_base - child;
 }
 
+/// A triangle as hit_interval() needs it. Edges are rounded.
+struct TriangleEdges {
+    Vec3f v0;
+    Vec3f e1, e2;  ///< v1 - v0 and v2 - v0
+    float size;    ///< |e1|_1 + |e2|_1
+};
+TANDEM_HD_INLINE TriangleEdges edges_of(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+    const Vec3f e1 = v1 - v0;
+    const Vec3f e2 = v2 - v0;
+    return {v0, e1, e2, norm1(e1) + norm1(e2)};
+}
+
 /// An entry of a hierarchy of triangles alone.
-struct alignas(16) EntryTriangle {
-    Vec3f v0, v1, v2;
+struct alignas(16) EntryTriangle : TriangleEdges {
     std::uint32_t id;
     FaceSides sides;
-    std::uint32_t unused;
 };
 static_assert(sizeof(EntryTriangle) == 48);
 

@@ -78,10 +78,15 @@ struct BvhStructure {
         const HitInterval interval = interval_at<Real>(entry, source, query, id);
         if (!(interval.lo <= limit)) return false;
         if (search == Search::any && interval.hi < enough) return true;
-        if constexpr (search == Search::nearest) limit = lesser(limit, interval.hi);
-        candidates.add(interval.lo, id, limit);
+        if constexpr (search == Search::nearest) limit = rough_lesser(limit, interval.hi);
+        candidates.add(interval.lo, keeps_entries<From> ? entry : id, limit);
         return false;
     }
+
+    /// Whether a candidate is the number of its entry, else it is the id. The walk then reads no ids.
+    template <class From>
+    static constexpr bool keeps_entries = std::is_same_v<From, NoSource> &&
+                                          (kinds == PrimitiveKinds::sphere || kinds == PrimitiveKinds::parallelepiped);
 
     /// keep() for all entries on the ray's way.
     template <Search search, class Real, class From>
@@ -92,6 +97,17 @@ struct BvhStructure {
         return bvh_detail::walk<may_start_late>(bvh, node_ray, query.start, limit, [&](std::uint32_t entry) {
             return keep<search, Real>(entry, source, query, enough, limit, candidates);
         });
+    }
+
+    /// Decides about a candidate that keep() kept.
+    template <class Real, class From>
+    TANDEM_HD_INLINE void decide_kept(const Ray<Real>& ray, const From& source, std::uint32_t kept,
+                                      Closest<Real>& best) const {
+        if constexpr (keeps_entries<From> && kinds == PrimitiveKinds::sphere) {
+            test_primitive(bvh_detail::load_entry_sphere(bvh, kept), bvh.entry_ids[kept], ray, source, true, best);
+        } else {
+            decide(ray, source, keeps_entries<From> ? bvh.entry_ids[kept] : kept, best);
+        }
     }
 
     template <class Real, class From>
@@ -110,19 +126,21 @@ struct BvhStructure {
         const Proposal<Real> proposal = self.propose(ray);
         const QueryRay query = make_query_ray(proposal, self.bvh.frame, source);
         const Double<Real> t_max = best.t;
+        if (search == Search::any) limit = lesser(limit, to_plain(proposal.limit(t_max)));
         Candidates<2> certain;
         const auto keep_or_decide = [&](std::uint32_t entry) {
             std::uint32_t id = no_primitive;
             const HitInterval interval = self.template interval_at<Real>(entry, source, query, id);
             if (!(interval.lo <= limit)) return false;
+            const std::uint32_t kept = keeps_entries<From> ? entry : id;
             if (search == Search::nearest && interval.hi < interval_detail::infinity) {
                 limit = lesser(limit, interval.hi);
-                certain.add(interval.lo, id, limit);
+                certain.add(interval.lo, kept, limit);
                 if (certain.overflow == 0) return false;
                 certain.overflow = 0;
             }
             const Double<Real> t_before = best.t;
-            self.decide(ray, source, id, best);
+            self.decide_kept(ray, source, kept, best);
             // no interval starts before 0
             if (best.t < t_before) limit = lesser(limit, greater(to_plain(proposal.limit(best.t)), 0.0F));
             return search == Search::any && best.t < t_max;
@@ -132,7 +150,7 @@ struct BvhStructure {
         const bvh_detail::WalkEnd end =
             bvh_detail::walk<may_start_late>(self.bvh, node_ray, query.start, limit, keep_or_decide);
         if (end.stack_was_full) self.try_what_was_missed(ray, source, best);
-        certain.for_each(limit, [&](std::uint32_t id) { self.decide(ray, source, id, best); });
+        certain.for_each(limit, [&](std::uint32_t kept) { self.decide_kept(ray, source, kept, best); });
         return best;
     }
 
@@ -202,24 +220,31 @@ struct BvhStructure {
             best = decide_crowd<search>(*this, same_ray, source, best, reached);
             return {};
         } else {
-            found.get().for_each(reached, [&](std::uint32_t id) { decide(same_ray, source, id, best); });
+            found.get().for_each(reached, [&](std::uint32_t kept) { decide_kept(same_ray, source, kept, best); });
         }
         return end;
     }
 
-    /// Where the ray hits the primitive of an entry, `id`.
+    /// Where the ray hits the primitive of an entry. `id`: of the primitive, unless keeps_entries.
     template <class Real, class From>
     TANDEM_HD_INLINE HitInterval interval_at(std::uint32_t entry, const From& source, const QueryRay& query,
                                              std::uint32_t& id) const {
         if (is_only(PrimitiveKinds::triangle)) {
-            const EntryTriangle at = bvh_detail::load_entry_triangle(bvh, entry);
-            id = at.id;
-            const Triangle triangle = {at.v0, at.v1, at.v2, {.sides = at.sides}};
+            const EntryTriangle triangle = bvh_detail::load_entry_triangle(bvh, entry);
+            id = triangle.id;
             return hit_interval_from<Real, Triangle>(source, id, query, triangle);
+        }
+        if constexpr (kinds == PrimitiveKinds::parallelepiped) {
+            if constexpr (!keeps_entries<From>) id = bvh.entry_ids[entry];
+            const RoughParallelepiped rough = {bvh_detail::load_placement(bvh, entry)};
+            return hit_interval_from<Real, Parallelepiped>(source, id, query, rough);
         }
         const SphereLine line(query, bvh_detail::load_entry_sphere(bvh, entry));
         HitInterval interval = certain_miss;
         if (line.misses()) return interval;
+        if constexpr (kinds == PrimitiveKinds::sphere && keeps_entries<From>) {
+            return hit_interval_from<Real, Sphere>(source, id, query, line);
+        }
         id = bvh.entry_ids[entry];
         if (may_have(PrimitiveKinds::sphere) &&
             (!may_have(kinds & ~PrimitiveKinds::sphere) || id < scene.sphere_count)) {
@@ -229,7 +254,8 @@ struct BvhStructure {
                 if constexpr (std::is_base_of_v<Placement, Primitive>) {
                     using Rough =
                         std::conditional_t<std::is_same_v<Primitive, Ellipsoid>, RoughEllipsoid, RoughParallelepiped>;
-                    const std::uint32_t placed = id - scene.sphere_count - scene.box_count;
+                    const std::uint32_t placed =
+                        bvh.placed_by_entry != 0 ? entry : id - scene.sphere_count - scene.box_count;
                     const Rough rough = {bvh_detail::load_placement(bvh, placed)};
                     interval = hit_interval_from<Real, Primitive>(source, id, query, rough);
                 } else {

@@ -14,12 +14,14 @@ struct BvhView {
     const Sphere* entry_spheres;
     const std::uint32_t* entry_ids;
     const EntryTriangle* entry_triangles;  ///< null unless all primitives are triangles
-    const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds
+    const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds; or see placed_by_entry
     StructureFrame frame;
     unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
     /// The bits of 256.0F, of which bytes of planes become a part. A member, so that the compiler does not know it:
     /// a permutation of bytes takes one constant, and that is its pattern.
     std::uint32_t bits_of_256 = 0x43800000U;
+    std::uint32_t placed_by_entry =
+        0;  ///< 1: all primitives are parallelepipeds, with placements in the order of entries
 };
 
 namespace bvh_detail {
@@ -64,12 +66,12 @@ TANDEM_HD_INLINE Sphere load_entry_sphere(const BvhView& bvh, std::uint32_t i) {
 TANDEM_HD_INLINE EntryTriangle load_entry_triangle(const BvhView& bvh, std::uint32_t i) {
     const auto* address = reinterpret_cast<const char*>(bvh.entry_triangles + i);
     const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32);
-    return {{float_of(p.a), float_of(p.b), float_of(p.c)},
-            {float_of(p.d), float_of(q.a), float_of(q.b)},
-            {float_of(q.c), float_of(q.d), float_of(r.a)},
-            r.b,
-            static_cast<FaceSides>(r.c),
-            0};
+    return {{{float_of(p.a), float_of(p.b), float_of(p.c)},
+             {float_of(p.d), float_of(q.a), float_of(q.b)},
+             {float_of(q.c), float_of(q.d), float_of(r.a)},
+             float_of(r.b)},
+            r.c,
+            static_cast<FaceSides>(r.d)};
 }
 
 TANDEM_HD_INLINE RoughPlacement load_placement(const BvhView& bvh, std::uint32_t i) {
@@ -129,12 +131,6 @@ struct Walk {
         at = top;
         top = stack.get(--depth);
     }
-    template <class Stack>
-    TANDEM_HD_INLINE void push(Stack& stack, std::int32_t child) {
-        stack.set(depth++, top);
-        top = child;
-    }
-
     /// From a node to the nearest child that the ray enters within [start, limit], or to the top of the stack.
     template <bool starts_late, class Stack>
     TANDEM_HD_INLINE void descend(Stack& stack, const BvhView& bvh, const NodeRay& ray, float start, float limit) {
@@ -149,13 +145,15 @@ struct Walk {
         constexpr int fullest = bvh_stack_size - (bvh_width - 1);
         const bool is_full = depth > fullest;
         depth = is_full ? fullest : depth;
-        if (entered.key[1] != no_child) {
-            if (entered.key[2] != no_child) {
-                if (entered.key[3] != no_child) push(stack, child(3));
-                push(stack, child(2));
-            }
-            push(stack, child(1));
-        }
+        // the farthest child lowest, without a branch within a branch
+        const bool one = entered.key[1] != no_child, two = entered.key[2] != no_child;
+        const bool three = entered.key[3] != no_child;
+        const std::int32_t second = child(2), third = child(3);
+        if (one) stack.set(depth, top);
+        if (two) stack.set(depth + 1, three ? third : second);
+        if (three) stack.set(depth + 2, second);
+        top = one ? child(1) : top;
+        depth += (one ? 1 : 0) + (two ? 1 : 0) + (three ? 1 : 0);
         at = is_full ? no_child : child(0);
     }
 };

@@ -32,24 +32,26 @@ namespace certain_detail {
 
 /// One of the intervals so far, and the least beginning of the others: where it ends before that, it is the nearest.
 struct Nearest {
-    CertainHit hit = {CertainHit::none, 0};
-    float begin = __builtin_huge_valf(), end = __builtin_huge_valf();
-    float next = __builtin_huge_valf();
-    bool unsure = false;
+    static constexpr float infinity = __builtin_huge_valf();
 
-    TANDEM_HD_INLINE void offer(float from, float to, std::uint32_t slot, std::uint32_t axis) {
-        if (from < end) {
-            next = lesser(next, begin);
-            hit = {slot, axis};
-            begin = from;
-            end = to;
-        } else {
-            next = lesser(next, from);
-        }
+    CertainHit hit = {CertainHit::none, 0};
+    float begin = infinity, end = infinity;
+    float next = infinity;
+
+    /// `sure`: the solid is hit, within [from, to]; else the interval is [0, infinity], which overlaps all others.
+    TANDEM_HD_INLINE void offer(bool sure, float from, float to, std::uint32_t slot, std::uint32_t axis) {
+        from = sure ? from : 0.0F;
+        to = sure ? to : infinity;
+        const bool nearer = from < end;
+        next = rough_lesser(next, nearer ? begin : from);
+        hit.slot = nearer ? slot : hit.slot;
+        hit.axis = nearer ? axis : hit.axis;
+        begin = nearer ? from : begin;
+        end = nearer ? to : end;
     }
     [[nodiscard]] TANDEM_HD_INLINE CertainHit result() const {
-        if (unsure || (hit.slot != CertainHit::none && !(end < next))) return {CertainHit::unsure, 0};
-        return hit;
+        const bool is_open = hit.slot != CertainHit::none && !(end < next);
+        return {is_open ? CertainHit::unsure : hit.slot, hit.axis};
     }
 };
 
@@ -59,39 +61,42 @@ TANDEM_HD_INLINE void meet(const CertainSphere& sphere, std::uint32_t slot, cons
     const float discriminant = loose_multiply_add(b, b, -(sphere.rough_c * d2));
     const float e = sphere.margin * d2;
     if (discriminant < -e || b < -sphere.slack) return;
-    nearest.unsure = nearest.unsure || !(discriminant > 4.0F * e) || !(b > sphere.slack);
+    const bool sure = discriminant > 4.0F * e && b > sphere.slack;
     const float inverse_root = rough_inverse_square_root(discriminant);
     const float t = loose_multiply_add(-discriminant, inverse_root, b);
     const float error = loose_multiply_add(e, inverse_root, sphere.slack);
-    nearest.offer(t - error, t + error, slot, 0);
+    nearest.offer(sure, t - error, t + error, slot, 0);
 }
 
 TANDEM_HD_INLINE void meet(const CertainBox& box, std::uint32_t slot, const Vec3f& inverse, float d2,
                            Nearest& nearest) {
     const Vec3f a = box.rough_lower * inverse, b = box.rough_upper * inverse;
-    const Vec3f in = {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
-    const Vec3f out = {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
-    const float near = greater(greater(in.x, in.y), in.z);
-    const float far = lesser(lesser(out.x, out.y), out.z);
+    const Vec3f in = {rough_lesser(a.x, b.x), rough_lesser(a.y, b.y), rough_lesser(a.z, b.z)};
+    const Vec3f out = {rough_greater(a.x, b.x), rough_greater(a.y, b.y), rough_greater(a.z, b.z)};
+    const float near = rough_greater(rough_greater(in.x, in.y), in.z);
+    const float far = rough_lesser(rough_lesser(out.x, out.y), out.z);
     const float error = 33.0F * float_roundoff * (absolute(near) + absolute(far));
     if (near > far + error || far < -error) return;
     const std::uint32_t axis = near == in.x ? 0U : near == in.y ? 1U : 2U;
-    const float second = axis == 0 ? greater(in.y, in.z) : axis == 1 ? greater(in.x, in.z) : greater(in.x, in.y);
-    nearest.unsure = nearest.unsure || !(near < far - error) || !(near > error) || !(second < near - error);
-    nearest.offer((near - error) * d2, (near + error) * d2, slot, axis);
+    const float second = rough_greater(axis == 0 ? in.y : in.x, axis == 2 ? in.y : in.z);
+    const bool sure = near < far - error && near > error && second < near - error;
+    nearest.offer(sure, (near - error) * d2, (near + error) * d2, slot, axis);
 }
 
 }  // namespace certain_detail
 
 /// `slots`: the solids that the ray may hit, as in ConstantMemoryStructure; best the same for all threads of a warp.
 TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& direction, std::uint32_t slots) {
+    constexpr std::uint32_t all_spheres = (1U << CertainView::max_spheres) - 1;
+    slots &= view.slots;
     certain_detail::Nearest nearest;
     const float d2 = loose_dot(direction, direction);
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
     for (std::uint32_t i = 0; i < CertainView::max_spheres; ++i) {
-        if (i == view.sphere_count) break;
+        // the end is looked for now and then alone, because that costs as much as a slot
+        if (i % 4 == 0 && (slots & (all_spheres << i & all_spheres)) == 0) break;
         if ((slots >> i & 1U) != 0) certain_detail::meet(view.spheres[i], i, direction, d2, nearest);
     }
     if ((slots >> CertainView::max_spheres) != 0) {
@@ -101,7 +106,6 @@ TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& di
 #pragma unroll
 #endif
         for (std::uint32_t i = 0; i < CertainView::max_boxes; ++i) {
-            if (i == view.box_count) break;
             const std::uint32_t slot = CertainView::max_spheres + i;
             if ((slots >> slot & 1U) != 0) certain_detail::meet(view.boxes[i], slot, inverse, d2, nearest);
         }

@@ -23,7 +23,7 @@ struct CertainSphere {
     double distance2_per_radius;  ///< |offset|^2 / radius
     // for the test in float, u = 2^-24
     Vec3f rough_offset;
-    float rough_c;
+    float rough_c, rough_inverse_radius;
     float margin;  ///< 24 u |offset|^2
     float slack;   ///< 16 u |offset| times the length of the longest direction
 };
@@ -37,11 +37,13 @@ struct CertainMaterial {
     Vec3f ambient;  ///< times the ambient light
     Vec3f diffuse, specular;
     std::uint32_t shininess;
-    double small_slope;  ///< of c^shininess for c <= 0.26, at most
+    std::uint32_t odd_part, squarings;  ///< shininess = odd_part * 2^squarings
+    double small_slope;                 ///< of c^shininess for c <= 0.26, at most
 };
 
 struct CertainLight {
     Vec3d offset;  ///< light - origin
+    Vec3f rough_offset;
     Vec3f intensity;
 };
 
@@ -55,6 +57,7 @@ struct CertainView {
     CertainLight lights[max_lights];
     double extent;  ///< bounds the coordinates of the origin, the lights and the solids, summed
     std::uint32_t sphere_count, box_count, light_count;
+    std::uint32_t slots;          ///< those of the solids, as bits
     std::uint32_t is_valid;       ///< 0 or 1
     std::uint32_t is_finite_sky;  ///< 1: the background of camera rays is finite, with any camera of moderate size
 };
@@ -116,6 +119,13 @@ inline bool exact_difference(const Vec3d& a, const Vec3d& b, Vec3d& difference) 
     return two_sum(a.x, -b.x).low == 0 && two_sum(a.y, -b.y).low == 0 && two_sum(a.z, -b.z).low == 0;
 }
 
+/// Whether 2^-24 of each component is exact, and its products with whole numbers are.
+inline bool can_be_scaled(const Vec3d& step) {
+    const auto can = [](double a) { return a == 0 || absolute(a) >= 0x1p-100; };
+    const Vec3d rounded = widen(narrow(step));
+    return can(rounded.x) && can(rounded.y) && can(rounded.z);
+}
+
 /// The lengths of camera rays' directions, at least and at most: the depth along the view axis is the same for all.
 struct DirectionLengths {
     double least, most;
@@ -147,6 +157,7 @@ inline bool make(const Sphere& sphere, const Vec3d& origin, double longest, Cert
     result.distance2_per_radius = distance2.high / radius;
     result.rough_offset = narrow(result.offset);
     result.rough_c = narrow(result.c);
+    result.rough_inverse_radius = narrow(result.inverse_radius);
     result.margin = narrow(24 * 0x1p-24 * 1.001 * distance2.high);
     result.slack = narrow(16 * 0x1p-24 * 1.001 * distance * longest);
     return exact && is_moderate(radius) && is_moderate(distance) && result.c >= 0.25 * distance2.high;
@@ -171,6 +182,8 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     const bool whole = material.shininess >= 1 && material.shininess <= CertainView::max_shininess &&
                        material.shininess == static_cast<float>(static_cast<std::uint32_t>(material.shininess));
     result.shininess = whole ? static_cast<std::uint32_t>(material.shininess) : 1;
+    result.odd_part = result.shininess;
+    for (; result.odd_part % 2 == 0; result.odd_part /= 2) ++result.squarings;
     result.small_slope = result.shininess;
     for (std::uint32_t i = 1; i < result.shininess; ++i) result.small_slope *= 0.26;
     return whole && is_plain_colour(result.ambient) && is_plain_colour(result.diffuse) &&
@@ -186,6 +199,7 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     if (camera.orthographic || camera.has_lens) return view;
     const DirectionLengths lengths = direction_lengths(camera, pixels);
     if (!(lengths.least >= smallest && lengths.most <= largest)) return view;
+    if (!can_be_scaled(camera.direction_dx) || !can_be_scaled(camera.direction_dy)) return view;
     const Environment& sky = scene.environment;
     view.is_finite_sky = is_plain_colour(sky.bottom) && is_plain_colour(sky.top) ? 1 : 0;
     if (view.is_finite_sky == 0 || !scene.fits) return view;
@@ -211,13 +225,15 @@ inline bool make(const PhongMaterial& material, const Vec3f& ambient_light, Cert
     farthest = 0;
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {
         const PunctualLight& light = scene.lights[i];
-        view.lights[i] = {widen(light.position) - origin, light.intensity};
+        const Vec3d offset = widen(light.position) - origin;
+        view.lights[i] = {offset, narrow(offset), light.intensity};
         valid = valid && is_plain_colour(light.intensity);
         farthest = greater(farthest, norm1(widen(light.position)));
     }
     view.sphere_count = scene.sphere_count;
     view.box_count = scene.box_count;
     view.light_count = scene.light_count;
+    view.slots = ((1U << scene.sphere_count) - 1) | ((1U << scene.box_count) - 1) << CertainView::max_spheres;
     view.extent = 1.001 * (extent + farthest);
     view.is_valid = valid && view.extent <= largest ? 1 : 0;
     return view;

@@ -19,6 +19,7 @@
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/filter.h"
 #include "tandem/kernel/shapes/quad.h"
+#include "tandem/kernel/traversal/bvh.h"
 #include "tandem/kernel/traversal/query_ray.h"
 #include "tandem/kernel/view/scene_view.h"
 #include "tandem/math/rough.h"
@@ -37,7 +38,7 @@ inline constexpr float infinity = __builtin_huge_valf();
 inline constexpr float largest = 1e36F;
 
 /// `a` if it is positive, else 0; also for NaN.
-TANDEM_HD_INLINE float not_negative(float a) { return a > 0.0F ? a : 0.0F; }
+TANDEM_HD_INLINE float not_negative(float a) { return rough_greater(0.0F, a); }
 
 }  // namespace interval_detail
 
@@ -134,10 +135,10 @@ TANDEM_HD_INLINE void cut(SolidCrossings& c, float position, float speed, float 
     const float width = absolute(inverse);
     const float grown = (half + margin) * width;
     const float shrunk = (half - margin) * width;
-    c.outer_near = greater(c.outer_near, middle - grown);
-    c.outer_far = lesser(c.outer_far, middle + grown);
-    c.inner_near = greater(c.inner_near, middle - shrunk);
-    c.inner_far = lesser(c.inner_far, middle + shrunk);
+    c.outer_near = rough_greater(c.outer_near, middle - grown);
+    c.outer_far = rough_lesser(c.outer_far, middle + grown);
+    c.inner_near = rough_greater(c.inner_near, middle - shrunk);
+    c.inner_far = rough_lesser(c.inner_far, middle + shrunk);
 }
 
 inline constexpr SolidCrossings whole_line = {-infinity, infinity, -infinity, infinity, false};
@@ -227,10 +228,8 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& 
 /// With a = v0 - origin, m = direction x a, s = |e1| + |e2|: the volumes err by less than u (4 |a| + 7 |m| + 3 s) s +
 /// 1.5 drift s, their sum, `speed`, by 3 u s^2, and `above` by (2 u |a| + 0.5 drift) s^2, as in may_touch_triangle().
 /// The hit is at above / speed.
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
-    const Vec3f e1 = v1 - v0;
-    const Vec3f e2 = v2 - v0;
-    const float size = norm1(e1) + norm1(e2);
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const TriangleEdges& triangle) {
+    const auto& [v0, e1, e2, size] = triangle;
     const Vec3f a = v0 - ray.origin;
     const Vec3f moment = loose_cross(ray.direction, a);
     const Vec3f normal = loose_cross(e1, e2);
@@ -265,12 +264,16 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Vec3f& v0, 
     return {interval_detail::not_negative(lo), lo > 0.0F && least > error ? s + margin : interval_detail::infinity};
 }
 TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Triangle& triangle, bool) {
-    return hit_interval(ray, triangle.v0, triangle.v1, triangle.v2);
+    return hit_interval(ray, edges_of(triangle.v0, triangle.v1, triangle.v2));
+}
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const EntryTriangle& triangle, bool) {
+    const TriangleEdges& edges = triangle;
+    return hit_interval(ray, edges);
 }
 /// The nearer hit of two.
 TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Quad& quad, bool) {
-    const HitInterval first = hit_interval(ray, quad.v0, quad.v1, quad.v2);
-    const HitInterval second = hit_interval(ray, quad.v0, quad.v2, quad.v3);
+    const HitInterval first = hit_interval(ray, edges_of(quad.v0, quad.v1, quad.v2));
+    const HitInterval second = hit_interval(ray, edges_of(quad.v0, quad.v2, quad.v3));
     return {lesser(first.lo, second.lo), lesser(first.hi, second.hi)};
 }
 
@@ -287,7 +290,9 @@ TANDEM_HD_INLINE HitInterval beyond_masked(const HitInterval& hit, const QueryRa
 
 template <class Shape>
 TANDEM_HD_INLINE bool is_culled(const Shape& shape) {
-    if constexpr (is_face<Shape>) {
+    if constexpr (std::is_same_v<Shape, EntryTriangle>) {
+        return may_be_cut_out(PrimitiveKinds::triangle) && shape.sides == FaceSides::culled;
+    } else if constexpr (is_face<Shape>) {
         return may_be_cut_out(kind_of<Shape>) && shape.attributes.sides == FaceSides::culled;
     } else {
         return false;
@@ -297,7 +302,7 @@ TANDEM_HD_INLINE bool is_culled(const Shape& shape) {
 }  // namespace interval_detail
 
 /// The hit that counts for a ray from `source`, as test_primitive() finds it, on primitive `id` of type `Primitive`.
-/// `shape`: the primitive, the SphereLine of a sphere, or a rough ellipsoid or parallelepiped.
+/// `shape`: the primitive, the SphereLine of a sphere, the entry of a triangle, or a rough ellipsoid or parallelepiped.
 template <class Real, class Primitive, class From, class Shape>
 TANDEM_HD_INLINE HitInterval hit_interval_from(const From& source, std::uint32_t id, const QueryRay& ray,
                                                const Shape& shape) {

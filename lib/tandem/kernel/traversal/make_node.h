@@ -115,9 +115,14 @@ TANDEM_HD_INLINE Sphere sphere_around(const Quad& q) {
     return make_node_detail::sphere_to(centre(bounds(q)), q.v0, q.v1, q.v2, q.v3);
 }
 
+/// Whether the placements of a tree are in the order of its entries: BvhView::placed_by_entry.
+TANDEM_HD_INLINE bool placed_by_entry(const SceneView& scene) {
+    return scene.parallelepiped_count > 0 && scene.parallelepiped_count == primitive_count(scene);
+}
+
 /// The entry of a triangle in a tree of triangles alone.
 TANDEM_HD_INLINE EntryTriangle entry_triangle(const Triangle& t, std::uint32_t id) {
-    return {t.v0, t.v1, t.v2, id, t.attributes.sides, 0};
+    return {edges_of(t.v0, t.v1, t.v2), id, t.attributes.sides};
 }
 
 }  // namespace tandem

@@ -36,8 +36,8 @@ TANDEM_HD_INLINE Proposal<float> propose_quickly(const Ray<float>& ray, const St
     using namespace proposal_detail;
     const Vec3f& o = ray.origin;
     const Vec3f& d = ray.direction;
-    const float largest = greater(greater(absolute(d.x), absolute(d.y)), absolute(d.z));
-    const float out = greater(greater(absolute(o.x), absolute(o.y)), absolute(o.z));
+    const float largest = rough_greater(rough_greater(absolute(d.x), absolute(d.y)), absolute(d.z));
+    const float out = rough_greater(rough_greater(absolute(o.x), absolute(o.y)), absolute(o.z));
     const float limit = reach(frame.bounds);
     if (largest < least_length || out > near_by * limit) [[unlikely]] {
         return propose_slowly(ray, frame);
@@ -56,8 +56,8 @@ TANDEM_HD_INLINE Proposal<float> propose_quickly(const Ray<float>& ray, const St
         float near = -3e38F, far = 3e38F;
         const auto slab = [&](float lower, float upper, float origin, float over) {
             const float a = (lower - origin) * over, b = (upper - origin) * over;
-            near = greater(near, lesser(a, b));
-            far = lesser(far, greater(a, b));
+            near = rough_greater(near, rough_lesser(a, b));
+            far = rough_lesser(far, rough_greater(a, b));
         };
         slab(frame.bounds.lower.x, frame.bounds.upper.x, o.x, inverse.x);
         slab(frame.bounds.lower.y, frame.bounds.upper.y, o.y, inverse.y);
