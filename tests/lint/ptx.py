@@ -15,16 +15,22 @@ import subprocess
 import sys
 import tempfile
 
-from lint import FAST_TIER, Report
+from lint import FAST_KERNEL, FAST_TIER, Report
 
 # Exact operations; the compiler's own integer arithmetic uses .approx nowhere.
 FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|ftz)(?:\.\w+)*|fma\.r[nzmp]\.f32)\b", re.M)
 
 
 def units_of(source):
-    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone."""
+    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone.
+    Kernels that trace rays: the nearest hits of each tier, and the other queries of strict."""
     if source.name == "compiled_facts.cu":
         return []  # numbers
+    if source.name == "trace.cu":
+        asked = [("nearest", tier) for tier in ("strict", "precise", "fast")]
+        asked += [(ask, "strict") for ask in ("nearest_from_surface", "occluded")]
+        return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_ASK={ask}", f"-DTANDEM_TRACE_TIER={tier}"])
+                for ask, tier in asked]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
@@ -41,7 +47,7 @@ def main():
         shown = " ".join([name, *defines])
         with tempfile.TemporaryDirectory() as folder:
             ptx = pathlib.Path(folder, "out.ptx")
-            fast = FAST_TIER.match(name)
+            fast = FAST_TIER.match(name) or FAST_KERNEL.search(shown)
             exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
             result = subprocess.run(
                 [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines,
