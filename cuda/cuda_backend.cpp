@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -11,8 +13,10 @@
 #include "cuda/scene_kernels.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
+#include "tandem/film/plane_names.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/combined_backend.h"
 #include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/ray_coherence.h"
@@ -58,44 +62,56 @@ RenderCounters to_render_counters(const DeviceCounters& counters) {
     return result;
 }
 
+/// Where the pixels of a frame go: a window of a film.
+struct FilmPlace {
+    Film film;
+    FilmWindow window;
+    bool is_own = true;  ///< the film is that of the result
+};
+
 class CudaFrame final : public PendingFrame {
   public:
-    CudaFrame(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, RenderResult result)
-        : scene_(std::move(scene)), memory_(std::move(memory)), result_(std::move(result)) {}
+    CudaFrame(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, FilmPlace place,
+              RenderStats stats)
+        : scene_(std::move(scene)), memory_(std::move(memory)), place_(std::move(place)), stats_(std::move(stats)) {}
 
     /// Waits for the GPU, which may still be writing, before the memory returns to its pool.
     ~CudaFrame() override { (void)cudaEventSynchronize(memory_->download_end.get()); }
 
     RenderResult get() override {
         memory_->download_end.wait();
-        result_.stats.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
-        result_.stats.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
-        complete_planes(result_.film, dynamic_cast<const DeviceScene&>(*scene_).copies());
+        stats_.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
+        stats_.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
+        complete_planes(place_.film, place_.window, dynamic_cast<const DeviceScene&>(*scene_).copies());
         const DeviceCounters counters = read(memory_->counters_on_host);
-        result_.stats.counters += to_render_counters(counters);
-        if (result_.stats.effects.has_any(counted_ray_effects)) {
-            for (const auto rays : counters.rays) result_.stats.rays += rays;
+        stats_.counters += to_render_counters(counters);
+        if (stats_.effects.has_any(counted_ray_effects)) {
+            for (const auto rays : counters.rays) stats_.rays += rays;
         }
-        return std::move(result_);
+        return {place_.is_own ? std::move(place_.film) : Film(), std::move(stats_)};
     }
 
   private:
     std::shared_ptr<ResidentScene> scene_;  // its memory is being read
     std::shared_ptr<FrameMemory> memory_;
-    RenderResult result_;
+    FilmPlace place_;
+    RenderStats stats_;
 };
 
 class CudaBackend final : public Backend {
   public:
-    explicit CudaBackend(const BackendOptions& options)
-        : specialise_(options.specialise), culls_pixels_(options.culls_pixels) {
-        check(cudaSetDevice(0), "choosing the GPU");
-        check(cudaGetDeviceProperties(&properties_, 0), "reading the properties of the GPU");
+    /// On GPU number `gpu`.
+    CudaBackend(const BackendOptions& options, int gpu)
+        : gpu_(selected(gpu)), specialise_(options.specialise), culls_pixels_(options.culls_pixels) {
+        check(cudaGetDeviceProperties(&properties_, gpu_), "reading the properties of the GPU");
         kernels_.emplace(properties_.major * 10 + properties_.minor);
     }
 
     /// Waits for all work before the streams are destroyed.
-    ~CudaBackend() override { (void)cudaDeviceSynchronize(); }
+    ~CudaBackend() override {
+        (void)cudaSetDevice(gpu_);
+        (void)cudaDeviceSynchronize();
+    }
 
     [[nodiscard]] std::string name() const override { return "cuda"; }
 
@@ -105,14 +121,16 @@ class CudaBackend final : public Backend {
         check(cudaDriverGetVersion(&driver), "reading the driver's version");
         check(cudaRuntimeGetVersion(&runtime), "reading the runtime's version");
         const auto version = [](int v) { return fmt::format("{}.{}", v / 1000, v % 1000 / 10); };
-        return {.device = fmt::format("{}, {} multiprocessors, compute capability {}.{}", properties_.name,
-                                      properties_.multiProcessorCount, properties_.major, properties_.minor),
+        return {.device = fmt::format("{}, {} multiprocessors, compute capability {}.{}{}", properties_.name,
+                                      properties_.multiProcessorCount, properties_.major, properties_.minor,
+                                      gpu_ == 0 ? "" : fmt::format(", GPU {}", gpu_)),
                 .description = fmt::format("CUDA {}, driver for CUDA {}", version(runtime), version(driver)),
                 .exact = true};
     }
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         const DefaultFpEnvironment guard;
+        (void)selected(gpu_);
         if (scene.copies.empty()) return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_);
         auto result = std::make_shared<DeviceScene>(without_copies(scene), tier, scenes_->lease(), upload_);
         result->set_copies(scene.copies);
@@ -121,6 +139,7 @@ class CudaBackend final : public Backend {
 
     double trace(ResidentScene& scene, const TraceJob& job) override {
         const DefaultFpEnvironment guard;
+        (void)selected(gpu_);
         check(job);
         const auto& resident = dynamic_cast<const DeviceScene&>(scene);
         return trace_without_copies(resident.copies(), job,
@@ -131,6 +150,43 @@ class CudaBackend final : public Backend {
                                                        const RenderJob& job) override {
         const DefaultFpEnvironment guard;
         check(job, scene->tier());
+        const FilmWindow window = window_of(job);
+        Film film = make_film(window.width, window.height, job.samples, job.planes);
+        return start(std::move(scene), job, {std::move(film), {0, 0, window.width, window.height}}, compute());
+    }
+
+    /// Frames of parts take turns in two streams: when the last pixels of one leave multiprocessors idle, the next
+    /// frame has begun there.
+    [[nodiscard]] std::unique_ptr<PendingFrame> submit_to(Film film, int left, int top,
+                                                          std::shared_ptr<ResidentScene> scene,
+                                                          const RenderJob& job) override {
+        const DefaultFpEnvironment guard;
+        check(job, scene->tier());
+        const FilmWindow window = window_of(job);
+        if (left < 0 || top < 0 || window.width > film.width() - left || window.height > film.height() - top ||
+            film.plane_mask() != job.planes) {
+            throw InputError(
+                fmt::format("a window of {} x {} pixels at ({}, {}) with the planes '{}' does not fit a "
+                            "film of {} x {} with '{}'",
+                            window.width, window.height, left, top, to_string(job.planes), film.width(), film.height(),
+                            to_string(film.plane_mask())));
+        }
+        turn_ = (turn_ + 1) % computes_.size();
+        FilmPlace place{std::move(film), {left, top, window.width, window.height}, false};
+        return start(std::move(scene), job, std::move(place), computes_[turn_]);
+    }
+
+    [[nodiscard]] Film make_film(int width, int height, int samples, PlaneMask planes) override {
+        (void)selected(gpu_);
+        const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+        return {width, height, samples, film_memory(*films_, film_bytes(pixels, planes)), planes};
+    }
+
+  private:
+    /// Starts a frame on a stream, and the download of its film to its place.
+    [[nodiscard]] std::unique_ptr<PendingFrame> start(std::shared_ptr<ResidentScene> scene, const RenderJob& job,
+                                                      FilmPlace place, Stream& compute) {
+        (void)selected(gpu_);
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const FilmWindow window = window_of(job);
@@ -145,7 +201,6 @@ class CudaBackend final : public Backend {
         memory->one_sample.reserve(sample_bytes);
         memory->counters.reserve(counter_bytes);
         memory->counters_on_host.reserve(counter_bytes);
-        std::shared_ptr<Vec3d> sums = film_memory(*films_, bytes);
 
         // Select the kernel: linked for the scene, or compiled ahead of time
         const EffectMask effects = resident.effects();
@@ -157,77 +212,101 @@ class CudaBackend final : public Backend {
         }
         const SceneKernel& kernel =
             linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);
-        compute_.wait_for(resident.uploaded());
-        memory->render_start.record(compute_.get());
-        check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute_.get()), "clearing counters");
+        compute.wait_for(resident.uploaded());
+        memory->render_start.record(compute.get());
+        check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute.get()), "clearing counters");
         auto* device_sums = reinterpret_cast<Vec3d*>(memory->film.data());
         auto* counters = reinterpret_cast<DeviceCounters*>(memory->counters.data());
         const auto height = static_cast<std::uint32_t>(window.height);
         const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
         const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
-            launch_render(kernel, resident.view(), samples, height, culls_pixels_, sums, counters, compute_.get());
+            launch_render(kernel, resident.view(), samples, height, culls_pixels_, sums, counters, compute.get());
         };
         if (planes.variance != nullptr) {
-            draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance);
+            draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance, compute.get());
         } else {
             draw(pixel_job, device_sums);
         }
         if (job.planes.has_any(first_hit_planes)) {
             first_hits(job.tier)(resident.view(), first_hit_job(pixel_job, job.planes), height, planes, counters,
-                                 compute_.get());
+                                 compute.get());
         }
-        memory->render_end.record(compute_.get());
+        memory->render_end.record(compute.get());
 
         // Start the download
         download_.wait_for(memory->render_end);
         memory->download_start.record(download_.get());
-        check(cudaMemcpyAsync(sums.get(), memory->film.data(), bytes, cudaMemcpyDeviceToHost, download_.get()),
-              "downloading the film");
+        download_film(device_sums, pixels, place);
         check(cudaMemcpyAsync(memory->counters_on_host.data(), memory->counters.data(), counter_bytes,
                               cudaMemcpyDeviceToHost, download_.get()),
               "downloading counters");
         memory->download_end.record(download_.get());
 
         const KernelFacts facts = kernel_facts(kernel.code.function());
-        RenderResult result;
-        result.film = Film(window.width, window.height, job.samples, std::move(sums), job.planes);
-        if (!effects.has_any(counted_ray_effects)) result.stats.rays = pixels * pixel_job.samples;
-        result.stats.counters.dropped_primitives = resident.dropped_primitives();
-        result.stats.counters.dropped_lights = resident.dropped_lights();
-        result.stats.device_bytes = resident.bytes() + bytes + sample_bytes;
-        result.stats.registers = facts.registers;
-        result.stats.occupancy = facts.occupancy;
+        RenderStats stats;
+        if (!effects.has_any(counted_ray_effects)) stats.rays = pixels * pixel_job.samples;
+        stats.counters.dropped_primitives = resident.dropped_primitives();
+        stats.counters.dropped_lights = resident.dropped_lights();
+        stats.device_bytes = resident.bytes() + bytes + sample_bytes;
+        stats.registers = facts.registers;
+        stats.occupancy = facts.occupancy;
         static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
-        result.stats.effects = effects;
-        if (linked.kernel == nullptr) result.stats.carried = variants[variant].effects - effects - host_effects;
-        result.stats.seconds.compile = linked.seconds;
-        result.stats.warning = std::move(linked.warning);
-        result.stats.variant = fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
-                                           structure_names[static_cast<int>(structure_of(resident.view()))],
-                                           linked.kernel != nullptr ? "for the scene" : variants[variant].name);
-        return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(result));
+        stats.effects = effects;
+        if (linked.kernel == nullptr) stats.carried = variants[variant].effects - effects - host_effects;
+        stats.seconds.compile = linked.seconds;
+        stats.warning = std::move(linked.warning);
+        stats.variant = fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
+                                    structure_names[static_cast<int>(structure_of(resident.view()))],
+                                    linked.kernel != nullptr ? "for the scene" : variants[variant].name);
+        return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(place), std::move(stats));
     }
 
-  private:
+    /// Starts the download of sums and planes. What is a whole film is one copy.
+    void download_film(Vec3d* sums, std::size_t pixels, FilmPlace& place) {
+        const FilmWindow& window = place.window;
+        Film& film = place.film;
+        if (pixels == film.pixel_count()) {
+            check(cudaMemcpyAsync(film.sums().data(), sums, film_bytes(pixels, film.plane_mask()),
+                                  cudaMemcpyDeviceToHost, download_.get()),
+                  "downloading the film");
+            return;
+        }
+        const auto width = static_cast<std::size_t>(window.width), film_width = static_cast<std::size_t>(film.width());
+        const std::size_t first =
+            static_cast<std::size_t>(window.top) * film_width + static_cast<std::size_t>(window.left);
+        const auto copy = [&](auto* to, const auto* from) {
+            check(cudaMemcpy2DAsync(to + first, film_width * sizeof(*to), from, width * sizeof(*from),
+                                    width * sizeof(*from), static_cast<std::size_t>(window.height),
+                                    cudaMemcpyDeviceToHost, download_.get()),
+                  "downloading a part of the film");
+        };
+        const FilmPlanes to = film.planes(), from = planes_in(sums, pixels, film.plane_mask());
+        copy(film.sums().data(), sums);
+#define TANDEM_PLANE(name, Value, rule, channels, help) \
+    if (to.name != nullptr) copy(to.name, from.name);
+#include "tandem/film/planes.def"
+#undef TANDEM_PLANE
+    }
+
     /// Starts the samples one by one, so that their squares can be added; draw(job, film) starts those of a job. The
     /// sums have the same bits as from one kernel for all samples.
     template <class Draw>
-    void draw_one_by_one(const PixelJob& job, Draw draw, const FrameMemory& memory, std::size_t pixels,
-                         Vec3d* squares) {
+    static void draw_one_by_one(const PixelJob& job, Draw draw, const FrameMemory& memory, std::size_t pixels,
+                                Vec3d* squares, cudaStream_t stream) {
         auto* sums = reinterpret_cast<Vec3d*>(memory.film.data());
         auto* sample = reinterpret_cast<Vec3d*>(memory.one_sample.data());
         for (Vec3d* zeros : {sums, squares}) {
-            check(cudaMemsetAsync(zeros, 0, pixels * sizeof(Vec3d), compute_.get()), "clearing sums");
+            check(cudaMemsetAsync(zeros, 0, pixels * sizeof(Vec3d), stream), "clearing sums");
         }
         PixelJob one = job;
         one.samples = 1;
         for (std::uint32_t i = 0; i < job.samples; ++i) {
             one.first_sample = job.first_sample + i;
             check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_in_queue), 0,
-                                  sizeof(DeviceCounters::next_in_queue), compute_.get()),
+                                  sizeof(DeviceCounters::next_in_queue), stream),
                   "resetting the queue of pixels");
             draw(one, sample);
-            add_samples(sample, sums, squares, pixels, compute_.get());
+            add_samples(sample, sums, squares, pixels, stream);
         }
     }
 
@@ -237,11 +316,12 @@ class CudaBackend final : public Backend {
             job.coherence == Coherence::unknown ? are_coherent(job.rays, size) : job.coherence == Coherence::coherent;
         const std::uint32_t row = row_length(job.rays, size);
         if (may_refill(resident.view(), coherent)) candidates_.reserve(job.rays.size() * candidate_bytes);
+        const cudaStream_t stream = compute().get();
         hits_.reserve(job.hits.size_bytes());
         wide_t_.reserve(job.wide_t.size_bytes());
         counters_.reserve(sizeof(DeviceCounters));
         counters_on_host_.reserve(sizeof(DeviceCounters));
-        compute_.wait_for(resident.uploaded());
+        compute().wait_for(resident.uploaded());
         const DeviceRays rays = {.rays = upload(job.rays, rays_),
                                  .sources = upload(job.sources, sources_),
                                  .ends = upload(job.ends, ends_),
@@ -253,19 +333,27 @@ class CudaBackend final : public Backend {
                                  .are_coherent = coherent,
                                  .row = row,
                                  .tiled = row == 0 ? 0 : job.rays.size() / row / 4 * 4 * row};
-        check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), compute_.get()), "clearing counters");
-        trace_start_.record(compute_.get());
-        trace_kernels(resident.tier(), ask_of(rays))(resident.view(), rays, compute_.get());
-        trace_end_.record(compute_.get());
+        check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), stream), "clearing counters");
+        trace_start_.record(stream);
+        trace_kernels(resident.tier(), ask_of(rays))(resident.view(), rays, stream);
+        trace_end_.record(stream);
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);
         check(cudaMemcpyAsync(counters_on_host_.data(), counters_.data(), sizeof(DeviceCounters),
-                              cudaMemcpyDeviceToHost, compute_.get()),
+                              cudaMemcpyDeviceToHost, stream),
               "downloading counters");
-        check(cudaStreamSynchronize(compute_.get()), "tracing rays");
+        check(cudaStreamSynchronize(stream), "tracing rays");
         if (job.counters != nullptr) *job.counters += to_render_counters(read(counters_on_host_));
         return seconds_between(trace_start_, trace_end_);
     }
+
+    /// Makes a GPU the current one of this thread: allocations, kernels and events go there. Returns its number.
+    static int selected(int gpu) {
+        check(cudaSetDevice(gpu), "choosing the GPU");
+        return gpu;
+    }
+    /// The stream of whole frames and of rays.
+    Stream& compute() { return computes_.front(); }
 
     static void check(cudaError_t code, const char* doing) { cuda::check(code, doing); }
     static void check(const TraceJob& job) { tandem::check(job); }
@@ -276,7 +364,7 @@ class CudaBackend final : public Backend {
     const T* upload(std::span<const T> from, Buffer<DeviceMemory>& to) {
         if (from.empty()) return nullptr;
         to.reserve(from.size_bytes());
-        check(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, compute_.get()),
+        check(cudaMemcpyAsync(to.data(), from.data(), from.size_bytes(), cudaMemcpyHostToDevice, compute().get()),
               "uploading rays");
         return reinterpret_cast<const T*>(to.data());
     }
@@ -285,15 +373,18 @@ class CudaBackend final : public Backend {
     template <class T>
     void download(std::span<T> to, const Buffer<DeviceMemory>& from) {
         if (to.empty()) return;
-        check(cudaMemcpyAsync(to.data(), from.data(), to.size_bytes(), cudaMemcpyDeviceToHost, compute_.get()),
+        check(cudaMemcpyAsync(to.data(), from.data(), to.size_bytes(), cudaMemcpyDeviceToHost, compute().get()),
               "downloading hits");
     }
 
+    int gpu_;  ///< CUDA's number; chosen before the members below are made there
     Specialise specialise_;
     bool culls_pixels_;
     std::optional<SceneKernels> kernels_;
     cudaDeviceProp properties_{};
-    Stream upload_, compute_, download_;
+    Stream upload_, download_;
+    std::array<Stream, 2> computes_;
+    std::size_t turn_ = 0;  ///< the stream that submit_to() took last
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
     std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
     std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
@@ -314,8 +405,32 @@ std::string why_cuda_unavailable() {
     return count > 0 ? "" : "there is no CUDA GPU";
 }
 
+std::vector<std::string> cuda_gpu_names() {
+    int count = 0;
+    check(cudaGetDeviceCount(&count), "counting the GPUs");
+    std::vector<std::string> names;
+    for (int gpu = 0; gpu < count; ++gpu) {
+        cudaDeviceProp properties{};
+        check(cudaGetDeviceProperties(&properties, gpu), "reading the properties of a GPU");
+        names.emplace_back(properties.name);
+    }
+    return names;
+}
+
 std::unique_ptr<Backend> make_cuda_backend(const BackendOptions& options) {
-    return std::make_unique<CudaBackend>(options);
+    if (options.gpus == GpuChoice{}) return std::make_unique<CudaBackend>(options, 0);
+    const std::vector<int> gpus = chosen_gpus(options.gpus, cuda_gpu_names());
+    if (gpus.size() == 1) return std::make_unique<CudaBackend>(options, gpus.front());
+    std::vector<CombinedMember> members;
+    for (const int gpu : gpus) {
+        const std::string name = fmt::format("GPU {}", gpu);
+        try {
+            members.push_back({name, std::make_unique<CudaBackend>(options, gpu)});
+        } catch (const EnvironmentError& error) {
+            throw EnvironmentError(fmt::format("{}: {}; leave it out with --gpus", name, error.what()));
+        }
+    }
+    return make_combined_backend(std::move(members), {.report = options.report});
 }
 
 }  // namespace tandem

@@ -46,7 +46,8 @@ void* FilmMemory::allocate(std::size_t bytes) {
     if (!memory) throw std::bad_alloc();
     (void)::madvise(memory.get(), rounded, MADV_HUGEPAGE);  // without large pages it takes longer, and that is all
     touch_pages(memory.get(), rounded);
-    check(cudaHostRegister(memory.get(), rounded, cudaHostRegisterDefault), "locking the memory of a film");
+    // portable: for all GPUs, which may fill parts of one film
+    check(cudaHostRegister(memory.get(), rounded, cudaHostRegisterPortable), "locking the memory of a film");
     return memory.release();
 }
 

@@ -11,7 +11,7 @@
 
 namespace tandem::cuda {
 
-/// Code that is loaded, for the device that is current, and its kernel.
+/// Code that is loaded, and its kernel. Its functions use the GPU that is current.
 class LoadedCode {
   public:
     /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the code.

@@ -36,7 +36,7 @@ struct SceneKernel {
 
 class SceneKernels {
   public:
-    /// Uses the user's cache (kernel_cache_folder()).
+    /// For one GPU. Uses the user's cache (kernel_cache_folder()).
     explicit SceneKernels(int architecture);
 
     struct Found {

@@ -1,5 +1,6 @@
 #include "cuda/specialise.h"
 
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +29,9 @@ std::string cache_key(const JitInput& input, const std::string& version) {
 Specialised specialise(const JitInput& input, const KernelCache& cache) {
     const Stopwatch watch;
     const std::string key = cache_key(input, jit_version());
+    // several GPUs want the same kernel at once: one links it, the others find it in the cache
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     KernelCache::Found found = cache.find(key);
     Specialised result;
     result.cache_problem = std::move(found.problem);

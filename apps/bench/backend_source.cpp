@@ -6,6 +6,8 @@
 
 namespace tandem::bench {
 
+std::string gpus_in_words(int count) { return fmt::format("{} GPU{}", count, count == 1 ? "" : "s"); }
+
 std::vector<std::string> available_backends(const BackendSource& source, const std::vector<std::string>& names,
                                             Report& report) {
     std::vector<std::string> available;
@@ -22,8 +24,10 @@ std::vector<std::string> available_backends(const BackendSource& source, const s
 
 void describe_backend(const Backend& backend, Report& report) {
     const Capabilities capabilities = backend.capabilities();
+    const std::size_t members = capabilities.members.size();
+    const std::string together = members == 0 ? "" : fmt::format(", {} member{}", members, members == 1 ? "" : "s");
     const std::pair<std::string, std::string> fact = {
-        "Backend " + backend.name(), fmt::format("{}; {}", capabilities.device, capabilities.description)};
+        "Backend " + backend.name() + together, fmt::format("{}; {}", capabilities.device, capabilities.description)};
     auto& more = report.machine.more;
     if (std::find(more.begin(), more.end(), fact) == more.end()) more.push_back(fact);
 }

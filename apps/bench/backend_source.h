@@ -15,7 +15,11 @@ struct BackendSource {
     std::function<std::string(const std::string& name)> why_unavailable = tandem::why_unavailable;
     std::function<std::unique_ptr<Backend>(const std::string& name, const BackendOptions& options)> make =
         tandem::make_backend;
+    std::function<int()> gpu_count = [] { return static_cast<int>(gpu_names().size()); };
 };
+
+/// "1 GPU", "2 GPUs".
+[[nodiscard]] std::string gpus_in_words(int count);
 
 /// The backends among `names` that can run here. A note in `report` names each of the others, with the reason.
 [[nodiscard]] std::vector<std::string> available_backends(const BackendSource& source,

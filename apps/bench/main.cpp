@@ -251,7 +251,15 @@ CLI::App* add_effects(CLI::App& app, Everything& all) {
 
 CLI::App* add_scale(CLI::App& app, Everything& all) {
     CLI::App* command =
-        app.add_subcommand("scale", "Measure how times grow with the number of primitives and of threads");
+        app.add_subcommand("scale", "Measure how times depend on the numbers of primitives, threads and GPUs");
+    command
+        ->add_option(
+            "--parts", all.scale.parts,
+            "Parts of the report: rays (builds and rays by the number of primitives) and frames (by the number "
+            "of GPUs)")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::IsMember({"rays", "frames"}));
     command->add_option("--kinds", all.scale.kinds, "Kinds of named scenes: spheres, boxes, triangles, quads, mixed")
         ->delimiter(',')
         ->capture_default_str();
@@ -268,6 +276,16 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
         ->delimiter(',')
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
+    command
+        ->add_option("--gpus", all.scale.gpus,
+                     "Numbers of GPUs to measure, together as one backend; 0 is 1, 2 and so on to all")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--scenes", all.scale.scenes, "Scenes of the frames: glTF files or named:NAME")
+        ->delimiter(',')
+        ->capture_default_str();
+    add_picture_options(*command, all.texts, all.scale);
     command->add_option("--tier", all.scale.tier, "Accuracy tier: fast, strict or precise")->capture_default_str();
     command->add_option("--ray-edge", all.scale.ray_edge, "Rays per side of a square: trace this number squared")
         ->capture_default_str()
@@ -392,6 +410,7 @@ int run(int count, char** words) {
         take_texts(all.texts, all.effects);
         satisfied = run_effects(all.effects, source, report);
     } else if (scale->parsed()) {
+        take_texts(all.texts, all.scale);
         satisfied = run_scale(all.scale, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
+#include "gpu_scale.h"
 #include "output.h"
 #include "ray_sets.h"
 #include "second_rays.h"
@@ -24,22 +26,32 @@ namespace {
 /// From this number on growth is judged: with fewer primitives the set-up of a ray dominates.
 constexpr double first_judged = 1000;
 
-/// A backend with a number of threads; one line of every plot.
+/// A backend with a number of threads or GPUs; one line of every plot.
 struct ScaleContender {
     std::string name, label;
     int threads;
+    int gpus;  ///< 0 for a CPU
     std::unique_ptr<Backend> backend;
 };
 
 std::vector<ScaleContender> make_contenders(const ScaleOptions& options, const BackendSource& source, Report& report) {
     std::vector<ScaleContender> contenders;
     for (const std::string& name : available_backends(source, options.backends, report)) {
-        const bool has_threads = name != "cuda";
-        for (const int threads : has_threads ? options.threads : std::vector<int>{0}) {
+        const auto add = [&](const std::string& suffix, int threads, int gpus, const BackendOptions& made) {
+            contenders.push_back({name, name + suffix, threads, gpus, source.make(name, made)});
+            describe_backend(*contenders.back().backend, report);
+        };
+        if (name == "cuda") {
+            for (const int gpus : numbers_of_gpus(options.gpus, source)) {
+                add(options.gpus == std::vector<int>{1} ? "" : ", " + gpus_in_words(gpus), 0, gpus,
+                    {.gpus = {.count = gpus}});
+            }
+            continue;
+        }
+        for (const int threads : options.threads) {
             const std::string suffix =
                 threads == 0 ? "" : fmt::format(", {} thread{}", threads, threads == 1 ? "" : "s");
-            contenders.push_back({name, name + suffix, threads, source.make(name, {threads, 16, {}})});
-            describe_backend(*contenders.back().backend, report);
+            add(suffix, threads, 0, {.threads = threads});
         }
     }
     if (contenders.empty()) throw EnvironmentError("none of the backends can run here");
@@ -83,6 +95,7 @@ class KindScale {
         report_.blocks.emplace_back(plot_of(kind_ + ": rays per second", "rays/s", rates_));
         report_.blocks.emplace_back(plot_of(kind_ + ": build", "seconds", builds_));
         add_growth();
+        add_gpus();
         return differing_;
     }
 
@@ -120,6 +133,7 @@ class KindScale {
                 const std::string line = contender.label + ", " + set;
                 rates_[line].push_back({count, rays_per_second(row)});
                 times_[line].push_back({count, row.rays / rays_per_second(row)});
+                if (contender.gpus > 0) by_gpus_[set][contender.gpus] = rays_per_second(row);
                 report_.rows.push_back(std::move(row));
             }
             table_.rows.push_back(std::move(cells));
@@ -150,6 +164,7 @@ class KindScale {
         row.tier = options_.tier;
         row.threads = contender.threads;
         row.rays = static_cast<double>(options_.ray_edge) * options_.ray_edge;
+        if (contender.gpus > 0) row.figures.emplace_back("gpus", contender.gpus);
         return row;
     }
 
@@ -172,12 +187,37 @@ class KindScale {
         if (!growth.rows.empty()) report_.blocks.emplace_back(std::move(growth));
     }
 
+    /// The rates in the scene with the most primitives, by number of GPUs.
+    void add_gpus() {
+        Table table{
+            fmt::format("{} in the largest scene by number of GPUs. Efficiency: the rate over the number of GPUs "
+                        "and the rate of one",
+                        kind_),
+            {{"Rays"}, {"GPUs", true}, {"Rays/s", true}, {"Efficiency", true}},
+            {}};
+        LinePlot plot{kind_ + ": rays per second by number of GPUs", {"GPUs", true}, {"rays/s", true}, {}, {}};
+        for (const auto& [set, rates] : by_gpus_) {
+            Line line{set, {}};
+            for (const auto& [gpus, rate] : rates) {
+                const bool has_one = rates.contains(1);
+                table.rows.push_back({set, std::to_string(gpus), format_count(rate),
+                                      has_one ? format_number(rate / (gpus * rates.at(1))) : ""});
+                line.points.push_back({static_cast<double>(gpus), rate});
+            }
+            if (line.points.size() > 1) plot.lines.push_back(std::move(line));
+        }
+        if (plot.lines.empty()) return;
+        report_.blocks.emplace_back(std::move(table));
+        report_.blocks.emplace_back(std::move(plot));
+    }
+
     const ScaleOptions& options_;
     std::string kind_;
     std::vector<ScaleContender>& contenders_;
     Report& report_;
     Table table_;
     Lines rates_, times_, builds_;
+    std::map<std::string, std::map<int, double>> by_gpus_;  ///< rates by set of rays, of the last scene
     std::size_t differing_ = 0;
 };
 
@@ -201,7 +241,20 @@ double growth_over_log(const std::vector<Point>& times) {
     return most;
 }
 
-bool run_scale(const ScaleOptions& options, const BackendSource& source, Report& report) {
+std::vector<int> numbers_of_gpus(const std::vector<int>& wanted, const BackendSource& source) {
+    std::set<int> numbers;
+    for (const int number : wanted) {
+        if (number < 0) throw InputError(fmt::format("--gpus: {} is no number of GPUs", number));
+        if (number > 0) numbers.insert(number);
+        for (int i = 1; number == 0 && i <= source.gpu_count(); ++i) numbers.insert(i);
+    }
+    return {numbers.begin(), numbers.end()};
+}
+
+namespace {
+
+/// Builds and traces the scenes. True if all hits are equal, or need not be.
+bool run_rays(const ScaleOptions& options, const BackendSource& source, Report& report) {
     if (!(options.least >= 1) || !(options.most >= options.least)) {
         throw InputError(
             "--from and --to must be numbers of primitives, the first at least 1 and not above the second");
@@ -209,9 +262,6 @@ bool run_scale(const ScaleOptions& options, const BackendSource& source, Report&
     for (const std::string& set : options.rays) {
         if (set != "bounce" && set != "shadow") (void)parse_ray_set(set);
     }
-    report.title = "Scale";
-    report.summary = fmt::format("Times of {} from {:.0f} to {:.0f} primitives, tier {}.",
-                                 fmt::join(options.kinds, ", "), options.least, options.most, options.tier);
     std::vector<ScaleContender> contenders = make_contenders(options, source, report);
     std::size_t differing = 0;
     for (const std::string& kind : options.kinds) differing += KindScale(options, kind, contenders, report).run();
@@ -230,6 +280,32 @@ bool run_scale(const ScaleOptions& options, const BackendSource& source, Report&
                                                  fmt::format("{} hits differ between backends.", differing)});
     }
     return differing == 0 || !must_agree;
+}
+
+}  // namespace
+
+bool run_scale(const ScaleOptions& options, const BackendSource& source, Report& report) {
+    const auto has = [&](const char* part) {
+        return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
+    };
+    report.title = "Scale";
+    bool holds = true;
+    if (has("rays")) {
+        report.summary = fmt::format("Times of {} from {:.0f} to {:.0f} primitives, tier {}.",
+                                     fmt::join(options.kinds, ", "), options.least, options.most, options.tier);
+        holds = run_rays(options, source, report);
+    }
+    if (has("frames")) {
+        const std::vector<int> gpus = numbers_of_gpus(options.gpus, source);
+        report.summary += fmt::format("{}Frames of {} by number of GPUs, tier {}.", report.summary.empty() ? "" : " ",
+                                      fmt::join(options.scenes, ", "), options.tier);
+        const std::string reason = source.why_unavailable("cuda");
+        if (!reason.empty())
+            throw EnvironmentError(fmt::format("frames by number of GPUs cannot be measured: {}", reason));
+        const GpuScaleOptions frames{{}, gpus, options.size, options.samples, options.tier, options.repetitions};
+        holds = run_gpu_scale(frames, options.scenes, source, report) && holds;
+    }
+    return holds;
 }
 
 }  // namespace tandem::bench

@@ -11,6 +11,7 @@
 
 #include "baseline/naive_renderer.h"
 #include "frame_timing.h"
+#include "gpu_scale.h"
 #include "output.h"
 #include "second_rays.h"
 #include "sequence.h"
@@ -31,7 +32,7 @@ constexpr const char* ten_million_spheres = "named:spheres/10000000";
 /// A target: what it needs and how it is measured.
 struct Target {
     TargetResult description;
-    bool needs_gpu = false;
+    int needed_gpus = 0;
     std::function<void(class TargetRun&, TargetResult&)> measure;
 };
 
@@ -141,6 +142,23 @@ class TargetRun {
         result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
     }
 
+    /// The least efficiency of several GPUs among two scenes.
+    void gpu_scale(TargetResult& result, int gpus) {
+        GpuScaleOptions options{
+            {}, {gpus}, options_.scale_size, options_.scale_samples, "strict", options_.repetitions};
+        Ratio least;
+        for (const char* scene : {"named:paper", million_spheres}) {
+            options.scene = scene;
+            GpuScale scale = time_gpus(options, source_, report_);
+            add_rows({scale.in_bands});
+            for (const GpuScaleStep& step : scale.steps) add_rows({step.row});
+            const Ratio& efficiency = scale.steps.back().efficiency;
+            if (least.pairs == 0 || efficiency.value < least.value) least = efficiency;
+        }
+        finish(result, least);
+        result.shown = format_ratio(least);
+    }
+
     /// Share of the animation's wall-clock time that is kernel time.
     void render_share(TargetResult& result) {
         const std::unique_ptr<Backend> gpu = make("cuda", {});
@@ -241,14 +259,14 @@ class TargetRun {
 
 std::string command_of(const std::string& id) { return "tandem-bench targets --only " + id; }
 
-Target target(const std::string& id, const std::string& statement, double required, bool needs_gpu,
+Target target(const std::string& id, const std::string& statement, double required, int needed_gpus,
               std::function<void(TargetRun&, TargetResult&)> measure) {
     Target made;
     made.description.id = id;
     made.description.statement = statement;
     made.description.required = required;
     made.description.command = command_of(id);
-    made.needs_gpu = needs_gpu;
+    made.needed_gpus = needed_gpus;
     made.measure = std::move(measure);
     return made;
 }
@@ -286,35 +304,34 @@ std::vector<Target> all_targets(int cores) {
             fmt::format("Paper's scene, GPU, {}, kernel time: at least {} times the sample rate of the naive kernel, "
                         "which has the scene in its code",
                         to_string(tier), rate),
-            rate, true, [tier](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, tier, true); }));
+            rate, 1, [tier](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, tier, true); }));
     }
     targets.push_back(target(
         "gpu-paper-unculled",
         "The same in strict, where each pixel tests all primitives, as the naive kernel does: at least 0.8 times", 0.8,
-        true, [](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, Tier::strict, false); }));
+        1, [](TargetRun& run, TargetResult& result) { run.gpu_kernel(result, Tier::strict, false); }));
     for (const int threads : thread_counts(cores)) {
         const char* plural = threads == 1 ? "" : "s";
-        targets.push_back(
-            target(fmt::format("cpu-paper-{}", threads),
-                   fmt::format("Paper's scene, CPU, {} thread{}: at least 0.5 times the naive loops with -O3", threads,
-                               plural),
-                   0.5, false,
-                   [threads](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o3, threads); }));
+        targets.push_back(target(
+            fmt::format("cpu-paper-{}", threads),
+            fmt::format("Paper's scene, CPU, {} thread{}: at least 0.5 times the naive loops with -O3", threads,
+                        plural),
+            0.5, 0, [threads](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o3, threads); }));
     }
     targets.push_back(target(
         "cpu-paper-o0",
         fmt::format("Paper's scene, CPU, one thread per core ({}): at least 4 times the naive loops with -O0", cores),
-        4, false, [cores](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o0, cores); }));
+        4, 0, [cores](TargetRun& run, TargetResult& result) { run.cpu_against(result, naive_o0, cores); }));
     targets.push_back(target("cpu-rays-coherent", "A million spheres, CPU, coherent rays: at least 2 times raw Embree",
-                             2, false, [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::coherent); }));
+                             2, 0, [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::coherent); }));
     targets.push_back(target("cpu-rays-random", "A million spheres, CPU, random rays: at least 1 times raw Embree", 1,
-                             false, [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::random); }));
+                             0, [](TargetRun& run, TargetResult& r) { run.cpu_rays(r, RaySet::random); }));
     for (const GpuRays& rays : gpu_rays) {
         const auto add = [&](RaySet set, double rate) {
             targets.push_back(
                 target(fmt::format("gpu-rays-{}{}", to_string(set), rays.suffix),
                        fmt::format("{}, GPU (H200), {} rays: at least {} G rays/s", rays.what, to_string(set), rate),
-                       rate * 1e9, true,
+                       rate * 1e9, 1,
                        [&rays, set](TargetRun& run, TargetResult& result) { run.gpu_rays(result, rays.scene, set); }));
         };
         add(RaySet::coherent, rays.coherent);
@@ -322,17 +339,25 @@ std::vector<Target> all_targets(int cores) {
         targets.push_back(target(fmt::format("gpu-fast-random{}", rays.suffix),
                                  fmt::format("{}, GPU, random rays: fast at most {} times as fast as strict", rays.what,
                                              rays.fast_over_strict),
-                                 rays.fast_over_strict, true, [&rays](TargetRun& run, TargetResult& result) {
+                                 rays.fast_over_strict, 1, [&rays](TargetRun& run, TargetResult& result) {
                                      run.price_of_strict(result, rays.scene);
                                  }));
     }
     targets.push_back(target("gpu-rays-shadow", "A million spheres, GPU (H200), shadow rays: at least 3 G rays/s", 3e9,
-                             true, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));
-    targets.push_back(target("gpu-build", "Ten million spheres, GPU (H200), build: at least 1 G spheres/s", 1e9, true,
+                             1, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));
+    targets.push_back(target("gpu-build", "Ten million spheres, GPU (H200), build: at least 1 G spheres/s", 1e9, 1,
                              [](TargetRun& run, TargetResult& result) { run.gpu_build(result); }));
     targets.push_back(target(
         "gpu-share", "Paper's animation on the GPU with PNG files: at least 95 % of the wall-clock time is kernel time",
-        least_render_share, true, [](TargetRun& run, TargetResult& result) { run.render_share(result); }));
+        least_render_share, 1, [](TargetRun& run, TargetResult& result) { run.render_share(result); }));
+    for (const auto& [gpus, efficiency] : {std::pair{2, 0.95}, std::pair{4, 0.9}}) {
+        targets.push_back(target(fmt::format("gpu-scale-{}", gpus),
+                                 fmt::format("4K frames of the paper's scene and of a million spheres, 64 samples, "
+                                             "strict, {} GPUs: efficiency at least {}",
+                                             gpus, efficiency),
+                                 efficiency, gpus,
+                                 [gpus](TargetRun& run, TargetResult& result) { run.gpu_scale(result, gpus); }));
+    }
     return targets;
 }
 
@@ -407,8 +432,11 @@ bool run_targets(const TargetOptions& options, const BackendSource& source, Repo
             std::find(options.only.begin(), options.only.end(), result.id) == options.only.end()) {
             continue;
         }
-        if (one.needs_gpu && !no_gpu.empty()) {
+        if (one.needed_gpus > 0 && !no_gpu.empty()) {
             result.why_not = "no GPU: " + no_gpu;
+        } else if (one.needed_gpus > 1 && source.gpu_count() < one.needed_gpus) {
+            const int there = source.gpu_count();
+            result.why_not = "not run: " + (there == 1 ? "one GPU" : gpus_in_words(there));
         } else {
             log_progress("targets: " + result.id);
             one.measure(run, result);

@@ -14,7 +14,9 @@ struct TargetOptions {
     std::vector<std::string> only;  ///< ids; empty means all
     FilmSize size{1000, 900};
     int samples = 100;
-    FrameRange frames{0, 119};  ///< of the animation whose wall-clock time is measured
+    FrameRange frames{0, 119};        ///< of the animation whose wall-clock time is measured
+    FilmSize scale_size{3840, 2160};  ///< of the frames that several GPUs share
+    int scale_samples = 64;
     int ray_edge = 2048;
     int repetitions = 7;
     std::string folder = "out/targets";  ///< for the images of the animation

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "common/arguments.h"
+#include "common/choose_gpus.h"
 #include "common/run_main.h"
 #include "render/interrupt.h"
 #include "render/plan_command.h"
@@ -39,6 +40,7 @@ struct Words {
     std::string light = "default";
     SceneSource source;
     std::string backend = "cpu";
+    std::string gpus;  // empty: as the backend's name says, else the first
     std::string specialise = "always";
     CheckpointOptions checkpoint;  // no file: none
     double target_error = 0;       // 0: none
@@ -188,7 +190,13 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
     app.add_flag("--indirect", words.source.indirect,
                  "simulate indirect light instead of ambient light, even if the file does not ask for it");
     // How to render
-    app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle")->capture_default_str();
+    app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle; cuda:1 is the GPU of that number")
+        ->capture_default_str();
+    app.add_option(
+           "--gpus", words.gpus,
+           "GPUs of the backend cuda that share each frame: all, how many, or a list of numbers such as 0,1; one "
+           "if not given")
+        ->type_name("all|N|LIST");
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
     app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
         ->check(CLI::Range(0, 4096))
@@ -283,6 +291,7 @@ int render(int argc, char** argv) {
     if (!words.plan) check_output(sequence);
     if (!command.quiet && !words.plan) print_ignored_display_options(sequence);
     backend_options.specialise = parse_specialise(words.specialise);
+    choose_gpus(backend_options, words.gpus, "tandem-render");
     const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     if (words.plan) return run_plan(command, scene, *backend);
     return run_render(command, scene, *backend, interrupted);

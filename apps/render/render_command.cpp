@@ -78,6 +78,20 @@ bool is_short(const FrameRecord& record, const SequenceOptions& options) {
     return options.target && options.target->error > 0 && record.metadata.stopped_by != to_string(StoppedBy::target);
 }
 
+/// What each of several processors has done.
+nlohmann::ordered_json members_json(const Capabilities& capabilities) {
+    double all = 0;
+    for (const MemberWork& work : capabilities.members) all += static_cast<double>(work.samples);
+    nlohmann::ordered_json members = nlohmann::ordered_json::array();
+    for (const MemberWork& work : capabilities.members) {
+        nlohmann::ordered_json member = {{"name", work.name}, {"device", work.device}, {"samples", work.samples}};
+        member["share"] = all > 0 ? static_cast<double>(work.samples) / all : 0;
+        if (!work.failure.empty()) member["failure"] = work.failure;
+        members.push_back(std::move(member));
+    }
+    return members;
+}
+
 }  // namespace
 
 int run_render(const RenderCommand& command, const Scene& scene, Backend& backend,
@@ -115,15 +129,13 @@ int run_render(const RenderCommand& command, const Scene& scene, Backend& backen
     if (keeps_records) {
         const Capabilities capabilities = backend.capabilities();
         const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-        write_json(command.json, {{"program", "tandem-render"},
-                                  {"version", version()},
-                                  {"scene", command.scene},
-                                  {"backend", backend.name()},
-                                  {"device", capabilities.device},
-                                  {"description", capabilities.description},
-                                  {"wall_seconds", wall.count()},
-                                  {"interrupted", stopped},
-                                  {"frames", std::move(frames)}});
+        nlohmann::ordered_json report = {{"program", "tandem-render"},    {"version", version()},
+                                         {"scene", command.scene},        {"backend", backend.name()},
+                                         {"device", capabilities.device}, {"description", capabilities.description},
+                                         {"wall_seconds", wall.count()},  {"interrupted", stopped}};
+        if (!capabilities.members.empty()) report["members"] = members_json(capabilities);
+        report["frames"] = std::move(frames);
+        write_json(command.json, report);
     }
     if (!stopped) return falls_short ? exit_short_of_target : exit_done;
     print_how_to_resume(command, done, total);

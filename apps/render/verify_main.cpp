@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "common/choose_gpus.h"
 #include "common/run_main.h"
 #include "render/verify_command.h"
 #include "tandem/backends/make_backend.h"
@@ -17,7 +18,7 @@ int verify(int argc, char** argv) {
         "tandem-render verify");
     VerifyCommand command;
     BackendOptions backend_options;
-    std::string backend = "cpu";
+    std::string backend = "cpu", gpus;
     bool all = false;
     app.add_option("IMAGE", command.image, "image that tandem-render wrote")->required();
     app.add_option("SCENE", command.scene, "its scene, if it is not where the image says")->capture_default_str();
@@ -29,7 +30,10 @@ int verify(int argc, char** argv) {
     app.add_flag("--all", all, "draw every tile, and check the hash of the film")->excludes(tiles);
     auto* const pick = app.add_option("--pick", command.how.seed, "seed of the choice of tiles; random by default")
                            ->check(CLI::NonNegativeNumber);
-    app.add_option("--backend", backend, "backend: cpu, cuda or oracle")->capture_default_str();
+    app.add_option("--backend", backend, "backend: cpu, cuda or oracle; cuda:1 is the GPU of that number")
+        ->capture_default_str();
+    app.add_option("--gpus", gpus, "GPUs of the backend cuda: all, how many, or a list of numbers such as 0,1")
+        ->type_name("all|N|LIST");
     app.add_option("--threads", backend_options.threads, "threads of the CPU backends; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
@@ -41,6 +45,7 @@ int verify(int argc, char** argv) {
     }
     if (all) command.how.tiles = std::numeric_limits<std::size_t>::max();
     if (pick->empty()) command.how.seed = std::random_device{}();
+    choose_gpus(backend_options, gpus, "tandem-render");
     return run_verify(command, *make_backend(backend, backend_options));
 }
 

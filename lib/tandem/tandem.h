@@ -12,6 +12,7 @@
 #include "tandem/images/compare.h"
 #include "tandem/images/image_io.h"
 #include "tandem/images/tone_curve.h"
+#include "tandem/render/combined_backend.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/named_scenes.h"
 #include "tandem/scene/scene.h"

@@ -20,12 +20,13 @@ std::string why_cuda_unavailable() {
     return "this build has no CUDA backend; put nvcc 12.8 or newer on PATH and build again, or use --backend cpu";
 }
 std::unique_ptr<Backend> make_cuda_backend(const BackendOptions&) { throw EnvironmentError(why_cuda_unavailable()); }
+std::vector<std::string> cuda_gpu_names() { return {}; }
 #endif
 
 constexpr std::array registry = {
-    BackendEntry{"cpu", why_cpu_unavailable, make_cpu_backend},
-    BackendEntry{"cuda", why_cuda_unavailable, make_cuda_backend},
-    BackendEntry{"oracle", [] { return std::string(); }, make_oracle_backend},
+    BackendEntry{"cpu", why_cpu_unavailable, make_cpu_backend, nullptr},
+    BackendEntry{"cuda", why_cuda_unavailable, make_cuda_backend, cuda_gpu_names},
+    BackendEntry{"oracle", [] { return std::string(); }, make_oracle_backend, nullptr},
 };
 
 }  // namespace

@@ -20,8 +20,6 @@ namespace tandem {
 
 namespace {
 
-constexpr std::size_t most_in_flight = 2;
-
 class Rounds {
   public:
     Rounds(Backend& backend, const FramePlan& plan, const RenderTarget& target)
@@ -99,7 +97,7 @@ class Rounds {
         job.samples = end - samples_;
         fresh_.assign(goes_on_.size(), Film());
         for (const FilmWindow& window : windows_of(film_.grid(), goes_on_)) {
-            if (flying_.size() == most_in_flight) take_oldest();
+            if (flying_.size() >= backend_.frames_in_flight()) take_oldest();
             job.window = window;
             flying_.emplace_back(window, backend_.submit(scene, job));
         }

@@ -1,6 +1,9 @@
 /// The interface of all renderers: CPU, CUDA, oracle.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -8,6 +11,7 @@
 
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
+#include "tandem/render/gpu_choice.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/specialise.h"
 #include "tandem/render/stats.h"
@@ -16,10 +20,20 @@
 
 namespace tandem {
 
+/// What one of several backends that work together has done so far (combined_backend.h).
+struct MemberWork {
+    std::string name;           ///< "GPU 1"
+    std::string device;         ///< its own Capabilities::device
+    std::uint64_t samples = 0;  ///< pixel samples
+    std::uint64_t rays = 0;     ///< of trace()
+    std::string failure{};      ///< why it was left out; empty if it works
+};
+
 struct Capabilities {
-    std::string device;       ///< the name of the processor
-    std::string description;  ///< versions of libraries and drivers, for reports
-    bool exact = true;        ///< guarantees the bits of the tier strict
+    std::string device;                 ///< the name of the processor
+    std::string description;            ///< versions of libraries and drivers, for reports
+    bool exact = true;                  ///< guarantees the bits of the tier strict
+    std::vector<MemberWork> members{};  ///< of a combined backend
 };
 
 /// A scene in the memory of a backend, loaded for one tier. It belongs to the backend that loaded it and must not
@@ -75,6 +89,19 @@ class Backend {
     [[nodiscard]] RenderResult render(std::shared_ptr<ResidentScene> scene, const RenderJob& job) {
         return submit(std::move(scene), job)->get();
     }
+
+    /// Starts a frame whose pixels go into a part of `film`, with the job's planes; (left, top) is the place of the
+    /// top left pixel of the job's window. Nothing else of the film changes, and the result has no film. Copies of a
+    /// Film share its memory, so other frames may fill other parts meanwhile. By default the pixels are copied.
+    [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit_to(Film film, int left, int top,
+                                                                  std::shared_ptr<ResidentScene> scene,
+                                                                  const RenderJob& job);
+
+    /// A film, with undefined contents, in memory that submit_to() fills fast. May be called from any thread.
+    [[nodiscard]] virtual Film make_film(int width, int height, int samples, PlaneMask planes);
+
+    /// So many frames, or windows of one, should be submitted before the first is waited for, lest the processor idle.
+    [[nodiscard]] virtual std::size_t frames_in_flight() const { return 2; }
 };
 
 struct BackendOptions {
@@ -85,6 +112,10 @@ struct BackendOptions {
     /// CUDA: whether a pixel tests only the primitives that it may show (kernel/pixel_culling.h). False to measure what
     /// that saves; no bit depends on it.
     bool culls_pixels = true;
+    GpuChoice gpus{};  ///< CUDA: which GPUs render
+    /// Several GPUs: gets a sentence when one fails and the others go on, from any thread. It must not call the
+    /// backend.
+    std::function<void(const std::string& sentence)> report{};
 };
 
 }  // namespace tandem

@@ -16,8 +16,6 @@ namespace tandem {
 
 namespace {
 
-constexpr std::size_t most_in_flight = 2;
-
 class TileRender {
   public:
     TileRender(Backend& backend, TiledFilm& film, TileCosts& costs, const std::function<bool()>& after_tile)
@@ -42,7 +40,7 @@ class TileRender {
             if (!resident) resident = load(scene, instant);
             RenderJob job = instant.job;
             job.window = film_.grid().tile(i);
-            if (flying_.size() == most_in_flight) take_oldest();
+            if (flying_.size() >= backend_.frames_in_flight()) take_oldest();
             if (goes_on_) flying_.emplace_back(i, backend_.submit(resident, job));
         }
         while (!flying_.empty()) take_oldest();

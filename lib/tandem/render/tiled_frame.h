@@ -22,8 +22,8 @@ struct TileCosts {
 
 /// Renders the tiles that `film` lacks of the frame. A tile of a frame with motion blur has the samples of the first
 /// instants, and gets those of the others, in the order of time. `after_tile` is called after each tile; once it
-/// returns false, the tiles in progress, at most two, are finished, and the function returns. Returns whether the film
-/// is complete. Throws InputError if a tile has a number of samples at which no instant ends.
+/// returns false, the tiles in progress, at most Backend::frames_in_flight(), are finished, and the function returns.
+/// Returns whether the film is complete. Throws InputError if a tile has a number of samples at which no instant ends.
 [[nodiscard]] bool render_tiles(Backend& backend, const Scene& scene, const FramePlan& plan, TiledFilm& film,
                                 TileCosts& costs, const std::function<bool()>& after_tile);
 

@@ -4,8 +4,10 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "gpu_scale.h"
 #include "loop_backend.h"
 #include "tandem/base/error.h"
 
@@ -70,6 +72,59 @@ TEST(Scale, ABackendWithOneThreadDoesNotLimitOthers) {
               static_cast<std::size_t>(tbb::info::default_concurrency()) + 3);
 }
 
+TEST(Scale, MeasuresEveryNumberOfGpus) {
+    ScaleOptions options = small();
+    options.parts = {"rays", "frames"};
+    options.kinds = {"spheres"};
+    options.rays = {"coherent"};
+    options.backends = {"cuda"};
+    options.gpus = {0};
+    options.scenes = {"named:spheres/3", "named:paper"};
+    options.size = {20, 16};
+    options.samples = 2;
+    BackendSource source = loop_source(nothing);
+    source.gpu_count = [] { return 2; };
+    Report report;
+    EXPECT_TRUE(run_scale(options, source, report)) << prose_of(report);
+    // 2 and 20 primitives on 1 and 2 GPUs; each scene on 1, 1 in bands and 2
+    ASSERT_EQ(report.rows.size(), 2U * 2 + 2 * 3);
+    EXPECT_EQ(report.rows[1].label, "named:spheres/2, cuda, 2 GPUs, coherent");
+    EXPECT_EQ(report.rows[4].label, "named:spheres/3, 1 GPU in bands");
+    EXPECT_EQ(report.rows[6].label, "named:spheres/3, 2 GPUs");
+    EXPECT_EQ(report.rows[6].seconds.size(), 2U);
+    EXPECT_EQ(report.rows[6].samples, 20 * 16 * 2);
+    std::size_t plots = 0;
+    for (const Block& block : report.blocks) {
+        const auto* plot = std::get_if<LinePlot>(&block);
+        plots += plot != nullptr && plot->title.find("by number of GPUs") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_EQ(plots, 3U);
+    EXPECT_NE(prose_of(report).find("All films are equal"), std::string::npos);
+    EXPECT_EQ(property_of(report, "film named:paper").size(), 64U);
+}
+
+TEST(Scale, EfficiencyIsJudgedByTheFasterOneGpu) {
+    GpuScaleOptions options{"named:paper", {2}, {20, 16}, 2, "strict", 5};
+    BackendSource source = loop_source(nothing);
+    Report report;
+    const GpuScale scale = time_gpus(options, source, report);
+    ASSERT_EQ(scale.steps.size(), 2U);
+    EXPECT_TRUE(scale.are_equal);
+    const double one = std::min(summarize(scale.steps[0].row.seconds).median, summarize(scale.in_bands.seconds).median);
+    EXPECT_DOUBLE_EQ(scale.steps[1].efficiency.value, one / (2 * summarize(scale.steps[1].row.seconds).median));
+    EXPECT_LE(scale.steps[0].efficiency.value, 1);
+}
+
+TEST(Scale, CountsFilmsThatDifferByTheNumberOfGpus) {
+    GpuScaleOptions options{"named:paper", {2}, {20, 16}, 2, "strict", 1};
+    const auto two_spoil = [](const std::string&, const BackendOptions& made) { return made.gpus.count == 2; };
+    Report report;
+    EXPECT_FALSE(run_gpu_scale(options, {"named:paper"}, loop_source(two_spoil), report));
+    EXPECT_EQ(property_of(report, "film named:paper"), "differs");
+    options.tier = "fast";
+    EXPECT_TRUE(run_gpu_scale(options, {"named:paper"}, loop_source(two_spoil), report));
+}
+
 TEST(Scale, FitsExponents) {
     std::vector<Point> linear, logarithmic;
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
@@ -90,6 +145,12 @@ TEST(Scale, RefusesWhatItCannotMeasure) {
     options = small();
     options.most = 1;
     EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
+    options = small();
+    options.gpus = {-1};
+    EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
+    options = small();
+    options.parts = {"frames"};
+    EXPECT_THROW((void)run_scale(options, loop_source(nothing, "cuda"), report), EnvironmentError);
     options = small();
     options.kinds = {"cones"};
     EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);

@@ -33,7 +33,8 @@ TEST(Targets, IdsAreUniqueAndFollowTheCores) {
     for (const char* id :
          {"gpu-paper", "gpu-paper-unculled", "cpu-paper-1", "cpu-paper-2", "cpu-paper-16", "cpu-paper-o0",
           "cpu-rays-coherent", "cpu-rays-random", "gpu-rays-coherent", "gpu-rays-random", "gpu-rays-coherent-mesh",
-          "gpu-rays-random-mesh", "gpu-rays-random-triangles", "gpu-rays-coherent-boxes", "gpu-share"}) {
+          "gpu-rays-random-mesh", "gpu-rays-random-triangles", "gpu-rays-coherent-boxes", "gpu-share", "gpu-scale-2",
+          "gpu-scale-4"}) {
         EXPECT_TRUE(ids.contains(id)) << id;
     }
     EXPECT_EQ(list_targets(16).size(), list_targets(2).size() + 1) << "two cores cannot show what 16 threads do";
@@ -86,6 +87,27 @@ TEST(Targets, WithoutAGpuItsTargetsAreLeftOpenAndNotMissed) {
                             loop_source([](const auto&, const auto&) { return false; }, "cuda"), report));
     EXPECT_EQ(property_of(report, "target gpu-paper"), "not measured");
     EXPECT_EQ(property_of(report, "measured gpu-paper"), "");
+}
+
+TEST(Targets, ScalingNeedsSeveralGpus) {
+    Report report;
+    BackendSource source = loop_source();
+    source.gpu_count = [] { return 1; };
+    TargetOptions options = small_options({"gpu-scale-2", "gpu-scale-4"});
+    options.scale_size = {24, 16};
+    options.scale_samples = 1;
+    EXPECT_TRUE(run_targets(options, source, report));
+    EXPECT_EQ(property_of(report, "target gpu-scale-2"), "not measured");
+    const auto why = [](const Report& of) {
+        std::string text;
+        for (const Block& block : of.blocks) {
+            if (const auto* table = std::get_if<Table>(&block)) {
+                for (const auto& row : table->rows) text += row[2] + "\n";
+            }
+        }
+        return text;
+    };
+    EXPECT_EQ(why(report), "not run: one GPU\nnot run: one GPU\n");
 }
 
 TEST(Targets, UnknownIdsAreRefused) {

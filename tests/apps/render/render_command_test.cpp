@@ -9,6 +9,8 @@
 #include "render/interrupt.h"
 #include "support/gradient_backend.h"
 #include "support/temporary_folder.h"
+#include "tandem/base/error.h"
+#include "tandem/render/combined_backend.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -120,6 +122,29 @@ TEST_F(RenderCommandTest, JsonInAFileKeepsTheLines) {
     const Bytes bytes = read_file(command.json);
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     EXPECT_EQ(nlohmann::json::parse(text, text + bytes.size())["frames"].size(), 3U);
+}
+
+TEST_F(RenderCommandTest, JsonSaysWhichMembersTookWhichShare) {
+    command.json = "-";
+    EXPECT_FALSE(nlohmann::json::parse(run().out).contains("members")) << "of a single backend";
+    command.sequence.force = true;
+    std::vector<CombinedMember> members;
+    members.push_back({"GPU 0", std::make_unique<GradientBackend>()});
+    auto bad = std::make_unique<GradientBackend>();
+    bad->on_get = [](const RenderJob&) { throw EnvironmentError("the memory is full"); };
+    members.push_back({"GPU 1", std::move(bad)});
+    const auto combined = make_combined_backend(std::move(members));
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_render(command, scene, *combined, std::atomic<bool>(false)), 0);
+    const auto json = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+    ASSERT_EQ(json["members"].size(), 2U);
+    EXPECT_EQ(json["members"][0]["name"], "GPU 0");
+    EXPECT_EQ(json["members"][0]["device"], "no device");
+    EXPECT_EQ(json["members"][0]["samples"], 3 * 8 * 8 * 100);
+    EXPECT_EQ(json["members"][0]["share"], 1.0);
+    EXPECT_EQ(json["members"][1]["samples"], 0);
+    const bool has_failed = json["members"][1].contains("failure");  // it had work only if it was as quick
+    EXPECT_EQ(has_failed, json["frames"].dump().find("GPU 1 failed") != std::string::npos);
 }
 
 TEST_F(RenderCommandTest, ASignalStopsAfterTheFramesInFlight) {
