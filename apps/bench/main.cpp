@@ -125,7 +125,9 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
 
 /// The options of the sweep alone.
 void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
-    command.add_option("--vary", sweep.axes, "Axes of the sweep: samples, tier, effects, depth, tessellation")
+    command
+        .add_option("--vary", sweep.axes,
+                    "Axes of the sweep: samples, tier, effects, depth, tessellation, rasterised, denoised")
         ->delimiter(',')
         ->capture_default_str();
     command.add_option("--levels", sweep.levels, "Levels of tessellation: spheres of 20 * 4^level triangles")
@@ -147,6 +149,10 @@ void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
                     "Samples per pixel of each reference; 0 means 32 times the most of --samples")
         ->capture_default_str()
         ->check(CLI::Range(0, 1 << 24));
+    command
+        .add_option("--denoiser", sweep.denoiser,
+                    "The library of Open Image Denoise, if the system's loader does not find it")
+        ->type_name("FILE");
     command.add_flag("--rebuild-references", sweep.rebuild_references,
                      "Only render the references of the scenes into the folder again");
 }

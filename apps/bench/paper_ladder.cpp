@@ -11,6 +11,7 @@
 #include "frame_timing.h"
 #include "output.h"
 #include "pictures.h"
+#include "rasterised_frame.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/gltf/load_scene.h"
@@ -21,8 +22,8 @@ namespace {
 
 constexpr int pictures_on_page = 6;
 constexpr int largest_picture_width = 500;  ///< pixels, at most
-/// Without a GPU only this many frames are rendered again for the residual and for the throughput of the animation: all
-/// of them would take minutes and show little.
+/// Without a GPU only this many frames are rendered by the paper's method on all threads and by the rasteriser, again
+/// for the residual, and for the throughput of the animation: all of them would take minutes and show little.
 constexpr int repeated_frames_without_gpu = 12;
 
 /// One of the programs that take turns in each round.
@@ -44,8 +45,8 @@ class PaperRun {
         if (error) throw InputError(fmt::format("--out: cannot create {}: {}", frames_folder_, error.message()));
         make_backends(source, report);
         name_rows();
-        make_variants();
         repeated_ = spread_frames(options_.frames, gpu_ ? options_.frames.count() : repeated_frames_without_gpu);
+        make_variants();
     }
 
     PaperMeasurements measure() {
@@ -104,6 +105,7 @@ class PaperRun {
         name(rows.naive_o0, "Paper's method, CPU, -O0, 1 thread", "naive", 1);
         name(rows.naive_o3, "Paper's method, CPU, -O3, 1 thread", "naive", 1);
         name(rows.naive_o3_threads, fmt::format("Paper's method, CPU, -O3, {} threads", threads_), "naive", threads_);
+        name(rows.rasterised, fmt::format("Rasteriser (no rays), CPU, {} threads", threads_), "rasteriser", threads_);
         name(rows.naive_gpu_kernel, "Paper's method, GPU, kernel alone", "naive CUDA", 0);
         name(rows.naive_gpu_frame, "Paper's method, GPU, whole frame with text", "naive CUDA", 0);
         name(rows.cpu, fmt::format("Tandem CPU, {} threads, rendering", threads_), "cpu", threads_);
@@ -152,9 +154,15 @@ class PaperRun {
         variants_.push_back({spread(3 * slow), [this](std::int32_t frame) {
                                  (void)run_naive_cpu(result_.rows.naive_o3, naive_o3, 1, frame);
                              }});
-        variants_.push_back({all, [this](std::int32_t frame) {
+        variants_.push_back({repeated_, [this](std::int32_t frame) {
                                  BenchmarkRow& row = result_.rows.naive_o3_threads;
                                  naive_cpu_film_ = naive_film(run_naive_cpu(row, naive_o3, threads_, frame));
+                             }});
+        variants_.push_back({repeated_, [this](std::int32_t frame) {
+                                 TimedFrame timed = rasterise_timed(scene_, job(frame), threads_);
+                                 record(result_.rows.rasterised, frame, timed.load.build + timed.stats.seconds.render,
+                                        timed);
+                                 rasterised_film_ = std::move(timed.film);
                              }});
         if (result_.has_naive_gpu) variants_.push_back({all, [this](std::int32_t frame) { run_naive_gpu(frame); }});
         if (cpu_) variants_.push_back({all, [this](std::int32_t frame) { run_cpu(frame); }});
@@ -237,6 +245,7 @@ class PaperRun {
         };
         if (cpu_ && gpu_) add(result_.cpu_gpu, "Tandem, CPU against GPU", cpu_film_, gpu_film_);
         if (!std::binary_search(repeated_.begin(), repeated_.end(), frame)) return;
+        add(result_.rasterised, "Rasteriser against Tandem", rasterised_film_, output_film());
         const Film other_noise = render_timed(output_backend(), scene_, job(frame, 1)).film;
         add(result_.noise, "Tandem, one seed against another: noise alone", output_film(), other_noise);
         std::vector<float> rgb = picture_buffer();
@@ -280,15 +289,16 @@ class PaperRun {
     std::unique_ptr<Backend> gpu_;
     std::vector<Variant> variants_;
     std::vector<std::int32_t> repeated_;  ///< frames that are also rendered with other random numbers
-    Film cpu_film_, gpu_film_, naive_cpu_film_, naive_gpu_film_;  ///< of the current frame
+    Film cpu_film_, gpu_film_, naive_cpu_film_, naive_gpu_film_, rasterised_film_;  ///< of the current frame
     PaperMeasurements result_;
 };
 
 }  // namespace
 
 std::vector<BenchmarkRow*> PaperRows::all() {
-    return {&naive_o0, &naive_o3, &naive_o3_threads, &naive_gpu_kernel, &naive_gpu_frame, &cpu, &gpu, &whole,
-            &text,     &png};
+    return {
+        &naive_o0, &naive_o3, &naive_o3_threads, &rasterised, &naive_gpu_kernel, &naive_gpu_frame, &cpu, &gpu, &whole,
+        &text,     &png};
 }
 
 std::vector<std::int32_t> spread_frames(const FrameRange& range, int count) {

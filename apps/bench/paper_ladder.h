@@ -30,6 +30,7 @@ struct PaperRows {
     BenchmarkRow naive_o0;          ///< the paper's CPU program: no optimisation, one thread
     BenchmarkRow naive_o3;          ///< the same source with -O3
     BenchmarkRow naive_o3_threads;  ///< and on all threads
+    BenchmarkRow rasterised;        ///< no rays: a plain rasteriser on all threads
     BenchmarkRow naive_gpu_kernel;  ///< the paper's kernel alone
     BenchmarkRow naive_gpu_frame;   ///< with allocation, copy and text, as the paper timed it
     BenchmarkRow cpu;               ///< Tandem, rendering alone
@@ -63,6 +64,7 @@ struct PaperMeasurements {
     ResidualSeries noise;                  ///< Tandem, one seed against another
     ResidualSeries naive_arithmetic;       ///< naive, CPU against GPU, the same random numbers
     ResidualSeries naive_paper;            ///< naive, different random numbers: as the paper compared
+    ResidualSeries rasterised;             ///< the rasteriser against Tandem
     std::vector<std::string> film_hashes;  ///< of Tandem's films, by frame
     std::vector<PaperSequence> sequences;
     std::vector<Picture> pictures;

@@ -30,7 +30,8 @@ void add_time_plots(const PaperMeasurements& m, Report& report) {
     LinePlot cpu = time_plot("CPU, time per frame (figure 4)");
     LinePlot gpu = time_plot("GPU, time per frame (figure 6)");
     LinePlot both = time_plot("CPU and GPU (figure 7)");
-    for (const BenchmarkRow* row : {&rows.naive_o0, &rows.naive_o3, &rows.naive_o3_threads, &rows.cpu}) {
+    for (const BenchmarkRow* row :
+         {&rows.naive_o0, &rows.naive_o3, &rows.naive_o3_threads, &rows.rasterised, &rows.cpu}) {
         add_line(cpu, *row);
     }
     for (const BenchmarkRow* row : {&rows.naive_gpu_frame, &rows.naive_gpu_kernel, &rows.gpu, &rows.whole}) {

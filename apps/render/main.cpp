@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -47,6 +48,8 @@ struct Words {
     std::string metric = "rmse";
     double time_budget = 0;  // seconds; 0: none
     bool plan = false;
+    bool denoise = false;
+    std::string denoiser;                           // empty: where the system's loader looks
     std::optional<std::string> exposure, transfer;  // as the scene says if not given
 };
 
@@ -76,6 +79,17 @@ void declare_target(CLI::App& app, Words& words) {
                    "seconds in which to render a frame: no round of samples starts that would end later")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
+}
+
+void declare_denoiser(CLI::App& app, Words& words) {
+    auto* const denoise = app.add_flag(
+        "--denoise", words.denoise,
+        "denoise the image by Open Image Denoise, if it is installed (docs/denoising.md): fewer samples "
+        "look smooth, but the error is unknown, and the image cannot be verified. The hash that is printed "
+        "is that of the film before");
+    app.add_option("--denoiser", words.denoiser, "its library, if the system's loader does not find it")
+        ->type_name("FILE")
+        ->needs(denoise);
 }
 
 void declare_checkpoint(CLI::App& app, Words& words) {
@@ -164,6 +178,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
             ->type_name("R,T,D")
             ->capture_default_str();
     declare_target(app, words);
+    declare_denoiser(app, words);
     app.add_flag("--plan", words.plan,
                  "render nothing; print how many samples and how much time a frame will take, from a short probe, and "
                  "whether that is within --time-budget (status 1 if not)");
@@ -278,6 +293,9 @@ int render(int argc, char** argv) {
     if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
     if (!words.checkpoint.file.empty()) sequence.checkpoint = words.checkpoint;
     check(sequence.job);
+    if (words.denoise && !words.plan) {
+        sequence.denoiser = std::make_shared<Denoiser>(words.denoiser, backend_options.threads);
+    }
 
     const std::atomic<bool>& interrupted = watch_interrupts();
     words.source.default_light = words.light == "default";

@@ -11,6 +11,9 @@ namespace tandem {
 std::string frame_line(const FrameRecord& record) {
     std::string line = fmt::format("frame {}  {}  {}", record.metadata.frame, record.metadata.film_sha256, record.file);
     if (record.skipped) line += "  kept";
+    if (!record.metadata.denoised.empty()) {
+        line += fmt::format("  denoised by {}; the hash is that of the film before", record.metadata.denoised);
+    }
     for (const std::string& clause : in_words(record.counters)) line += "  " + clause;
     if (!record.warning.empty()) line += "  " + record.warning;
     if (record.nan_values > 0) line += fmt::format("  {} values are NaN, written as 0", record.nan_values);
@@ -38,6 +41,7 @@ nlohmann::ordered_json frame_json(const FrameRecord& record) {
                        {"render", seconds.backend.render},
                        {"download", seconds.backend.download},
                        {"hash", seconds.hash},
+                       {"denoise", seconds.denoise},
                        {"encode", seconds.encode},
                        {"write", seconds.write}};
 #define TANDEM_COUNTER(name, words) json[#name] = record.counters.name;

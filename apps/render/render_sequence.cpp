@@ -89,11 +89,31 @@ std::optional<ImageMetadata> finished_frame(const std::string& path, ImageFormat
     }
 }
 
+/// How films become files.
+struct FileChoice {
+    ImageFormat format;
+    WriteOptions options;
+    PlaneMask planes;  ///< of the files; films have the denoiser's too
+    const Denoiser* denoiser;
+};
+
+/// Denoises the film of `record`, and keeps the planes of the file.
+EncodedImage encode_denoised(Film film, FrameRecord& record, const FileChoice& choice) {
+    const Stopwatch watch;
+    const FloatImage image = choice.denoiser->denoise(film);
+    std::vector<PlaneImage> planes = plane_images(film);
+    film = {};
+    std::erase_if(planes, [&](const PlaneImage& plane) { return !choice.planes.has(plane.plane); });
+    record.seconds.denoise = watch.seconds();
+    return encode_image(image, planes, choice.format, record.metadata, choice.options);
+}
+
 /// Encodes the film of `record`. What fails without the name of a file, such as a codec that runs out of memory, gets
 /// it.
-EncodedImage encode_frame(Film film, const FrameRecord& record, ImageFormat format, const WriteOptions& options) {
+EncodedImage encode_frame(Film film, FrameRecord& record, const FileChoice& choice) {
     try {
-        return encode_image(std::move(film), format, record.metadata, options);
+        if (choice.denoiser != nullptr) return encode_denoised(std::move(film), record, choice);
+        return encode_image(std::move(film), choice.format, record.metadata, choice.options);
     } catch (const std::bad_alloc&) {
         throw EnvironmentError(fmt::format("cannot encode '{}': not enough memory on this machine", record.file));
     } catch (const std::exception& error) {
@@ -102,14 +122,14 @@ EncodedImage encode_frame(Film film, const FrameRecord& record, ImageFormat form
 }
 
 /// Hashes, encodes and writes a film in a thread of its own.
-FrameRecord write_frame(Film film, FrameRecord record, ImageFormat format, const WriteOptions& options) {
+FrameRecord write_frame(Film film, FrameRecord record, FileChoice choice) {
     LapWatch watch;
     record.metadata.film_sha256 = film_hash(film);
     record.seconds.hash = watch.lap();
-    const EncodedImage encoded = encode_frame(std::move(film), record, format, options);
+    const EncodedImage encoded = encode_frame(std::move(film), record, choice);
     record.nan_values = encoded.nan_values;
-    record.seconds.encode = watch.lap();
-    write_encoded(record.file, encoded, format, record.metadata, options);
+    record.seconds.encode = watch.lap() - record.seconds.denoise;
+    write_encoded(record.file, encoded, choice.format, record.metadata, choice.options);
     record.seconds.write = watch.lap();
     return record;
 }
@@ -179,6 +199,7 @@ class Sequence {
         while (exposure_is_open_ && !started_.empty()) pass_to_writer();  // the first frame decides
         RenderJob job = options_.job;
         job.frame = static_cast<std::uint32_t>(frame);
+        if (options_.denoiser) job.planes |= denoiser_planes;
         PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = effects_};
         LapWatch watch;
         std::optional<PreparedScene> prepared;
@@ -311,6 +332,8 @@ class Sequence {
         metadata.exposure_rule = exposure_rule_;
         metadata.scene_source = options_.scene_source;
         metadata.forced_effects = to_string(effects_);
+        metadata.planes = to_string(options_.job.planes);
+        if (options_.denoiser) metadata.denoised = options_.denoiser->name();
         if (options_.target) metadata.target = to_string(*options_.target);
         return as_written(std::move(metadata), job.width, job.height, format_, write_);
     }
@@ -364,8 +387,9 @@ class Sequence {
             record.metadata = with_display(std::move(record.metadata), write_.display);
         }
         while (writing_.size() >= most_writing_) report_first();
+        const FileChoice choice{format_, write_, options_.job.planes, options_.denoiser.get()};
         writing_.push_back(
-            std::async(std::launch::async, write_frame, std::move(result.film), std::move(record), format_, write_));
+            std::async(std::launch::async, write_frame, std::move(result.film), std::move(record), choice));
     }
 
     void report_first() {

@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/arguments.h"
 #include "tandem/effects/names.h"
+#include "tandem/images/denoiser.h"
 #include "tandem/images/image_io.h"
 #include "tandem/render/adaptive_frame.h"
 #include "tandem/render/backend.h"
@@ -34,6 +36,7 @@ struct SequenceOptions {
     std::optional<CheckpointOptions> checkpoint;  ///< for one frame
     std::optional<RenderTarget> target;           ///< of every frame; the job has the most samples
     std::string scene_source;                     ///< for the metadata: to_json() of where the scene is from
+    std::shared_ptr<const Denoiser> denoiser{};   ///< null: images are as rendered
     int writers = 0;                              ///< threads that hash, encode and write; 0: one per core
 };
 
@@ -42,6 +45,7 @@ struct FrameSeconds {
     double prepare = 0;  ///< scene to flat arrays, and their hash; for all instants of a frame with motion blur
     PhaseTimes backend;  ///< build and upload are zero if the scene is that of the frame before
     double hash = 0;     ///< SHA-256 of the film
+    double denoise = 0;  ///< waits for other frames included
     double encode = 0;   ///< means, exposure, transfer function, compression
     double write = 0;
 };
@@ -77,6 +81,9 @@ struct FrameRecord {
 /// the file of that frame exists and its exposure was automatic, the exposure is taken from the file.
 ///
 /// With `fewer_samples` or `shorter_paths` the first frame decides for all.
+///
+/// With a `denoiser` the file has the denoised image, and its metadata say so; their film_sha256 is that of the film
+/// before. The planes in the file are those of the job, although the denoiser_planes are rendered too.
 ///
 /// With a `checkpoint` the frame is rendered by render_with_checkpoints(), whose file is removed when the image is
 /// written. If it is interrupted, the frame is not finished. With a `target` frames are rendered by render_to_target().

@@ -10,6 +10,7 @@
 #include "tandem/film/film.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/images/compare.h"
+#include "tandem/images/denoiser.h"
 #include "tandem/images/image_io.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/render/combined_backend.h"

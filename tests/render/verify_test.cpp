@@ -129,6 +129,7 @@ TEST_F(VerifyTest, WhatCannotBeJudgedIsRefused) {
     EXPECT_TRUE(contains(refusal([](DecodedImage& i) { i.metadata->samples = 0; }), "samples"));
     EXPECT_TRUE(contains(refusal([](DecodedImage& i) { i.metadata->scene_hash[3] ^= 1; }), "the scene is not that"));
     EXPECT_TRUE(contains(refusal([](DecodedImage& i) { i.metadata->tile_samples = "32: 4"; }), "samples of the tiles"));
+    EXPECT_TRUE(contains(refusal([](DecodedImage& i) { i.metadata->denoised = "a filter"; }), "denoised by a filter"));
     backend = make_backend("oracle");
     EXPECT_TRUE(contains(refusal([](DecodedImage&) {}), "--backend cpu"));
 }

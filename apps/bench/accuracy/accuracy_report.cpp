@@ -83,10 +83,13 @@ void add_answers(const std::vector<SceneSweep>& sweeps, const SweepOptions& opti
                  const std::vector<SweepBackend>& backends, Report& report) {
     report.blocks.emplace_back(Heading{"The answer"});
     for (const SceneSweep& sweep : sweeps) {
+        const std::string scene = sweeps.size() > 1 ? sweep.scene.name + ": " : "";
         for (const std::string& sentence : answers(sweep, backends)) {
-            report.blocks.emplace_back(Paragraph{sweep.scene.name + ": " + sentence});
+            report.blocks.emplace_back(Paragraph{scene + sentence});
         }
     }
+    report.blocks.emplace_back(Heading{"How to read it"});
+    report.blocks.emplace_back(Paragraph{meaning_of_words()});
     report.blocks.emplace_back(Heading{"What was not varied"});
     report.blocks.emplace_back(Paragraph{not_varied(options)});
     for (const SceneSweep& sweep : sweeps) {

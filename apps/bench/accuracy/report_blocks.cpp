@@ -93,9 +93,7 @@ ScatterPlot pareto_plot(const SceneSweep& sweep, const std::vector<SweepBackend>
                      {},
                      {},
                      {}};
-    for (const Axis axis : {Axis::baseline, Axis::tier, Axis::effects, Axis::depth, Axis::tessellation}) {
-        plot.shapes.emplace_back(to_string(axis));
-    }
+    for (const Axis axis : all_axes) plot.shapes.emplace_back(to_string(axis));
     const auto by = dominating_points(sweep, metric);
     for (const SweepBackend& backend : backends) {
         ScatterSeries& series = plot.series.emplace_back(ScatterSeries{backend.name, {}});

@@ -48,10 +48,12 @@ PictureComparison equal_time_pictures(const SweepOptions& options, const SceneSw
         {}};
     for (const SweepBackend& backend : backends) {
         for (const Setting& setting : sweep.plan.settings) {
+            if (!runs_on(setting, backend.name)) continue;
             const SweepPoint& fastest = *sweep.ladder(backend.name, setting).back();
             const int samples = samples_within(options, fastest, chosen.seconds());
-            const TimedFrame frame = render_timed(*backend.backend, scene_of(sweep.scene.scene, setting),
-                                                  job_of(options, setting, samples, options.seed + 1), setting.forced);
+            const TimedFrame frame =
+                render_setting(options, *backend.backend, sweep.denoiser.get(), scene_of(sweep.scene.scene, setting),
+                               setting, samples, options.seed + 1);
             const FloatImage image = film_to_image(frame.film);
             ErrorMeter meter(sweep.reference.reference);
             const double rmse = std::sqrt(std::max(meter.add(image).squared, 0.0));

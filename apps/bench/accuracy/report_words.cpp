@@ -132,14 +132,26 @@ std::vector<std::string> answers(const SceneSweep& sweep, const std::vector<Swee
     for (const SweepBackend& backend : backends) {
         sentences.push_back(price_sentence(sweep, backend.name));
         for (const Setting& setting : sweep.plan.settings) {
-            if (setting.axis != Axis::baseline) sentences.push_back(setting_sentence(sweep, backend.name, setting));
+            if (setting.axis == Axis::baseline || !runs_on(setting, backend.name)) continue;
+            sentences.push_back(setting_sentence(sweep, backend.name, setting));
         }
         sentences.push_back(choice_sentence(sweep, backend.name));
         if (&backend != &backends.front()) {
             sentences.push_back(backends_sentence(sweep, backends.front().name, backend.name));
         }
     }
+    sentences.insert(sentences.end(), sweep.plan.biases.begin(), sweep.plan.biases.end());
     return sentences;
+}
+
+std::string meaning_of_words() {
+    return "A setting is a way to render the scene: strict, the default, has the same bits on every backend; fast "
+           "approximates; precise computes in double; the others are strict with one thing changed. spp is the number "
+           "of samples per pixel. RMSE is the root of the mean square error against the reference, in units of "
+           "radiance: white is 1. Each point of a plot is a setting with a number of samples on a backend (cpu, or "
+           "cuda for the GPU): further left is faster, further down is closer to the reference, and the dotted line "
+           "joins the points that no other beats. Point at a mark to see its name and its numbers. Numbers in "
+           "parentheses are 95 % intervals.";
 }
 
 std::string not_varied(const SweepOptions& options) {

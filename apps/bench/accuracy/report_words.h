@@ -20,6 +20,9 @@ namespace tandem::bench {
 /// The price of a tenth of the error: of the baseline on a backend, from the points whose error is resolved.
 [[nodiscard]] PowerLaw price_law(const SceneSweep& sweep, const std::string& backend);
 
+/// What the words of the report mean, for readers who have not seen one before.
+[[nodiscard]] std::string meaning_of_words();
+
 /// What the report did not vary, for all scenes.
 [[nodiscard]] std::string not_varied(const SweepOptions& options);
 

@@ -1,11 +1,13 @@
 #include "accuracy/settings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
 #include "accuracy/accuracy_scenes.h"
+#include "baseline/raster_scene.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
@@ -15,7 +17,7 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr std::array axis_names = {"baseline", "tier", "effects", "depth", "tessellation"};
+constexpr std::array axis_names = {"baseline", "tier", "effects", "depth", "tessellation", "rasterised", "denoised"};
 constexpr std::array<PathLimits, 3> varied_limits = {PathLimits{0, 0, 0}, PathLimits{2, 4, 1}, unlimited};
 
 void add_effects(const std::vector<EffectNeed>& needs, Setting base, SettingPlan& plan) {
@@ -55,13 +57,54 @@ void add_tessellations(const Scene& scene, const std::vector<int>& levels, Setti
     }
 }
 
+/// The rung below ray tracing, and what it leaves out of the scene.
+void add_rasteriser(const PreparedScene& prepared, const std::vector<EffectNeed>& needs, Setting base,
+                    SettingPlan& plan) {
+    if (const std::string reason = why_not_rasterised(prepared); !reason.empty()) {
+        plan.skipped.push_back(fmt::format("Rasterised: {}.", reason));
+        return;
+    }
+    base.axis = Axis::rasterised;
+    base.name = "rasterised";
+    plan.settings.push_back(base);
+    std::vector<std::string> lacks;
+    for (const EffectNeed& need : needs) {
+        if (need.effect != Effect::roulette && !rasterised_effects.has(need.effect)) {
+            lacks.emplace_back(to_string(need.effect));
+        }
+    }
+    plan.biases.push_back(fmt::format(
+        "Rasterised images come without a ray: first hits from a z-buffer, direct light without shadows, spheres of "
+        "triangles. The program is plain and runs on the CPU; its time says nothing about a GPU's rasteriser. {}",
+        lacks.empty() ? std::string("This scene needs no effect that it leaves out.")
+                      : fmt::format("It leaves out what this scene needs: {}.", fmt::join(lacks, ", "))));
+}
+
+void add_denoiser(const VariedAxes& axes, Setting base, SettingPlan& plan) {
+    if (!axes.no_denoiser.empty()) {
+        plan.skipped.push_back(fmt::format("Denoised: not run. {}", axes.no_denoiser));
+        return;
+    }
+    base.axis = Axis::denoised;
+    base.name = "denoised (biased)";
+    plan.settings.push_back(base);
+    plan.biases.emplace_back(
+        "Denoised images are biased: their error is smooth, not noise, and no statistics of a single image tells it. "
+        "Their time includes the planes of albedo and normals, and the denoiser.");
+}
+
 }  // namespace
+
+bool runs_on(const Setting& setting, const std::string& backend) {
+    return setting.axis != Axis::rasterised || backend == "cpu";
+}
 
 const char* to_string(Axis axis) { return axis_names[static_cast<std::size_t>(axis)]; }
 
 VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> tiers) {
     if (tiers.empty()) throw InputError("accuracy needs a tier: fast, strict or precise");
     VariedAxes axes{.tiers = std::move(tiers), .effects = false, .depth = false, .tessellation = false};
+    axes.rasterised = axes.denoised = false;
     bool varies_tier = false;
     for (const std::string& name : names) {
         if (name == "tier") {
@@ -72,9 +115,14 @@ VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> t
             axes.depth = true;
         } else if (name == "tessellation") {
             axes.tessellation = true;
+        } else if (name == "rasterised") {
+            axes.rasterised = true;
+        } else if (name == "denoised") {
+            axes.denoised = true;
         } else if (name != "samples") {
-            throw InputError(
-                fmt::format("no axis \"{}\"; there are samples, tier, effects, depth and tessellation", name));
+            throw InputError(fmt::format(
+                "no axis \"{}\"; there are samples, tier, effects, depth, tessellation, rasterised and denoised",
+                name));
         }
     }
     const auto strict = std::find(axes.tiers.begin(), axes.tiers.end(), Tier::strict);
@@ -90,12 +138,16 @@ SettingPlan plan_settings(const Scene& scene, const VariedAxes& axes) {
             {.axis = plan.settings.empty() ? Axis::baseline : Axis::tier, .name = to_string(tier), .tier = tier});
     }
     const Setting base = plan.settings.front();
-    const std::vector<EffectNeed> needs = derive_effects(scene, prepare(scene));
+    const PreparedScene prepared = prepare(scene);
+    const std::vector<EffectNeed> needs = derive_effects(scene, prepared);
     if (axes.tiers.size() == 1) plan.skipped.emplace_back("Tier: not asked for.");
     axes.effects ? add_effects(needs, base, plan) : void(plan.skipped.emplace_back("Effects: not asked for."));
     axes.depth ? add_depths(needs, base, plan) : void(plan.skipped.emplace_back("Depth: not asked for."));
     axes.tessellation ? add_tessellations(scene, axes.levels, base, plan)
                       : void(plan.skipped.emplace_back("Tessellation: not asked for."));
+    axes.rasterised ? add_rasteriser(prepared, needs, base, plan)
+                    : void(plan.skipped.emplace_back("Rasterised: not asked for."));
+    axes.denoised ? add_denoiser(axes, base, plan) : void(plan.skipped.emplace_back("Denoised: not asked for."));
     return plan;
 }
 

@@ -1,6 +1,7 @@
 /// What the accuracy report varies.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,9 @@ namespace tandem::bench {
 
 /// What differs from the baseline: the tier strict with all effects, default limits and analytic shapes. Every setting
 /// is rendered with every number of samples.
-enum class Axis { baseline, tier, effects, depth, tessellation };
+enum class Axis { baseline, tier, effects, depth, tessellation, rasterised, denoised };
+inline constexpr std::array all_axes = {Axis::baseline,     Axis::tier,       Axis::effects, Axis::depth,
+                                        Axis::tessellation, Axis::rasterised, Axis::denoised};
 
 [[nodiscard]] const char* to_string(Axis axis);
 
@@ -27,6 +30,9 @@ struct Setting {
     std::optional<int> level{};  ///< of tessellation
 };
 
+/// Whether a setting is measured on a backend: the rasteriser runs on the CPU alone, and is compared with it.
+[[nodiscard]] bool runs_on(const Setting& setting, const std::string& backend);
+
 /// The limits of references: paths end by themselves.
 inline constexpr PathLimits unlimited{255, 255, 255};
 
@@ -36,6 +42,9 @@ struct VariedAxes {
     bool depth = true;
     bool tessellation = true;
     std::vector<int> levels = {1, 3, 5};  ///< of tessellation
+    bool rasterised = true;
+    bool denoised = true;
+    std::string no_denoiser{};  ///< why there is none; empty if there is one
 };
 
 /// "tier,effects": every name but samples, which are always varied, and baseline. Throws InputError that lists them.
@@ -44,6 +53,7 @@ struct VariedAxes {
 struct SettingPlan {
     std::vector<Setting> settings;     ///< the baseline first
     std::vector<std::string> skipped;  ///< what was not varied, in sentences
+    std::vector<std::string> biases;   ///< of settings that show less than the scene, in sentences
 };
 
 /// The settings of a scene, for frame 0.

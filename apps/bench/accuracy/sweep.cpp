@@ -12,6 +12,8 @@
 
 #include "frame_timing.h"
 #include "output.h"
+#include "pictures.h"
+#include "rasterised_frame.h"
 #include "tandem/accuracy/image_errors.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
@@ -120,9 +122,8 @@ void render_first_frames(const SweepOptions& options, SceneSweep& sweep, const s
     std::map<int, Film> baseline;  // by samples
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
         SweepPoint& point = sweep.points[i];
-        TimedFrame first =
-            render_timed(*measured[i].backend->backend, *measured[i].scene,
-                         job_of(options, point.setting, point.samples, options.seed), point.setting.forced);
+        TimedFrame first = render_setting(options, *measured[i].backend->backend, sweep.denoiser.get(),
+                                          *measured[i].scene, point.setting, point.samples, options.seed);
         point.row.counters += first.stats.counters;
         const auto found = baseline.find(point.samples);
         if (found == baseline.end()) {
@@ -134,6 +135,16 @@ void render_first_frames(const SweepOptions& options, SceneSweep& sweep, const s
     }
     log_progress(fmt::format("{}: {} rounds of {} images; rendering takes about {}", sweep.scene.name, options.seeds,
                              sweep.points.size(), format_seconds(watch.seconds() * options.seeds)));
+}
+
+/// Null, and the reason, without one.
+std::shared_ptr<const Denoiser> find_denoiser(const SweepOptions& options, std::string& why_not) {
+    try {
+        return std::make_shared<Denoiser>(options.denoiser, options.threads);
+    } catch (const EnvironmentError& error) {
+        why_not = fmt::format("{}.", error.what());
+        return nullptr;
+    }
 }
 
 }  // namespace
@@ -188,12 +199,29 @@ Backend& reference_backend(const std::vector<SweepBackend>& backends) {
     return gpu == backends.end() ? *backends.front().backend : *gpu->backend;
 }
 
+TimedFrame render_setting(const SweepOptions& options, Backend& backend, const Denoiser* denoiser, const Scene& scene,
+                          const Setting& setting, int samples, std::uint64_t seed) {
+    RenderJob job = job_of(options, setting, samples, seed);
+    if (setting.axis == Axis::rasterised) return rasterise_timed(scene, job, options.threads);
+    if (setting.axis != Axis::denoised) return render_timed(backend, scene, job, setting.forced);
+    job.planes = denoiser_planes;
+    TimedFrame timed = render_timed(backend, scene, job, setting.forced);
+    const Stopwatch watch;
+    const FloatImage image = denoiser->denoise(timed.film);
+    timed.stats.seconds.render += watch.seconds();
+    timed.film = film_of({&image.pixels[0].x, 3 * image.pixels.size()}, image.width, image.height);
+    return timed;
+}
+
 SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
                        const std::vector<SweepBackend>& backends) {
     AccuracyScene loaded = load_accuracy_scene(name, options.size);
-    SettingPlan plan = plan_settings(loaded.scene, varied_axes(options));
+    VariedAxes axes = varied_axes(options);
+    std::shared_ptr<const Denoiser> denoiser;
+    if (axes.denoised) denoiser = find_denoiser(options, axes.no_denoiser);
+    SettingPlan plan = plan_settings(loaded.scene, axes);
     DescribedReference described = make_reference(loaded, reference_backend(backends), reference_options(options));
-    SceneSweep sweep{std::move(loaded), std::move(plan), std::move(described), {}, {}};
+    SceneSweep sweep{std::move(loaded), std::move(plan), std::move(described), {}, {}, std::move(denoiser)};
     const Reference& reference = sweep.reference.reference;
     sweep.floors[static_cast<std::size_t>(Metric::rmse)] = reference.noise_floor();
     if (!reference.is_exact()) {
@@ -209,6 +237,7 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
     for (const SweepBackend& backend : backends) {
         for (const Setting& setting : sweep.plan.settings) {
             const Scene& scene = setting.level ? twins.at(*setting.level) : sweep.scene.scene;
+            if (!runs_on(setting, backend.name)) continue;
             for (const int samples : options.samples) {
                 sweep.points.push_back(make_point(options, name, backend, setting, samples));
                 measured.push_back({&backend, &scene, std::nullopt, {}, 0});
@@ -222,9 +251,8 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
         for (const std::size_t i : interleaved_order(sweep.points.size(), static_cast<std::size_t>(round))) {
             SweepPoint& point = sweep.points[i];
             const auto seed = options.seed + 1 + static_cast<std::uint64_t>(round);
-            const TimedFrame timed =
-                render_timed(*measured[i].backend->backend, *measured[i].scene,
-                             job_of(options, point.setting, point.samples, seed), point.setting.forced);
+            const TimedFrame timed = render_setting(options, *measured[i].backend->backend, sweep.denoiser.get(),
+                                                    *measured[i].scene, point.setting, point.samples, seed);
             record(point.row, round, timed.stats.seconds.render, timed);
             pending.add(measured[i], film_to_image(timed.film));
         }

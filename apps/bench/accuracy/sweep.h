@@ -10,7 +10,9 @@
 #include "accuracy/references.h"
 #include "accuracy/settings.h"
 #include "backend_source.h"
+#include "frame_timing.h"
 #include "tandem/accuracy/pareto.h"
+#include "tandem/images/denoiser.h"
 #include "tandem/report/report.h"
 
 namespace tandem::bench {
@@ -19,7 +21,8 @@ struct SweepOptions {
     std::vector<std::string> scenes;  ///< as load_accuracy_scene() takes them; empty means the paper's
     std::vector<std::string> backends = {"cpu", "cuda"};
     std::vector<std::string> tiers = {"fast", "strict", "precise"};
-    std::vector<std::string> axes = {"samples", "tier", "effects", "depth", "tessellation"};
+    std::vector<std::string> axes = {"samples", "tier", "effects", "depth", "tessellation", "rasterised", "denoised"};
+    std::string denoiser;                       ///< its library; empty: where the system's loader looks
     std::vector<int> levels = {1, 3, 5};        ///< of tessellation
     std::vector<int> samples = {1, 4, 16, 64};  ///< per pixel
     FilmSize size{200, 180};
@@ -62,6 +65,7 @@ struct SceneSweep {
     DescribedReference reference;
     std::array<double, metrics.size()> floors{};  ///< of the references' noise, by Metric; 0 where it has none
     std::vector<SweepPoint> points;               ///< by backend, then by setting, then by samples
+    std::shared_ptr<const Denoiser> denoiser{};   ///< null if no setting is denoised
 
     [[nodiscard]] const Display& display() const { return scene.scene.display; }
     [[nodiscard]] double floor(Metric metric) const { return floors[static_cast<std::size_t>(metric)]; }
@@ -76,6 +80,12 @@ struct SceneSweep {
 
 /// The scene of a setting: the twin of meshes, or the scene itself.
 [[nodiscard]] Scene scene_of(const Scene& scene, const Setting& setting);
+
+/// Renders a frame of a setting, of a scene that scene_of() gave: on the backend, or by the rasteriser. `denoiser` may
+/// be null where no setting is denoised. The time of rendering includes that of denoising, and the film is then the
+/// denoised image.
+[[nodiscard]] TimedFrame render_setting(const SweepOptions& options, Backend& backend, const Denoiser* denoiser,
+                                        const Scene& scene, const Setting& setting, int samples, std::uint64_t seed);
 
 /// The job of a setting with a seed.
 [[nodiscard]] RenderJob job_of(const SweepOptions& options, const Setting& setting, int samples, std::uint64_t seed);

@@ -145,16 +145,26 @@ EncodedImage encode_image(const FloatImage& image, ImageFormat format, const Ima
     return encode_levels(tone_map(image, options.display), format, metadata, options);
 }
 
+EncodedImage encode_image(const FloatImage& image, const std::vector<PlaneImage>& planes, ImageFormat format,
+                          const ImageMetadata& metadata, const WriteOptions& options) {
+    const DefaultFpEnvironment guard;
+    PlaneMask mask;
+    for (const PlaneImage& plane : planes) mask |= plane.plane;
+    check_holds(format, mask);
+    ImageMetadata complete = metadata;
+    complete.planes = to_string(mask);
+    if (holds_floats(format)) return encode_floats(image, planes, format, complete, options);
+    return encode_image(image, format, complete, options);
+}
+
 EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata, const WriteOptions& options) {
     const DefaultFpEnvironment guard;
     check_holds(format, film.plane_mask());
     if (holds_floats(format)) {
         const FloatImage image = film_to_image(film);
         const std::vector<PlaneImage> planes = plane_images(film);
-        ImageMetadata complete = metadata;
-        complete.planes = to_string(film.plane_mask());
         film = {};
-        return encode_floats(image, planes, format, complete, options);
+        return encode_image(image, planes, format, metadata, options);
     }
     const ToneMapped mapped = tone_map(film, options.display);
     film = {};

@@ -41,6 +41,10 @@ void check_holds(ImageFormat format, PlaneMask planes);
 /// PFM and EXR hold the floats, bit for bit.
 [[nodiscard]] EncodedImage encode_image(const FloatImage& image, ImageFormat format, const ImageMetadata& metadata,
                                         const WriteOptions& options = {});
+/// The same with planes beside the colour, which the metadata name.
+[[nodiscard]] EncodedImage encode_image(const FloatImage& image, const std::vector<PlaneImage>& planes,
+                                        ImageFormat format, const ImageMetadata& metadata,
+                                        const WriteOptions& options = {});
 /// Encodes the means and the planes of the film, and releases its memory before the slow part, so that a backend that
 /// owns the memory can render the next frame meanwhile.
 [[nodiscard]] EncodedImage encode_image(Film film, ImageFormat format, const ImageMetadata& metadata,

@@ -71,6 +71,12 @@ const ImageMetadata& checked_metadata(const Backend& backend, const DecodedImage
             ".pfm its .pfm.txt must lie, and belong to it)");
     }
     const ImageMetadata& metadata = *image.metadata;
+    if (!metadata.denoised.empty()) {
+        throw InputError(fmt::format(
+            "the image was denoised by {} after it was rendered, so its pixels are not those that a backend draws; "
+            "render it without --denoise to have an image that can be verified",
+            metadata.denoised));
+    }
     if (metadata.width != image.image.width || metadata.height != image.image.height) {
         throw InputError(fmt::format("the image has {} x {} pixels, but its metadata say {} x {}: it was changed",
                                      image.image.width, image.image.height, metadata.width, metadata.height));

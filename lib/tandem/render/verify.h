@@ -34,8 +34,8 @@ struct Verdict {
 
 /// Draws random tiles again from the metadata of an image, and compares what is in the file: the bits of the floats of
 /// PFM and EXR, and the 8-bit values of PNG and PPM. Planes beside the colour are not compared. `options.effects` and
-/// the camera are those of the image. Throws InputError if the image has no metadata, if the scene is another, if the
-/// frame was of the tier fast, or if the backend does not guarantee the bits of the one that drew it.
+/// the camera are those of the image. Throws InputError if the image has no metadata or was denoised, if the scene is
+/// another, if the frame was of the tier fast, or if the backend does not guarantee the bits of the one that drew it.
 [[nodiscard]] Verdict verify_image(Backend& backend, const Scene& scene, const PrepareOptions& options,
                                    const DecodedImage& image, const VerifyOptions& how);
 

@@ -8,9 +8,11 @@
 #include "accuracy/report_words.h"
 #include "loop_backend.h"
 #include "support/input_error.h"
+#include "tandem/gltf/load_scene.h"
 #include "tandem/report/csv_writer.h"
 #include "tandem/report/html_writer.h"
 #include "tandem/report/json_writer.h"
+#include "tandem/scene/named_scenes.h"
 
 namespace tandem::bench {
 namespace {
@@ -91,6 +93,49 @@ TEST(AccuracySweep, TheAnswerIsAtTheTop) {
     ASSERT_FALSE(report.blocks.empty());
     ASSERT_TRUE(std::holds_alternative<Heading>(report.blocks.front()));
     EXPECT_EQ(std::get<Heading>(report.blocks.front()).text, "The answer");
+}
+
+TEST(AccuracySweep, MeasuresTheRungBelowAndADenoiser) {
+    SweepOptions options = small();
+    options.backends = {"cpu"};
+    options.axes = {"rasterised", "denoised"};
+    options.denoiser = TANDEM_STUB_DENOISER;
+    Report report;
+    EXPECT_TRUE(run_sweep(options, BackendSource(), report)) << prose_of(report);
+    ASSERT_EQ(report.rows.size(), 3U * 2) << "strict, rasterised, denoised";
+    const BenchmarkRow& strict = report.rows[1];
+    const BenchmarkRow& rasterised = report.rows[3];
+    const BenchmarkRow& denoised = report.rows[5];
+    EXPECT_EQ(rasterised.label, "cpu, rasterised, 4 spp");
+    EXPECT_EQ(denoised.label, "cpu, denoised (biased), 4 spp");
+    EXPECT_LT(figure(rasterised, "RMSE"), 3 * figure(strict, "RMSE")) << "the paper's scene needs no rays";
+    EXPECT_GT(figure(denoised, "RMSE"), 3 * figure(strict, "RMSE")) << "the stub is no denoiser";
+    EXPECT_GT(rasterised.errors[0].share, 0.5);
+    EXPECT_GT(denoised.errors[0].share, 0.9);
+    const std::string prose = prose_of(report);
+    for (const char* part : {"Rasterised images come without a ray", "This scene needs no effect that it leaves out.",
+                             "Denoised images are biased", "rasterised on cpu takes"}) {
+        EXPECT_TRUE(contains(prose, part));
+    }
+}
+
+TEST(AccuracySweep, SaysWhatTheRungBelowLacksAndWhyThereIsNoDenoiser) {
+    const VariedAxes axes{.tiers = {Tier::strict},
+                          .effects = false,
+                          .depth = false,
+                          .tessellation = false,
+                          .no_denoiser = "It is not here."};
+    const SettingPlan plan = plan_settings(load_scene(TANDEM_SCENES "/whitted.gltf"), axes);
+    ASSERT_EQ(plan.settings.size(), 2U);
+    EXPECT_EQ(plan.settings[1].axis, Axis::rasterised);
+    EXPECT_TRUE(runs_on(plan.settings[1], "cpu"));
+    EXPECT_FALSE(runs_on(plan.settings[1], "cuda"));
+    ASSERT_EQ(plan.biases.size(), 1U);
+    for (const char* part : {"shadows", "reflection", "refraction"}) EXPECT_TRUE(contains(plan.biases[0], part));
+    EXPECT_TRUE(contains(plan.skipped.back(), "Denoised: not run. It is not here."));
+    const SettingPlan many = plan_settings(named_scene("spheres/300000"), axes);
+    EXPECT_EQ(many.settings.size(), 1U);
+    EXPECT_TRUE(contains(many.skipped[4], "the rasteriser draws at most 4000000"));
 }
 
 TEST(AccuracySweep, FailsIfABackendThatPromisesBitsHasOthers) {

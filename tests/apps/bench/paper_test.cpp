@@ -64,6 +64,9 @@ TEST_F(Paper, MeasuresEveryRungOfTheLadder) {
     EXPECT_EQ(row("-O0, 1 thread")->seconds.size(), 1U);
     EXPECT_EQ(row("-O3, 1 thread")->seconds.size(), 3U);
     EXPECT_EQ(row("-O3, 2 threads")->seconds.size(), 9U);
+    ASSERT_NE(row("Rasteriser (no rays)"), nullptr);
+    EXPECT_EQ(row("Rasteriser (no rays)")->seconds.size(), 9U);
+    EXPECT_NE(prose_of(report_).find("A plain rasteriser on all threads"), std::string::npos);
     for (const char* label :
          {"Tandem CPU, 2 threads", "Tandem GPU, kernel", "Tandem GPU, scene to film", "and PPM text", "and PNG"}) {
         ASSERT_NE(row(label), nullptr) << label;
@@ -109,6 +112,7 @@ TEST_F(Paper, ASpoiledPictureIsFound) {
 TEST_F(Paper, WithoutAGpuThePageSaysWhatItLacks) {
     EXPECT_TRUE(run_paper(options_, loop_source([](const auto&, const auto&) { return false; }, "cuda"), report_));
     EXPECT_EQ(row("Tandem GPU"), nullptr);
+    EXPECT_NE(row("Rasteriser (no rays)"), nullptr);
     EXPECT_NE(row("Tandem CPU, and PNG"), nullptr);
     EXPECT_NE(prose_of(report_).find("No GPU took part"), std::string::npos);
     EXPECT_EQ(property_of(report_, "pixels compared"), "");

@@ -91,12 +91,13 @@ TEST(BenchProgram, EffectsOfAScenePassAndSayTheirPrice) {
 TEST(BenchProgram, AccuracySweepsASceneAndKeepsItsReferences) {
     const test::TemporaryFolder folder;
     const std::string command =
-        "accuracy named:paper --backends cpu --size 20x18 --samples 1,4 --seeds 6 --references " +
+        "accuracy named:paper --backends cpu --vary samples,tier,tessellation,rasterised --size 20x18 --samples 1,4 "
+        "--seeds 6 --references " +
         folder.file("references") + " --json -";
     const Outcome outcome = run_bench(command);
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const auto json = nlohmann::json::parse(outcome.output);
-    EXPECT_EQ(json["rows"].size(), 2U * (3 + 3)) << "three tiers and three tessellations";
+    EXPECT_EQ(json["rows"].size(), 2U * (3 + 3 + 1)) << "three tiers, three tessellations and the rasteriser";
     EXPECT_GT(json["rows"][0]["figures"]["RMSE"], 0);
     EXPECT_EQ(json["rows"][0]["series"]["mean FLIP"].size(), 6U);
     EXPECT_TRUE(std::filesystem::exists(folder.file("references/named_paper-20x18-a.pfm.txt")));

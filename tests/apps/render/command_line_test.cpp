@@ -1,14 +1,12 @@
 /// The program itself, as far as it goes without rendering.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
 
+#include "run_render.h"
 #include "support/temporary_folder.h"
 #include "tandem/base/version.h"
 #include "tandem/base/whole_file.h"
@@ -17,30 +15,15 @@
 namespace tandem {
 namespace {
 
-struct Finished {
-    int status = -1;
-    std::string printed;  ///< standard output and standard error
-};
-
-Finished tandem_render(const std::string& arguments) {
-    const std::string command = std::string("'") + TANDEM_RENDER_PROGRAM + "' " + arguments + " 2>&1";
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    Finished run;
-    std::array<char, 4096> buffer;
-    while (const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-        run.printed.append(buffer.data(), size);
-    }
-    const int status = ::pclose(pipe);
-    run.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return run;
-}
+using test::Finished;
+using test::tandem_render;
 
 TEST(CommandLine, HelpAndVersion) {
     const Finished help = tandem_render("--help");
     EXPECT_EQ(help.status, 0);
     for (const char* word : {"SCENE", "--frames", "--ppm-text", "--force", "--shutter-instants", "--exposure",
                              "--transfer", "--aov", "albedo", "--env", "named:paper", "--checkpoint", "--resume",
-                             "--target-error", "--time-budget", "--plan", "verify"}) {
+                             "--target-error", "--time-budget", "--plan", "--denoise", "verify"}) {
         EXPECT_NE(help.printed.find(word), std::string::npos) << word;
     }
     const Finished shown = tandem_render("--version");
