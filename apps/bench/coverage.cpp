@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "accuracy/accuracy_scenes.h"
+#include "accuracy/settings.h"
 #include "output.h"
 #include "tandem/accuracy/image_errors.h"
 #include "tandem/accuracy/reference.h"
@@ -93,6 +94,7 @@ class CoveredScene {
         job.height = options_.size.height;
         job.samples = samples;
         job.seed = seed;
+        if (scene_.truth) job.limits = unlimited;  // a closed form is of all light
         return job;
     }
     [[nodiscard]] FloatImage render(int samples, std::uint64_t seed) {

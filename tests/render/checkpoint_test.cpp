@@ -102,7 +102,7 @@ TEST_F(CheckpointTest, RendersToATargetGoOnWithTheSameBits) {
     job.planes = FilmPlane::normal;
     const std::function<double()> no_clock = [] { return 0.0; };
     for (const RenderTarget& target :
-         {RenderTarget{.error = 0.003}, RenderTarget{.error = 0.003, .metric = ErrorMetric::flip}}) {
+         {RenderTarget{.error = 0.003}, RenderTarget{.error = 0.0005, .metric = ErrorMetric::flip}}) {
         interrupted = false;
         test::InterruptingBackend counting(make_backend("cpu"), 1000, interrupted);
         const auto expected = render_to_target(counting, scene, plan(), target, interrupted, no_clock);

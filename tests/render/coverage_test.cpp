@@ -105,7 +105,7 @@ TEST(Coverage, OfKnownNoise) {
         RenderTarget target;
     };
     for (const Case& one :
-         {Case{Noise::uniform, "uniform", {.error = 0.08}}, Case{Noise::edges, "edges", {.error = 0.12}},
+         {Case{Noise::uniform, "uniform", {.error = 0.08}}, Case{Noise::edges, "edges", {.error = 0.05}},
           Case{Noise::skewed, "skewed", {.error = 0.2}}, Case{Noise::fireflies, "fireflies", {.error = 0.2}},
           Case{Noise::skewed, "skewed_relmse", {.error = 0.02, .metric = ErrorMetric::relmse}}}) {
         NoiseBackend backend(one.noise);
@@ -123,8 +123,8 @@ TEST(Coverage, OfScenes) {
         const char* name;
         RenderTarget target;
     };
-    for (const Case& one : {Case{"paper", {.error = 0.03}}, Case{"mixed/64", {.error = 0.03}},
-                            Case{"mixed/64", {.error = 0.03, .metric = ErrorMetric::flip}}}) {
+    for (const Case& one : {Case{"paper", {.error = 0.01}}, Case{"mixed/64", {.error = 0.015}},
+                            Case{"mixed/64", {.error = 0.012, .metric = ErrorMetric::flip}}}) {
         const Scene scene = named_scene(one.name);
         const auto resident = backend->load(prepare(scene));
         RenderJob reference = job;

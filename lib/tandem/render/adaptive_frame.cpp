@@ -125,9 +125,9 @@ class Rounds {
         if (target_.metric == ErrorMetric::flip) return fresh_errors();
         return tile_errors(state_.film, nullptr, target_);
     }
+    /// Whether the last round does not show the contrary.
     [[nodiscard]] bool reaches_target() {
-        const ErrorSums errors = sum_of(fresh_errors());
-        return errors.sum <= errors.pixels * mean_of_target(target_.error, target_.metric);
+        return estimate_error(sum_of(fresh_errors()), target_.metric).low <= target_.error;
     }
     [[nodiscard]] bool round_is_complete() const { return state_.film.samples() == state_.round.ends; }
     [[nodiscard]] double pixels_of(std::size_t tile) const {

@@ -38,7 +38,8 @@ struct Resumption {
 /// errors of all tiles from all samples so far, and decides the next round by them. What a last round shows has decided
 /// nothing: so the error that is reported is estimated from the samples of the last round alone, those that did not
 /// stop it. (Two-stage sampling: C. Stein, "A two-sample test for a linear hypothesis whose power is independent of the
-/// variance", Annals of Mathematical Statistics, 1945.) If that error is above the target, rounds go on.
+/// variance", Annals of Mathematical Statistics, 1945.) If that error, at
+/// the lower end of its interval, is above the target, rounds go on.
 ///
 /// Decisions depend on the film alone, so in the exact tiers every backend draws the same bits. The time limit is the
 /// exception: a round does not start if, by the time of the rounds before, it would end too late; the first always

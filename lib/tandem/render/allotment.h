@@ -29,10 +29,10 @@ struct Allotment {
 };
 
 /// Allots the next round. Beginning with one more part for each tile, the part that reduces the error of the whole film
-/// most per sample comes next, until the error that is predicted from `tiles`, with a standard error more, is that of
-/// the target, or no part helps. The error of a tile falls with 1 / samples, so this gives samples about in
-/// proportion to the standard deviation: what minimises their number (J. Neyman, "On the Two Different Aspects of the
-/// Representative Method", Journal of the Royal Statistical Society 97 (4), 1934).
+/// most per sample, within a factor of two, comes next, until the error that is predicted from `tiles`, with a standard
+/// error more, is that of the target, or no part helps. The error of a tile falls with 1 / samples, so this gives
+/// samples about in proportion to the standard deviation: what minimises their number (J. Neyman, "On the Two Different
+/// Aspects of the Representative Method", Journal of the Royal Statistical Society 97 (4), 1934).
 ///
 /// If no tile needs more than twice its samples, the round is the last: every tile gets at least a part, and what the
 /// round shows has decided nothing. Else only tiles that need more get samples, at most twice as many as they have, and
