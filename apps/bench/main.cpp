@@ -8,6 +8,7 @@
 #include "accuracy/accuracy_report.h"
 #include "accuracy/report_blocks.h"
 #include "common/run_main.h"
+#include "coverage.h"
 #include "effects.h"
 #include "hard.h"
 #include "output.h"
@@ -50,6 +51,7 @@ struct Everything {
     HardOptions hard;
     EffectsOptions effects;
     ScaleOptions scale;
+    CoverageOptions coverage;
     bool list_targets = false;
 };
 
@@ -302,6 +304,45 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
     return command;
 }
 
+CLI::App* add_coverage(CLI::App& app, Everything& all) {
+    CLI::App* command = app.add_subcommand(
+        "coverage",
+        "Render to a target many times: do the stated errors and the forecasts hold? Status 1 if the errors do not");
+    CoverageOptions& coverage = all.coverage;
+    command->add_option("SCENE", coverage.scenes, "glTF files, named:NAME, closed:furnace/PERCENT or closed:glass")
+        ->required();
+    command->add_option("--metric", coverage.metric, "Of the error: rmse, relmse or flip")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"rmse", "relmse", "flip"}));
+    command->add_option(
+        "--size", all.texts.size,
+        fmt::format("Width and height in pixels; default {}x{}", coverage.size.width, coverage.size.height));
+    command->add_option("--trials", coverage.trials, "Renders of each scene, each with a seed of its own")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100'000));
+    command
+        ->add_option("--equal-samples", coverage.equal_samples,
+                     "The target is the error of an image with as many samples in every pixel")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 20));
+    command
+        ->add_option("--reference-samples", coverage.reference_samples, "Samples per pixel of each of two references")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1 << 24));
+    command->add_option("--most-samples", coverage.most_samples, "Most samples per pixel of a render to the target")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 1 << 24));
+    command->add_option("--backend", coverage.backend, "Backend: cpu, cuda or oracle")->capture_default_str();
+    command->add_option("--threads", coverage.threads, "CPU threads; 0 is one per core")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--seed", coverage.seed, "Seed of the first render")->capture_default_str();
+    command->add_option("--clock", coverage.clock, "Clock of the times: wall, or process where other load disturbs")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"wall", "process"}));
+    return command;
+}
+
 /// The command line as it can be typed again.
 std::string command_line(int count, const char* const* words) {
     std::string line = "tandem-bench";
@@ -369,6 +410,7 @@ int run(int count, char** words) {
     const CLI::App* hard = add_hard(app, all);
     const CLI::App* effects = add_effects(app, all);
     const CLI::App* scale = add_scale(app, all);
+    const CLI::App* coverage = add_coverage(app, all);
     for (CLI::App* command : app.get_subcommands({})) add_output_options(*command, all.output);
     try {
         app.parse(count, words);
@@ -418,6 +460,9 @@ int run(int count, char** words) {
     } else if (scale->parsed()) {
         take_texts(all.texts, all.scale);
         satisfied = run_scale(all.scale, source, report);
+    } else if (coverage->parsed()) {
+        take_texts(all.texts, all.coverage);
+        satisfied = run_coverage(all.coverage, source, report);
     }
     if (!write_report(report, all.output)) print_report(report);
     return satisfied ? exit_done : exit_short_of_target;

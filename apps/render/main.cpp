@@ -65,15 +65,16 @@ RenderTarget target_of(const Words& words) {
 void declare_target(CLI::App& app, Words& words) {
     auto* const error =
         app.add_option("--target-error", words.target_error,
-                       fmt::format("sample each tile until the image has about this error (docs/long-renders.md); "
-                                   "--spp is then the most samples per pixel, {} if not given",
+                       fmt::format("take samples where they help most until the image has this error "
+                                   "(docs/long-renders.md); --spp is then the most samples per pixel, {} if not given",
                                    most_samples_of_target))
             ->type_name("E")
             ->check(CLI::PositiveNumber);
     app.add_option("--metric", words.metric,
-                   "of that error: rmse, in units of radiance, or relmse, the mean of relative squared errors")
+                   "of that error: rmse, in units of radiance; relmse, the mean of relative squared errors; or flip, "
+                   "what a person sees, from 0 to 1")
         ->needs(error)
-        ->check(CLI::IsMember({"rmse", "relmse"}))
+        ->check(CLI::IsMember({"rmse", "relmse", "flip"}))
         ->capture_default_str();
     app.add_option("--time-budget", words.time_budget,
                    "seconds in which to render a frame: no round of samples starts that would end later")

@@ -25,7 +25,8 @@ int run_plan(const RenderCommand& command, const Scene& scene, Backend& backend)
     job.frame = static_cast<std::uint32_t>(options.frames.first);
     const FramePlan plan =
         plan_frame(scene, {.frame = options.frames.first, .camera = options.camera, .effects = options.effects}, job);
-    const RenderTarget target = options.target.value_or(RenderTarget{});
+    RenderTarget target = options.target.value_or(RenderTarget{});
+    target.display = display_of(options, scene);
     const Stopwatch watch;
     const Forecast expected = forecast(backend, scene, plan, target, [&watch] { return watch.seconds(); });
     print(fmt::format(
@@ -35,9 +36,12 @@ int run_plan(const RenderCommand& command, const Scene& scene, Backend& backend)
         job.frame, expected.samples.value, expected.samples.low, expected.samples.high, expected.seconds.value,
         expected.seconds.low, expected.seconds.high, backend.name(), expected.probe_seconds));
     bool can = true;
-    if (expected.short_pixels > 0) {
-        print(fmt::format("{:.3g} % of the pixels cannot reach {} with {} samples; raise --spp or --target-error",
-                          100 * expected.short_pixels, to_string(target), job.samples));
+    if (!expected.can_reach) {
+        print(
+            fmt::format("cannot reach {} with {} samples per pixel, but about {:.3g} ({:.3g} to {:.3g}); raise --spp "
+                        "or --target-error",
+                        error_text(target), job.samples, expected.least_error.value, expected.least_error.low,
+                        expected.least_error.high));
         can = false;
     }
     if (std::isfinite(target.seconds)) {

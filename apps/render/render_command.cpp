@@ -30,7 +30,7 @@ void write_json(const std::string& target, const nlohmann::ordered_json& json) {
 void print_how_to_resume(const RenderCommand& command, std::size_t done, std::size_t total) {
     if (const auto& checkpoint = command.sequence.checkpoint; checkpoint && done < total) {
         std::fprintf(stderr,
-                     "tandem-render: interrupted; the finished tiles are in '%s'. Run the same command again with "
+                     "tandem-render: interrupted; what is finished is in '%s'. Run the same command again with "
                      "--resume to go on from there, on any backend.\n",
                      checkpoint->file.c_str());
         return;

@@ -153,9 +153,7 @@ class Sequence {
           exposure_is_open_(options.exposure && options.exposure->automatic && !holds_floats(format_)),
           exposure_rule_(exposure_is_open_ ? automatic_exposure : ""),
           most_writing_(writer_count(options)) {
-        write_.display = scene.display;
-        if (options.transfer) write_.display.transfer = *options.transfer;
-        if (options.exposure) write_.display.exposure_stops = options.exposure->stops;
+        write_.display = display_of(options, scene);
     }
 
     ~Sequence() {
@@ -276,20 +274,22 @@ class Sequence {
         record.metadata = metadata_of(job, frame_hash(scene_, plan));
         if (is_finished(record)) return;
         leave_backend();
-        if (options_.target) {
-            if (auto frame = to_target(plan, record)) pass_at_once(*std::move(frame), plan, job, std::move(record));
-            return;
-        }
         const ImageMetadata film = describe(job, record.metadata.scene_hash, backend_.name());
-        auto frame = render_with_checkpoints(backend_, scene_, plan, film, *options_.checkpoint, interrupted_);
+        auto frame = options_.target
+                         ? to_target(plan, film, record)
+                         : render_with_checkpoints(backend_, scene_, plan, film, *options_.checkpoint, interrupted_);
         if (frame) pass_at_once(*std::move(frame), plan, job, std::move(record));
     }
 
     /// Renders a frame to the target, and says in its record how it ended.
-    std::optional<RenderedFrame> to_target(const FramePlan& plan, FrameRecord& record) const {
-        const Stopwatch watch;
-        auto result = render_to_target(backend_, scene_, plan, *options_.target, interrupted_,
-                                       [&watch] { return watch.seconds(); });
+    std::optional<RenderedFrame> to_target(const FramePlan& plan, const ImageMetadata& film,
+                                           FrameRecord& record) const {
+        RenderTarget target = *options_.target;
+        target.display = write_.display;
+        const auto clock = [watch = Stopwatch()] { return watch.seconds(); };
+        auto result = options_.checkpoint ? render_to_target_with_checkpoints(backend_, scene_, plan, target, film,
+                                                                              *options_.checkpoint, interrupted_, clock)
+                                          : render_to_target(backend_, scene_, plan, target, interrupted_, clock);
         if (!result) return std::nullopt;
         record.metadata.tile_samples = std::move(result->tile_samples);
         record.metadata.error = fmt::format("{} {}", to_string(options_.target->metric), to_string(result->error));
@@ -449,6 +449,13 @@ class Sequence {
 
 }  // namespace
 
+Display display_of(const SequenceOptions& options, const Scene& scene) {
+    Display display = scene.display;
+    if (options.transfer) display.transfer = *options.transfer;
+    if (options.exposure) display.exposure_stops = options.exposure->stops;
+    return display;
+}
+
 void check_output(const SequenceOptions& options) {
     const FramePattern pattern(options.output);
     const ImageFormat format = format_of(options.output, options.write);
@@ -465,11 +472,12 @@ void check_output(const SequenceOptions& options) {
                                      options.output));
     }
     if (options.target) {
-        if (options.checkpoint) {
-            throw InputError(
-                "--checkpoint cannot be used with --target-error or --time-budget; give a number of samples (--spp)");
-        }
         check(*options.target, options.job);
+        if (options.target->metric == ErrorMetric::flip && options.exposure && options.exposure->automatic) {
+            throw InputError(
+                "--metric flip depends on the exposure, so --exposure auto, which depends on the image, cannot be used "
+                "with it; give the exposure in stops");
+        }
     }
     if (options.checkpoint) {
         if (options.frames.count() > 1) {

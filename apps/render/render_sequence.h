@@ -85,9 +85,10 @@ struct FrameRecord {
 /// With a `denoiser` the file has the denoised image, and its metadata say so; their film_sha256 is that of the film
 /// before. The planes in the file are those of the job, although the denoiser_planes are rendered too.
 ///
-/// With a `checkpoint` the frame is rendered by render_with_checkpoints(), whose file is removed when the image is
-/// written. If it is interrupted, the frame is not finished. With a `target` frames are rendered by render_to_target().
-/// A frame that a signal stopped short of it is written, but not taken as finished by the next run.
+/// With a `target` frames are rendered by render_to_target(). A frame that a signal stopped short of it is written, but
+/// not taken as finished by the next run. With a `checkpoint` the frame is rendered by render_with_checkpoints() or
+/// render_to_target_with_checkpoints(); the file is removed when the image is written. If it is interrupted, the frame
+/// is not finished.
 ///
 /// Returns the number of finished frames. Throws InputError for invalid options, scenes and paths, if possible before
 /// the first frame; the first error of a backend or a writer is passed on, once the frames that other writers hold are
@@ -95,6 +96,9 @@ struct FrameRecord {
 std::size_t render_sequence(const Scene& scene, Backend& backend, const SequenceOptions& options,
                             const std::atomic<bool>& interrupted,
                             const std::function<void(const FrameRecord&)>& on_frame);
+
+/// How the frames are shown in .png and .ppm, unless the first one decides.
+[[nodiscard]] Display display_of(const SequenceOptions& options, const Scene& scene);
 
 /// Throws as render_sequence() does for an invalid output, but needs neither a scene nor a backend.
 void check_output(const SequenceOptions& options);

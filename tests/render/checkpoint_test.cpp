@@ -97,6 +97,80 @@ TEST_F(CheckpointTest, EveryInstantOfMotionBlurIsAddedInItsOrder) {
     }
 }
 
+TEST_F(CheckpointTest, RendersToATargetGoOnWithTheSameBits) {
+    job.samples = 4096;
+    job.planes = FilmPlane::normal;
+    const std::function<double()> no_clock = [] { return 0.0; };
+    for (const RenderTarget& target :
+         {RenderTarget{.error = 0.003}, RenderTarget{.error = 0.0005, .metric = ErrorMetric::flip}}) {
+        interrupted = false;
+        test::InterruptingBackend counting(make_backend("cpu"), 1000, interrupted);
+        const auto expected = render_to_target(counting, scene, plan(), target, interrupted, no_clock);
+        ASSERT_TRUE(expected);
+        EXPECT_EQ(expected->stopped_by, StoppedBy::target);
+        const auto part = [&](const BackendOptions& how, int stop) {
+            interrupted = false;
+            test::InterruptingBackend backend(make_backend("cpu", how), stop, interrupted);
+            const ImageMetadata frame = describe(job, frame_hash(scene, plan()), "cpu");
+            return render_to_target_with_checkpoints(backend, scene, plan(), target, frame, options, interrupted,
+                                                     no_clock);
+        };
+        BackendOptions one, other;
+        one.threads = 1;
+        one.instruction_set = "x86-64-v2";
+        other.threads = 2;
+        other.tile_size = 7;
+        // interrupted after every few windows, by turns
+        std::optional<TargetFrame> frame;
+        int parts = 0;
+        for (; !frame && parts < 100; ++parts) frame = part(parts % 2 == 0 ? one : other, 1 + parts % 3);
+        ASSERT_TRUE(frame);
+        EXPECT_GT(parts, 3);
+        EXPECT_EQ(frame->stopped_by, StoppedBy::target);
+        EXPECT_EQ(frame->tile_samples, expected->tile_samples);
+        EXPECT_EQ(frame->error.value, expected->error.value);
+        EXPECT_EQ(frame->error.high, expected->error.high);
+        expect_equal_films(frame->frame.result.film, expected->frame.result.film);
+        std::filesystem::remove(options.file);
+    }
+}
+
+TEST_F(CheckpointTest, OfAnotherTargetIsRefused) {
+    job.samples = 4096;
+    const auto render_to = [&](const RenderTarget& target, int stop) {
+        interrupted = false;
+        test::InterruptingBackend backend(make_backend("cpu"), stop, interrupted);
+        const ImageMetadata frame = describe(job, frame_hash(scene, plan()), "cpu");
+        return render_to_target_with_checkpoints(backend, scene, plan(), target, frame, options, interrupted,
+                                                 [] { return 0.0; });
+    };
+    EXPECT_FALSE(render_to({.error = 0.01}, 1));
+    EXPECT_TRUE(contains(input_error([&] { (void)render_to({.error = 0.02}, 0); }),
+                         "target is 'rmse 0.01' there, but 'rmse 0.02' here"));
+    EXPECT_TRUE(contains(input_error([&] { (void)render(make_backend("cpu")); }), "target is 'rmse 0.01' there"));
+    EXPECT_FALSE(render_to({.error = 0.01, .seconds = 1e6}, 1));  // other time is not another film
+}
+
+TEST_F(CheckpointTest, TheTimeOfEarlierRunsCounts) {
+    job.samples = 4096;
+    double now = 0;
+    const auto run = [&](int stop) {
+        interrupted = false;
+        test::InterruptingBackend backend(make_backend("cpu"), stop, interrupted);
+        const ImageMetadata frame = describe(job, frame_hash(scene, plan()), "cpu");
+        return render_to_target_with_checkpoints(backend, scene, plan(), {.seconds = 10}, frame, options, interrupted,
+                                                 [&] { return now += 1; });
+    };
+    EXPECT_FALSE(run(2));
+    const double before = read_checkpoint(options.file).round->seconds;
+    EXPECT_GT(before, 1);
+    now = 1000;
+    const auto frame = run(0);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->stopped_by, StoppedBy::time);
+    EXPECT_LT(now, 1012);
+}
+
 TEST_F(CheckpointTest, OnlyWhatIsLeftIsRendered) {
     EXPECT_FALSE(render(make_backend("cpu"), 2));
     const Checkpoint half = read_checkpoint(options.file);
@@ -144,8 +218,17 @@ TEST_F(CheckpointTest, IsReadAsItWasWritten) {
     written.counters.lost_media = 7;
     written.film.add(1, test::plane_film(32, 20, 4, planes));
     written.film.add(2, test::plane_film(6, 20, 9, planes, 100));
+    written.round =
+        Round{{Film(), test::plane_film(32, 20, 2, FilmPlane::variance), Film()}, {0, 2, 9}, {8, 4, 12}, true, 0.1};
     write_checkpoint(options.file, written);
     const Checkpoint read = read_checkpoint(options.file);
+    ASSERT_TRUE(read.round);
+    EXPECT_EQ(read.round->begins, written.round->begins);
+    EXPECT_EQ(read.round->ends, written.round->ends);
+    EXPECT_TRUE(read.round->is_last);
+    EXPECT_EQ(read.round->seconds, 0.1);
+    EXPECT_EQ(read.round->fresh[0].samples(), 0);
+    expect_equal_films(read.round->fresh[1], written.round->fresh[1]);
     EXPECT_EQ(read.frame, written.frame);
     EXPECT_EQ(read.counters, written.counters);
     EXPECT_EQ(read.film.grid(), written.film.grid());
@@ -170,7 +253,7 @@ TEST_F(CheckpointTest, DamagedOnesAreRefused) {
             << "cut, seed " << seed;
     }
     Bytes newer = good;
-    newer[18] = std::byte{'2'};
+    newer[18] = std::byte{'3'};
     EXPECT_TRUE(contains(refusal(newer), "another form"));
     EXPECT_TRUE(contains(refusal({}), "not a checkpoint"));
 }

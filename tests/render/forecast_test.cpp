@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/input_error.h"
 #include "support/noise_backend.h"
 #include "tandem/render/tile_grid.h"
@@ -51,7 +53,7 @@ TEST_F(ForecastTest, IsNearTheRender) {
         EXPECT_LE(expected.seconds.low, 1.0001e-6 * rendered.samples);
         EXPECT_GE(expected.seconds.high, 0.9999e-6 * rendered.samples);
         EXPECT_LE(expected.samples.high, 4 * expected.samples.low);  // it says something
-        EXPECT_EQ(expected.short_pixels, 0);
+        EXPECT_TRUE(expected.can_reach);
         EXPECT_NEAR(probed.samples, 16.0 * job.width * job.height, 0.5);
     }
 }
@@ -60,8 +62,12 @@ TEST_F(ForecastTest, SaysWhatCannotBeReached) {
     TimedBackend backend(Noise::uniform);
     job.samples = 64;
     const Forecast expected = forecast(backend, scene, plan(), {.error = 0.01}, backend.clock());
-    EXPECT_EQ(expected.short_pixels, 0.5);
-    EXPECT_EQ(expected.samples.value, (64.0 + 32) / 2);
+    EXPECT_FALSE(expected.can_reach);
+    const double least = std::sqrt(1.0 / 3 / 64 / 2);  // half of the pixels have no error
+    EXPECT_NEAR(expected.least_error.value, least, 0.05 * least);
+    EXPECT_LT(expected.least_error.low, least);
+    EXPECT_GT(expected.least_error.high, least);
+    EXPECT_EQ(expected.samples.value, (64.0 + 24) / 2);
 }
 
 TEST_F(ForecastTest, OfAGivenNumberOfSamplesIsOfTimeAlone) {

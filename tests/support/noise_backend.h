@@ -14,10 +14,11 @@ namespace tandem::test {
 
 /// How the samples of a pixel are distributed. All have the mean 1 where they have noise.
 enum class Noise {
-    uniform,   ///< from 0 to 2 in the left half, no noise in the right half
-    edges,     ///< 0 or 2 in each eighth column, no noise elsewhere
-    skewed,    ///< exponential of a normal number, with sigma 1
-    fireflies  ///< 0.9, and 20.9 in one of 200 samples
+    uniform,    ///< from 0 to 2 in the left half, no noise in the right half
+    edges,      ///< 0 or 2 in each eighth column, no noise elsewhere
+    skewed,     ///< exponential of a normal number, with sigma 1
+    fireflies,  ///< 0.9, and 20.9 in one of 200 samples
+    none
 };
 
 class NoiseBackend : public Backend {
@@ -72,6 +73,8 @@ class NoiseBackend : public Backend {
                 return std::exp(std::sqrt(-2 * std::log(1 - u)) * std::cos(6.283185307179586 * v) - 0.5);
             case Noise::fireflies:
                 return u < 0.005 ? 20.9 : 0.9;
+            case Noise::none:
+                return 1;
         }
         return 0;
     }

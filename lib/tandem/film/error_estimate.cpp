@@ -20,34 +20,49 @@ double student_quantile(double freedom) {
     return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
 }
 
-/// How far the interval goes above the mean, as a share of it.
-double spread(const SquaredErrors& errors) {
-    if (!(errors.squares > 0)) return 0;
-    const double carriers = errors.sum * errors.sum / errors.squares;
-    return student_quantile(std::max(carriers - 1, 1.0)) * std::sqrt(2 / carriers);
+/// Of the mean, as a share of it.
+double standard_error(const ErrorSums& errors) {
+    return errors.squares > 0 ? std::sqrt(2 * errors.squares) / errors.sum : 0;
 }
 
-double mean_of(const SquaredErrors& errors) { return errors.pixels > 0 ? errors.sum / errors.pixels : 0; }
+/// How far the interval goes above the mean, as a share of it.
+double spread(const ErrorSums& errors) {
+    if (!(errors.squares > 0)) return 0;
+    const double carriers = errors.sum * errors.sum / errors.squares;
+    return student_quantile(std::max(carriers - 1, 1.0)) * standard_error(errors);
+}
+
+double mean_of(const ErrorSums& errors) { return errors.pixels > 0 ? errors.sum / errors.pixels : 0; }
 
 }  // namespace
 
-const char* to_string(ErrorMetric metric) { return metric == ErrorMetric::rmse ? "rmse" : "relmse"; }
-
-ErrorMetric parse_metric(std::string_view name) {
-    for (const ErrorMetric metric : {ErrorMetric::rmse, ErrorMetric::relmse}) {
-        if (name == to_string(metric)) return metric;
+const char* to_string(ErrorMetric metric) {
+    switch (metric) {
+        case ErrorMetric::rmse:
+            return "rmse";
+        case ErrorMetric::relmse:
+            return "relmse";
+        case ErrorMetric::flip:
+            return "flip";
     }
-    throw InputError(fmt::format("there is no metric '{}'; the metrics are rmse and relmse", name));
+    return "";
 }
 
-SquaredErrors squared_errors(const Film& all, const Film& fresh, ErrorMetric metric, double film_mean) {
+ErrorMetric parse_metric(std::string_view name) {
+    for (const ErrorMetric metric : {ErrorMetric::rmse, ErrorMetric::relmse, ErrorMetric::flip}) {
+        if (name == to_string(metric)) return metric;
+    }
+    throw InputError(fmt::format("there is no metric '{}'; the metrics are rmse, relmse and flip", name));
+}
+
+ErrorSums squared_errors(const Film& all, const Film& fresh, ErrorMetric metric, double film_mean) {
     const DefaultFpEnvironment guard;
     const Vec3d *const squares = fresh.planes().variance, *const all_squares = all.planes().variance;
     const double samples = all.samples(), part = fresh.samples();
     const bool has_others = samples > part;
     const double others = has_others ? samples - part : samples;
     const double floor = relmse_floor * film_mean * film_mean;
-    SquaredErrors errors;
+    ErrorSums errors;
     errors.pixels = static_cast<double>(fresh.pixel_count());
     for (std::size_t i = 0; i < fresh.pixel_count(); ++i) {
         const auto of_channel = [&](double all_sum, double all_square, double sum, double square) {
@@ -68,20 +83,21 @@ SquaredErrors squared_errors(const Film& all, const Film& fresh, ErrorMetric met
     return errors;
 }
 
-ErrorEstimate estimate_error(const SquaredErrors& errors, ErrorMetric metric) {
+StatedError estimate_error(const ErrorSums& errors, ErrorMetric metric) {
     const DefaultFpEnvironment guard;
-    const double mean = mean_of(errors), k = spread(errors);
+    const double mean = mean_of(errors);
+    const double k = spread(errors) + (metric == ErrorMetric::flip ? flip_model_error : 0);
     const auto in_unit = [&](double square) { return metric == ErrorMetric::rmse ? std::sqrt(square) : square; };
     return {in_unit(mean), in_unit(mean * std::max(1 - k, 1 / ((1 + k) * (1 + k)))), in_unit(mean * (1 + k))};
 }
 
-double upper_mean(const SquaredErrors& errors) { return mean_of(errors) * (1 + spread(errors)); }
+double cautious_mean(const ErrorSums& errors) { return mean_of(errors) * (1 + standard_error(errors)); }
 
 double mean_of_target(double target, ErrorMetric metric) {
     return metric == ErrorMetric::rmse ? target * target : target;
 }
 
-std::string to_string(const ErrorEstimate& estimate) {
+std::string to_string(const StatedError& estimate) {
     return fmt::format("{:.3g}, {:.3g} to {:.3g}", estimate.value, estimate.low, estimate.high);
 }
 

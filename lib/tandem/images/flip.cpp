@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <utility>
 
 #include "tandem/base/error.h"
 #include "tandem/images/separable_filter.h"
 #include "tandem/images/tone_curve.h"
+#include "tandem/math/exact_math.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/srgb.h"
 
@@ -38,7 +38,7 @@ Vec3d rgb_of(const Vec3d& relative) {
 Vec3d hunt_lab(const Vec3d& rgb) {
     constexpr double delta = 6.0 / 29;
     const auto curve = [](double t) {
-        return t > delta * delta * delta ? std::cbrt(t) : t / (3 * delta * delta) + 4.0 / 29;
+        return t > delta * delta * delta ? power<float>(t, 1.0 / 3) : t / (3 * delta * delta) + 4.0 / 29;
     };
     const Vec3d xyz = relative_xyz(rgb);
     const Vec3d f{curve(xyz.x), curve(xyz.y), curve(xyz.z)};
@@ -46,14 +46,16 @@ Vec3d hunt_lab(const Vec3d& rgb) {
     return {lightness, 0.01 * lightness * 500 * (f.x - f.y), 0.01 * lightness * 200 * (f.y - f.z)};
 }
 
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// HyAB: city-block distance in lightness, Euclidean distance in colour.
-double hyab(const Vec3d& a, const Vec3d& b) { return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z); }
+double hyab(const Vec3d& a, const Vec3d& b) { return std::abs(a.x - b.x) + length(a.y - b.y, a.z - b.z); }
 
 constexpr double colour_exponent = 0.7;
 constexpr double feature_exponent = 0.5;
 
 /// The compressed HyAB distance of green and blue, the colours that are farthest apart.
-double largest_colour_error() { return std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), colour_exponent); }
+double largest_colour_error() { return power<float>(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), colour_exponent); }
 
 /// Maps to [0, 1]: the lower 0.4 of the range becomes 0.95 of it.
 double compressed(double error, double largest) {
@@ -81,7 +83,7 @@ Plane blurred(const Plane& plane, std::span<const Spread> spreads, double pixels
     for (const Spread& spread : spreads) {
         const AxisWeights weights = axis_weights(radius, [&](double pixels) {
             const double degrees = pixels / pixels_per_degree;
-            return std::exp(-pi * pi * degrees * degrees / spread.width);
+            return exp_wide<float>(-pi * pi * degrees * degrees / spread.width);
         });
         double along = 0;
         for (const double weight : weights) along += weight;
@@ -105,13 +107,13 @@ Features features_of(const Plane& luminance, double pixels_per_degree) {
     constexpr double width_of_edge = 0.082;  // degrees
     const double deviation = 0.5 * width_of_edge * pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
-    const auto gauss = [&](double x) { return std::exp(-x * x / (2 * deviation * deviation)); };
+    const auto gauss = [&](double x) { return exp_wide<float>(-x * x / (2 * deviation * deviation)); };
     const AxisWeights blur = normalised(axis_weights(radius, gauss));
     const auto magnitude = [&](const AxisWeights& across) {
         Plane result = filtered(luminance, across, blur);
         const Plane down = filtered(luminance, blur, across);
         for (std::size_t i = 0; i < result.values.size(); ++i) {
-            result.values[i] = std::hypot(result.values[i], down.values[i]);
+            result.values[i] = length(result.values[i], down.values[i]);
         }
         return result;
     };
@@ -159,6 +161,22 @@ Seen seen(const FloatImage& image, const FlipOptions& options) {
     return result;
 }
 
+FlipDifference difference(const Seen& p, const Seen& q, const FloatImage& size) {
+    const double largest = largest_colour_error();
+    FlipDifference result{size.width, size.height, {}, 0};
+    result.errors.reserve(p.lab.size());
+    for (std::size_t i = 0; i < p.lab.size(); ++i) {
+        const double colour = compressed(power<float>(hyab(p.lab[i], q.lab[i]), colour_exponent), largest);
+        const double edges = std::abs(p.features.edges.values[i] - q.features.edges.values[i]);
+        const double points = std::abs(p.features.points.values[i] - q.features.points.values[i]);
+        const double feature = power<float>(std::max(edges, points) / std::numbers::sqrt2, feature_exponent);
+        result.errors.push_back(std::clamp(power<float>(colour, 1 - std::min(feature, 1.0)), 0.0, 1.0));
+        result.mean += result.errors.back();
+    }
+    result.mean /= static_cast<double>(result.errors.size());
+    return result;
+}
+
 void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
     if (a.width != b.width || a.height != b.height || a.pixels.empty()) {
         throw InputError(fmt::format("FLIP needs two images of equal size, but they have {} x {} and {} x {} pixels",
@@ -173,22 +191,16 @@ void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options)
 }  // namespace
 
 FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
+    return std::move(flip(a, std::span(&b, 1), options).front());
+}
+
+std::vector<FlipDifference> flip(const FloatImage& a, std::span<const FloatImage> b, const FlipOptions& options) {
     const DefaultFpEnvironment guard;
-    check(a, b, options);
-    const Seen p = seen(a, options), q = seen(b, options);
-    const double largest = largest_colour_error();
-    FlipDifference result{a.width, a.height, {}, 0};
-    result.errors.reserve(p.lab.size());
-    for (std::size_t i = 0; i < p.lab.size(); ++i) {
-        const double colour = compressed(std::pow(hyab(p.lab[i], q.lab[i]), colour_exponent), largest);
-        const double edges = std::abs(p.features.edges.values[i] - q.features.edges.values[i]);
-        const double points = std::abs(p.features.points.values[i] - q.features.points.values[i]);
-        const double feature = std::pow(std::max(edges, points) / std::numbers::sqrt2, feature_exponent);
-        result.errors.push_back(std::clamp(std::pow(colour, 1 - std::min(feature, 1.0)), 0.0, 1.0));
-        result.mean += result.errors.back();
-    }
-    result.mean /= static_cast<double>(result.errors.size());
-    return result;
+    for (const FloatImage& image : b) check(a, image, options);
+    const Seen p = seen(a, options);
+    std::vector<FlipDifference> results;
+    for (const FloatImage& image : b) results.push_back(difference(p, seen(image, options), a));
+    return results;
 }
 
 FloatImage flip_map(const FlipDifference& difference) {

@@ -3,68 +3,66 @@
 
 #include <atomic>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 
 #include "tandem/film/error_estimate.h"
+#include "tandem/render/allotment.h"
 #include "tandem/render/motion_blur.h"
+#include "tandem/render/render_target.h"
+#include "tandem/render/round_state.h"
 
 namespace tandem {
-
-struct RenderTarget {
-    double error = 0;  ///< in the unit of the metric; 0: none, so that time or the samples of the job end it
-    ErrorMetric metric = ErrorMetric::rmse;
-    double seconds = std::numeric_limits<double>::infinity();  ///< wall time, from the start of the first round
-};
-
-/// Throws InputError that names an invalid field, or the samples of a job that are too few to have a variance.
-void check(const RenderTarget& target, const RenderJob& job);
-
-/// "rmse 0.01 within 60 s".
-[[nodiscard]] std::string to_string(const RenderTarget& target);
 
 enum class StoppedBy { target, samples, time, interrupt };
 [[nodiscard]] const char* to_string(StoppedBy reason);
 
 struct TargetFrame {
     RenderedFrame frame;  ///< its film has the planes of the job
-    ErrorEstimate error;
+    StatedError error;
     StoppedBy stopped_by = StoppedBy::samples;
     std::string tile_samples;  ///< tile_samples_text()
     double mean_samples = 0;   ///< per pixel
 };
 
-/// Renders square tiles of target_tile_edge pixels in rounds. The first has target_first_round samples per pixel; each
-/// later one doubles the samples of the tiles that are not finished, up to the samples of the job. After a round, the
-/// samples so far say whether a tile will have reached the target after *one more* round, with the upper end of
-/// estimate_error(); if so, that round is its last. So the samples of a last round decide nothing, and the error that
-/// is reported is estimated from them alone: the samples that stop a tile are not those that judge it. (Two-stage
-/// sampling: C. Stein, "A two-sample test for a linear hypothesis whose power is independent of the variance", Annals
-/// of Mathematical Statistics, 1945.)
+/// A render that can be saved between two windows of its film, and go on later.
+struct Resumption {
+    std::optional<RoundState> begin;  ///< where to go on from
+    RenderCounters counters{};        ///< of what is in `begin`
+    /// Called now and then, and before an interrupted render returns, unless it is empty.
+    std::function<void(const RoundState&, const RenderCounters&)> save{};
+    double every = 60;  ///< seconds from one call to the next
+};
+
+/// Renders square tiles of target_tile_edge() pixels in rounds, which allot() decides. After each round it knows the
+/// errors of all tiles from all samples so far, and decides the next round by them. What a last round shows has decided
+/// nothing: so the error that is reported is estimated from the samples of the last round alone, those that did not
+/// stop it. (Two-stage sampling: C. Stein, "A two-sample test for a linear hypothesis whose power is independent of the
+/// variance", Annals of Mathematical Statistics, 1945.) If that error, at
+/// the lower end of its interval, is above the target, rounds go on.
 ///
 /// Decisions depend on the film alone, so in the exact tiers every backend draws the same bits. The time limit is the
 /// exception: a round does not start if, by the time of the rounds before, it would end too late; the first always
-/// does. Once `interrupted` is set, no round starts; nothing is returned if none is finished. `clock`: seconds.
+/// does. Once `interrupted` is set, no window of the film starts; nothing is returned if a tile has no samples, or if
+/// the render was saved. `clock`: seconds.
 ///
 /// Throws InputError for a frame with motion blur, whose samples are not independent.
 [[nodiscard]] std::optional<TargetFrame> render_to_target(Backend& backend, const Scene& scene, const FramePlan& plan,
                                                           const RenderTarget& target,
                                                           const std::atomic<bool>& interrupted,
-                                                          const std::function<double()>& clock);
+                                                          const std::function<double()>& clock,
+                                                          const Resumption& resumption = {});
 
-inline constexpr int target_tile_edge = 32;
-inline constexpr int target_first_round = 16;
+/// 32 pixels, or 16 or 8 for films that would have fewer than 64 tiles.
+[[nodiscard]] int target_tile_edge(int width, int height);
 
-/// The samples per pixel after the round that follows `samples`, of `most`. The film of a tile is the sum of the films
-/// of its rounds, each rendered from zero, so that its bits depend on the rounds.
-[[nodiscard]] int next_round_end(int samples, int most);
+/// The errors of the tiles of a film, with all its samples, from the samples of `fresh` alone; from all samples if it
+/// is null and the metric is not flip. `fresh`: some of the samples of each tile.
+[[nodiscard]] std::vector<TileErrors> tile_errors(const TiledFilm& film, const std::vector<Film>* fresh,
+                                                  const RenderTarget& target);
 
-/// Whether a tile will reach the target with `factor` times its samples.
-[[nodiscard]] bool will_reach(const SquaredErrors& errors, const RenderTarget& target, double factor);
-
-/// The mean of all values of a film.
-[[nodiscard]] double mean_value(const Film& film);
+/// The sum over tiles.
+[[nodiscard]] ErrorSums sum_of(const std::vector<TileErrors>& tiles);
 
 /// Throws InputError that says what to do if the plan is blurred.
 void check_still(const FramePlan& plan);

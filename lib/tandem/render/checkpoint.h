@@ -1,11 +1,12 @@
 /// Files of unfinished renders (docs/long-renders.md).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tandem/images/image_metadata.h"
+#include "tandem/render/round_state.h"
 #include "tandem/render/stats.h"
-#include "tandem/render/tiled_film.h"
 
 namespace tandem {
 
@@ -13,10 +14,11 @@ struct Checkpoint {
     ImageMetadata frame;  ///< describe(): what the tiles are of
     RenderCounters counters;
     TiledFilm film;
+    std::optional<Round> round{};  ///< in progress, of a render to a target
 };
 
 /// Writes the tiles that have samples, whole or not at all (write_file()): sums and planes in their memory's form,
-/// behind a text with the frame, the samples of the tiles and the counters, and a SHA-256 of everything.
+/// behind a text with the frame, the samples of the tiles, the round and the counters, and a SHA-256 of everything.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// Reads it back, bit for bit. Throws InputError that says what to do if the file cannot be read, is no checkpoint, is

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "tandem/images/image_metadata.h"
+#include "tandem/render/adaptive_frame.h"
 #include "tandem/render/motion_blur.h"
 
 namespace tandem {
@@ -29,5 +31,11 @@ void check_output(const CheckpointOptions& options);
                                                                    const FramePlan& plan, const ImageMetadata& frame,
                                                                    const CheckpointOptions& options,
                                                                    const std::atomic<bool>& interrupted);
+
+/// The same for render_to_target(), with the film that it has without an interruption, unless its time ends it. That
+/// time is of all its runs together. The error of the target must be that of the checkpoint; its time may differ.
+[[nodiscard]] std::optional<TargetFrame> render_to_target_with_checkpoints(
+    Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target, ImageMetadata frame,
+    const CheckpointOptions& options, const std::atomic<bool>& interrupted, const std::function<double()>& clock);
 
 }  // namespace tandem

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "tandem/math/fp_environment.h"
-#include "tandem/render/tiled_film.h"
 
 namespace tandem {
 
@@ -16,9 +16,11 @@ namespace {
 /// The probe has a window for each of a few bands: rows of tiles, so that every processor has work.
 constexpr int most_bands = 8;
 
+/// What the probe cannot show of the time, as a share of it: two standard deviations.
+constexpr double unknown_share_of_time = 0.1;
+
 struct Band {
     FilmWindow window;
-    Film film;                                 ///< of all passes
     std::array<double, probe_passes> rates{};  ///< seconds per sample, by pass
 };
 
@@ -27,59 +29,55 @@ std::vector<Band> bands_of(const TileGrid& grid) {
     const int rows = (grid.rows() - 1) / most_bands + 1;
     for (int row = 0; row < grid.rows(); row += rows) {
         const int top = row * grid.edge;
-        bands.push_back({{0, top, grid.width, std::min(rows * grid.edge, grid.height - top)}, {}, {}});
+        bands.push_back({{0, top, grid.width, std::min(rows * grid.edge, grid.height - top)}, {}});
     }
     return bands;
 }
 
-/// The samples that render_to_target() takes for a tile, if its errors at `probed` samples are those times `scale`.
-int samples_of(const SquaredErrors& errors, const RenderTarget& target, int probed, int most, double scale) {
-    for (int samples = next_round_end(0, most); samples < most; samples = next_round_end(samples, most)) {
-        const double now = static_cast<double>(probed) / samples * scale;
-        const int next = next_round_end(samples, most);
-        if (will_reach(errors, target, static_cast<double>(next) / samples / now)) return next;
+/// Adds a window of whole tiles to the tiles of a film, and its samples to `fresh`, unless they are the first ones.
+void add(TiledFilm& film, std::vector<Film>& fresh, const FilmWindow& window, const Film& part) {
+    for (std::size_t i = 0; i < film.grid().count(); ++i) {
+        const FilmWindow tile = film.grid().tile(i);
+        if (tile.top < window.top || tile.top >= window.top + window.height) continue;
+        Film cut(tile.width, tile.height, part.samples(), film.planes());
+        copy_window(cut, 0, 0, part, {tile.left - window.left, tile.top - window.top, tile.width, tile.height});
+        const bool is_first = film.samples(i) == 0;
+        film.add(i, cut);
+        if (is_first) continue;
+        if (fresh[i].samples() == 0) {
+            fresh[i] = std::move(cut);
+        } else {
+            fresh[i].add(cut);
+        }
     }
-    return most;
 }
 
-/// Pixels times samples, as expected and at the ends of the interval.
-struct Work {
-    double value = 0, low = 0, high = 0;
-    double short_pixels = 0;
-
-    Work& operator+=(const Work& other) {
-        value += other.value;
-        low += other.low;
-        high += other.high;
-        short_pixels += other.short_pixels;
-        return *this;
-    }
+/// The tiles after the last round.
+struct Outcome {
+    std::vector<int> samples;
+    int rounds = 1;
 };
 
-Work work_of(const SquaredErrors& errors, const RenderTarget& target, int probed, int most) {
-    const double pixels = errors.pixels;
-    const double mean = errors.sum / pixels;
-    const double spread = mean > 0 ? upper_mean(errors) / mean : 1;
-    const auto at = [&](double scale) { return pixels * samples_of(errors, target, probed, most, scale); };
-    Work work{at(1), at(1 / spread), at(spread), 0};
-    const double last = static_cast<double>(probed) / most;
-    if (!will_reach(errors, target, 1 / last)) work.short_pixels = pixels;
-    return work;
+/// The outcome if the errors were `factor` times those of the probe.
+Outcome outcome_of(std::vector<TileErrors> tiles, const RenderTarget& target, int most, double factor) {
+    for (TileErrors& tile : tiles) tile.errors = scaled(tile.errors, factor);
+    for (int rounds = 2;; ++rounds) {
+        Allotment next = allot(tiles, target, most);
+        if (next.is_last) return {std::move(next.ends), rounds};
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            tiles[i].errors = predicted(tiles[i], next.ends[i]);
+            tiles[i].samples = next.ends[i];
+        }
+    }
 }
 
-/// The work of a band's tiles.
-Work work_of(const Band& band, const RenderTarget& target, int most, double film_mean) {
-    if (target.error == 0) {
-        const double all = static_cast<double>(pixel_count(band.window)) * most;
-        return {all, all, all, 0};
-    }
-    Work work;
-    const TileGrid grid{band.window.width, band.window.height, target_tile_edge};
+/// Pixels times samples of the tiles within a window.
+double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector<int>& samples) {
+    double work = 0;
     for (std::size_t i = 0; i < grid.count(); ++i) {
-        const FilmWindow window = grid.tile(i);
-        Film tile(window.width, window.height, band.film.samples(), band.film.plane_mask());
-        copy_window(tile, 0, 0, band.film, window);
-        work += work_of(squared_errors(tile, tile, target.metric, film_mean), target, tile.samples(), most);
+        const FilmWindow tile = grid.tile(i);
+        if (tile.top < window.top || tile.top >= window.top + window.height) continue;
+        work += static_cast<double>(pixel_count(tile)) * samples[i];
     }
     return work;
 }
@@ -97,50 +95,68 @@ Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, c
     const auto resident = backend.load(prepare(scene, plan.instants.front().prepare), job.tier);
     const double loaded = clock();
 
-    if (target.error > 0) job.planes |= FilmPlane::variance;
-    job.samples = std::clamp(most / probe_passes, 1, target_first_round / probe_passes);
-    std::vector<Band> bands = bands_of({job.width, job.height, target_tile_edge});
+    const bool has_error = target.error > 0;
+    if (has_error) job.planes |= FilmPlane::variance;
+    job.samples = std::clamp(most / probe_passes, 1, first_round_end / probe_passes);
+    const TileGrid grid{job.width, job.height, target_tile_edge(job.width, job.height)};
+    TiledFilm film(grid, FilmPlane::variance);
+    std::vector<Film> fresh(grid.count());
+    std::vector<Band> bands = bands_of(grid);
     for (std::size_t pass = 0; pass < probe_passes; ++pass) {
         job.first_sample = static_cast<int>(pass) * job.samples;
         for (Band& band : bands) {
             job.window = band.window;
             const double before = clock();
-            const Film film = backend.render(resident, job).film;
+            const Film part = backend.render(resident, job).film;
             band.rates[pass] = (clock() - before) / (static_cast<double>(pixel_count(band.window)) * job.samples);
-            if (pass == 0) {
-                band.film = Film(film.width(), film.height(), film.samples(), film.plane_mask());
-                copy_window(band.film, 0, 0, film, {0, 0, film.width(), film.height()});
-            } else {
-                band.film.add(film);
-            }
+            if (has_error) add(film, fresh, band.window, part);
         }
     }
 
-    double film_mean = 0;
-    const double pixels = static_cast<double>(job.width) * job.height;
-    for (const Band& band : bands) {
-        film_mean += mean_value(band.film) * static_cast<double>(pixel_count(band.window)) / pixels;
+    Forecast result;
+    std::array<Outcome, 3> outcomes;  // expected, low and high
+    outcomes.fill({std::vector<int>(grid.count(), most)});
+    double of_decision = 0;  // seconds
+    if (has_error) {
+        const double before = clock();
+        const std::vector<TileErrors> tiles =
+            tile_errors(film, target.metric == ErrorMetric::flip ? &fresh : nullptr, target);
+        of_decision = clock() - before;
+        const ErrorSums now = sum_of(tiles);
+        const StatedError stated = estimate_error(now, target.metric);
+        const double spread =
+            now.sum > 0 ? mean_of_target(stated.high, target.metric) / mean_of_target(stated.value, target.metric) : 1;
+        outcomes = {outcome_of(tiles, target, most, 1), outcome_of(tiles, target, most, 1 / spread),
+                    outcome_of(tiles, target, most, spread)};
+        ErrorSums least;
+        for (const TileErrors& tile : tiles) least += predicted(tile, most);
+        const StatedError error = estimate_error(least, target.metric);
+        result.least_error = {error.value, error.low, error.high};
+        result.can_reach = error.value <= target.error;
     }
-    Work all;
+    std::array<double, 3> work{};
     std::array<double, probe_passes> seconds{};
     for (const Band& band : bands) {
-        const Work work = work_of(band, target, most, film_mean);
-        all += work;
-        for (std::size_t pass = 0; pass < probe_passes; ++pass) seconds[pass] += band.rates[pass] * work.value;
+        for (std::size_t i = 0; i < work.size(); ++i) work[i] += work_in(band.window, grid, outcomes[i].samples);
+        for (std::size_t pass = 0; pass < probe_passes; ++pass) {
+            seconds[pass] += band.rates[pass] * work_in(band.window, grid, outcomes[0].samples);
+        }
     }
     double mean = 0, squares = 0;
     for (const double s : seconds) mean += s / probe_passes;
     for (const double s : seconds) squares += (s - mean) * (s - mean) / (probe_passes - 1);
     constexpr double quantile = 3.182446305284263;  // Student's t, 97.5 %, 3 degrees of freedom
     static_assert(probe_passes == 4);
-    const double half = quantile * std::sqrt(squares * (1 + 1.0 / probe_passes));
+    const double of_passes = quantile * std::sqrt(squares * (1 + 1.0 / probe_passes));
+    const double half = std::sqrt(of_passes * of_passes + unknown_share_of_time * mean * unknown_share_of_time * mean);
     const double setup = loaded - start;
-    Forecast result;
-    result.samples = {all.value / pixels, all.low / pixels, all.high / pixels};
-    result.seconds = {setup + mean, setup + std::max(mean - half, 0.0) * (all.low / all.value),
-                      setup + (mean + half) * (all.high / all.value)};
+    const double pixels = static_cast<double>(job.width) * job.height;
+    result.samples = {work[0] / pixels, work[1] / pixels, work[2] / pixels};
+    const auto decisions = [&](std::size_t i) { return of_decision * outcomes[i].rounds; };
+    result.seconds = {setup + decisions(0) + mean,
+                      setup + decisions(1) + std::max(mean - half, 0.0) * (work[1] / work[0]),
+                      setup + decisions(2) + (mean + half) * (work[2] / work[0])};
     result.probe_seconds = clock() - loaded;
-    result.short_pixels = all.short_pixels / pixels;
     return result;
 }
 

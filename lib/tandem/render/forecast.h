@@ -15,18 +15,20 @@ struct ForecastRange {
 };
 
 struct Forecast {
-    ForecastRange samples{};   ///< per pixel, on average
-    ForecastRange seconds{};   ///< preparation, loading and all samples; without the probe and without files
-    double probe_seconds = 0;  ///< what the probe took
-    double short_pixels = 0;   ///< the share of pixels, 0 to 1, that do not reach the target with the job's samples
+    ForecastRange samples{};      ///< per pixel, on average
+    ForecastRange seconds{};      ///< preparation, loading and all samples; without the probe and without files
+    double probe_seconds = 0;     ///< what the probe took
+    ForecastRange least_error{};  ///< with the samples of the job for all pixels, if the target has an error
+    bool can_reach = true;        ///< the error of the target, with the samples of the job
 };
 
 /// Renders probe_passes times the whole film with a few samples per pixel, and predicts render_to_target(), or the
-/// samples of the job if the target has no error. The samples of a tile follow from its errors in the probe, which fall
-/// with the number of samples; the interval moves them all to the lower or to the upper ends of their intervals. The
+/// samples of the job if the target has no error. The rounds are allotted as by the render, as if the errors of the
+/// probe would fall with the number of samples as they should; the interval is from errors at the ends of theirs. The
 /// time is that of the probe's samples in the same rows of tiles; its interval is from the spread of the passes
-/// (Student's t). The interval does not know of light that the probe did not find, nor of other load to come.
-/// `clock`: seconds. Throws as render_to_target() does.
+/// (Student's t), and from a tenth for what the probe cannot show, such as smaller windows. The interval does not know
+/// of light that the probe did not find, nor of other load to come. `clock`: seconds. Throws as render_to_target()
+/// does.
 [[nodiscard]] Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target,
                                 const std::function<double()>& clock);
 

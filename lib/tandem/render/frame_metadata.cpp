@@ -54,6 +54,7 @@ std::string difference_of_films(const ImageMetadata& there, const ImageMetadata&
     compare("limits", there.limits, here.limits);
     compare("tier", there.tier, here.tier);
     compare("planes", there.planes, here.planes);
+    compare("target", there.target, here.target);
     compare("scene_hash", there.scene_hash, here.scene_hash);
     return text;
 }

@@ -15,8 +15,8 @@ namespace tandem {
 /// The job that `metadata` describe, without planes. Throws InputError for values that describe none.
 [[nodiscard]] RenderJob job_of(const ImageMetadata& metadata);
 
-/// What of describe() differs, except for the backend: "seed is 1 there, but 2 here; ...". Empty if nothing does: then
-/// the films have equal bits.
+/// What of describe(), or of the target, differs, except for the backend: "seed is 1 there, but 2 here; ...". Empty if
+/// nothing does: then the films have equal bits.
 [[nodiscard]] std::string difference_of_films(const ImageMetadata& there, const ImageMetadata& here);
 
 }  // namespace tandem

@@ -34,4 +34,29 @@ std::vector<FilmWindow> windows_of(const TileGrid& grid, const std::vector<bool>
     return windows;
 }
 
+std::vector<FilmWindow> cut(const std::vector<FilmWindow>& windows, int tile_edge, std::size_t most) {
+    std::vector<FilmWindow> small, left(windows.rbegin(), windows.rend());
+    while (!left.empty()) {
+        const FilmWindow window = left.back();
+        left.pop_back();
+        const int columns = (window.width - 1) / tile_edge + 1, rows = (window.height - 1) / tile_edge + 1;
+        if (pixel_count(window) <= most || columns * rows == 1) {
+            small.push_back(window);
+            continue;
+        }
+        FilmWindow first = window, second = window;
+        if (rows > 1) {
+            first.height = rows / 2 * tile_edge;
+            second.top += first.height;
+            second.height -= first.height;
+        } else {
+            first.width = columns / 2 * tile_edge;
+            second.left += first.width;
+            second.width -= first.width;
+        }
+        left.insert(left.end(), {second, first});
+    }
+    return small;
+}
+
 }  // namespace tandem

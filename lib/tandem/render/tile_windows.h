@@ -11,4 +11,7 @@ namespace tandem {
 /// above all, render one large window faster than many small ones.
 [[nodiscard]] std::vector<FilmWindow> windows_of(const TileGrid& grid, const std::vector<bool>& marked);
 
+/// Cuts windows of whole tiles at borders of tiles, so that none has more pixels than `most`, or more than a tile.
+[[nodiscard]] std::vector<FilmWindow> cut(const std::vector<FilmWindow>& windows, int tile_edge, std::size_t most);
+
 }  // namespace tandem

@@ -117,21 +117,21 @@ class WindowRender {
         return backend_.render(resident_, part.instants.front().job).film;
     }
 
-    /// A window with fewer, in the rounds of render_to_target(). There is no motion blur.
+    /// A window with fewer, in the parts of render_to_target(). There is no motion blur.
     [[nodiscard]] Film render(const FilmWindow& window, int samples) {
         RenderJob job = plan_.instants.front().job;
         const int most = job.samples;
         job.window = window;
         Film film;
         for (int begin = 0; begin < samples;) {
-            const int end = next_round_end(begin, most);
+            const int end = next_part_end(begin, most);
             job.first_sample = begin;
             job.samples = end - begin;
-            Film round = backend_.render(resident_, job).film;
+            Film part = backend_.render(resident_, job).film;
             if (begin == 0) {
-                film = std::move(round);
+                film = std::move(part);
             } else {
-                film.add(round);
+                film.add(part);
             }
             begin = end;
         }
@@ -158,8 +158,8 @@ Verdict verify_image(Backend& backend, const Scene& scene, const PrepareOptions&
     const RenderJob job = job_of(metadata);
     const FramePlan plan = plan_frame(scene, options, job);
     TileSamples samples{{job.width, job.height, tile_edge}, {}};
-    const bool has_rounds = !metadata.tile_samples.empty();
-    if (has_rounds) {
+    const bool has_parts = !metadata.tile_samples.empty();
+    if (has_parts) {
         check_still(plan);
         samples = parse_tile_samples(metadata.tile_samples, job.width, job.height);
     }
@@ -178,7 +178,7 @@ Verdict verify_image(Backend& backend, const Scene& scene, const PrepareOptions&
     verdict.pixels = pixel_count(image.image);
     for (const std::size_t index : some_of(verdict.tiles, how)) {
         const FilmWindow window = samples.grid.tile(index);
-        const Film part = has_rounds ? windows.render(window, samples.samples[index]) : windows.render(window);
+        const Film part = has_parts ? windows.render(window, samples.samples[index]) : windows.render(window);
         const std::size_t bad = differing(film_to_image(part), cut(image.image, window), image);
         if (bad > 0) verdict.differing.push_back(window);
         verdict.differing_pixels += bad;

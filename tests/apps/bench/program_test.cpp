@@ -45,6 +45,8 @@ TEST(BenchProgram, BadUsageIsStatusTwo) {
                                   "hard --check /nowhere/answers",
                                   "hard --rays 1",
                                   "effects",
+                                  "coverage",
+                                  "coverage named:paper --metric psnr",
                                   "effects /nowhere/scene.gltf",
                                   "effects named:paper --tier sloppy",
                                   "effects named:paper --repetitions 0",

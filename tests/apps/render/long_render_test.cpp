@@ -8,6 +8,7 @@
 #include "render/verify_command.h"
 #include "support/gradient_backend.h"
 #include "support/input_error.h"
+#include "support/interrupting_backend.h"
 #include "support/noise_backend.h"
 #include "support/temporary_folder.h"
 #include "tandem/backends/make_backend.h"
@@ -57,12 +58,30 @@ TEST_F(LongRender, AnInterruptedFrameGoesOnFromItsCheckpoint) {
     EXPECT_FALSE(std::filesystem::exists(options.checkpoint->file));
 }
 
-TEST_F(LongRender, ACheckpointIsForOneFrameWithoutATarget) {
+TEST_F(LongRender, AnInterruptedRenderToATargetGoesOnFromItsCheckpoint) {
+    const auto backend = make_backend("cpu");
+    options.job.samples = 4096;
+    options.target = RenderTarget{.error = 0.003};
+    EXPECT_EQ(render(*backend), 1U);
+    const std::string expected = records[0].metadata.film_sha256;
+    options.force = true;
+    options.checkpoint = CheckpointOptions{.file = folder.file("a.checkpoint"), .resume = true};
+    int runs = 0;
+    for (std::size_t done = 0; done == 0 && runs < 100; ++runs) {
+        interrupted = false;
+        InterruptingBackend stopping(make_backend("cpu"), 3, interrupted);
+        done = render(stopping);
+    }
+    EXPECT_GT(runs, 1);
+    EXPECT_EQ(records[0].metadata.film_sha256, expected);
+    EXPECT_EQ(records[0].metadata.target, "rmse 0.003");
+    EXPECT_EQ(records[0].metadata.stopped_by, "target");
+    EXPECT_FALSE(std::filesystem::exists(options.checkpoint->file));
+}
+
+TEST_F(LongRender, ACheckpointIsForOneFrame) {
     GradientBackend backend;
     options.checkpoint = CheckpointOptions{.file = folder.file("a.checkpoint")};
-    options.target = RenderTarget{.error = 1};
-    EXPECT_TRUE(contains(input_error([&] { render(backend); }), "--target-error"));
-    options.target.reset();
     options.output = folder.file("a#.pfm");
     options.frames = {0, 1};
     EXPECT_TRUE(contains(input_error([&] { render(backend); }), "one frame"));
@@ -71,22 +90,31 @@ TEST_F(LongRender, ACheckpointIsForOneFrameWithoutATarget) {
     EXPECT_TRUE(contains(input_error([&] { render(backend); }), "no folder"));
 }
 
+TEST_F(LongRender, FlipNeedsAnExposure) {
+    GradientBackend backend;
+    options.job.samples = 64;
+    options.target = RenderTarget{.error = 0.1, .metric = ErrorMetric::flip};
+    options.exposure = ExposureChoice{.automatic = true};
+    EXPECT_TRUE(contains(input_error([&] { render(backend); }), "--exposure auto"));
+}
+
 TEST_F(LongRender, TheMetadataSayHowATargetWasReached) {
     NoiseBackend backend(Noise::uniform);
     options.job.samples = 1024;
-    options.target = RenderTarget{.error = 0.1};
+    options.target = RenderTarget{.error = 0.05};
     EXPECT_EQ(render(backend), 1U);
     const ImageMetadata metadata = read_image(options.output).metadata.value();
-    EXPECT_EQ(metadata.target, "rmse 0.1");
+    EXPECT_EQ(metadata.target, "rmse 0.05");
     EXPECT_EQ(metadata.stopped_by, "target");
-    EXPECT_TRUE(metadata.tile_samples.starts_with("32: 64*17 ")) << metadata.tile_samples;
+    EXPECT_TRUE(metadata.tile_samples.starts_with("16: ")) << metadata.tile_samples;
+    EXPECT_TRUE(metadata.tile_samples.ends_with(" 24*34")) << metadata.tile_samples;  // the right half has no noise
     EXPECT_TRUE(metadata.error.starts_with("rmse 0.0")) << metadata.error;
     EXPECT_EQ(metadata.samples, 1024);
-    EXPECT_GT(records[0].mean_samples, 32);
-    EXPECT_LT(records[0].mean_samples, 64);
+    EXPECT_GT(records[0].mean_samples, 44);
+    EXPECT_LT(records[0].mean_samples, 60);
     render(backend);
     EXPECT_TRUE(records[0].skipped);
-    options.target->error = 0.05;
+    options.target->error = 0.04;
     render(backend);
     EXPECT_FALSE(records[0].skipped);
 }
@@ -97,7 +125,7 @@ TEST_F(LongRender, OneThatASignalStoppedIsNotFinished) {
     struct Interrupting : NoiseBackend {
         Interrupting(std::atomic<bool>& flag) : NoiseBackend(Noise::uniform), flag(flag) {}
         std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene, const RenderJob& job) override {
-            flag = true;
+            flag = submitted > 2;  // after the first round
             return NoiseBackend::submit(std::move(scene), job);
         }
         std::atomic<bool>& flag;
@@ -105,6 +133,7 @@ TEST_F(LongRender, OneThatASignalStoppedIsNotFinished) {
     EXPECT_EQ(render(interrupting), 1U);
     EXPECT_EQ(records[0].metadata.stopped_by, "interrupt");
     interrupted = false;
+    interrupting.submitted = 0;
     options.job.samples = 1 << 20;
     render(interrupting);
     EXPECT_FALSE(records[0].skipped);

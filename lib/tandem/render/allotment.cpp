@@ -1,0 +1,117 @@
+#include "tandem/render/allotment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <utility>
+
+#include "tandem/math/exact_math.h"
+#include "tandem/math/fp_environment.h"
+
+namespace tandem {
+
+namespace {
+
+/// The part of a tile that may come next. Gains are compared by their powers of two, and those of equal power are taken
+/// in an order that knows nothing of the samples. Else noise would choose between tiles that are alike: where samples
+/// have two values, as at edges, the mean is far from the truth where the variance seems low, so the tiles with the
+/// largest errors would get the fewest samples. From one part to the next the gain halves, so this costs little.
+struct Step {
+    int power = 0;            ///< of the gain of the whole film's error, per sample
+    std::uint64_t order = 0;  ///< neighbours are far apart
+    std::size_t tile = 0;
+
+    bool operator<(const Step& other) const { return power != other.power ? power < other.power : order > other.order; }
+};
+
+class Greedy {
+  public:
+    Greedy(std::span<const TileErrors> tiles, int most) : tiles_(tiles), most_(most), ends_(tiles.size()) {
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            ends_[i] = next_part_end(tiles[i].samples, most);
+            total_ += predicted(tiles[i], ends_[i]);
+            offer(i);
+        }
+    }
+
+    /// Takes parts until the film has the error. If it cannot, and no part helps, takes none.
+    std::vector<int> run(double mean_of_film) {
+        if (cautious_mean(total_) > mean_of_film && nothing_helps()) {
+            for (std::size_t i = 0; i < ends_.size(); ++i) ends_[i] = tiles_[i].samples;
+        }
+        while (cautious_mean(total_) > mean_of_film && !steps_.empty()) {
+            const std::size_t i = steps_.top().tile;
+            steps_.pop();
+            const int end = next_part_end(ends_[i], most_);
+            total_ -= predicted(tiles_[i], ends_[i]);
+            total_ += predicted(tiles_[i], end);
+            ends_[i] = end;
+            offer(i);
+        }
+        return std::move(ends_);
+    }
+
+  private:
+    [[nodiscard]] bool nothing_helps() const {
+        return std::all_of(tiles_.begin(), tiles_.end(),
+                           [&](const TileErrors& tile) { return tile.errors.sum == 0 || tile.samples == most_; });
+    }
+    void offer(std::size_t i) {
+        const TileErrors& tile = tiles_[i];
+        const int end = next_part_end(ends_[i], most_);
+        if (end == ends_[i]) return;
+        const double gain = predicted(tile, ends_[i]).sum - predicted(tile, end).sum;
+        if (!(gain > 0)) return;
+        const double per_sample = gain / (tile.errors.pixels * (end - ends_[i]));
+        steps_.push({std::ilogb(per_sample), std::uint64_t{i} * 0x9E3779B97F4A7C15U, i});
+    }
+
+    std::span<const TileErrors> tiles_;
+    int most_;
+    std::vector<int> ends_;
+    ErrorSums total_;
+    std::priority_queue<Step> steps_;
+};
+
+}  // namespace
+
+int next_part_end(int samples, int most) {
+    if (most < first_round_end) return most;
+    std::int64_t end = first_round_end / 2;
+    // half of a power of two beyond the last one
+    for (std::int64_t step = end; end <= samples; end += step) {
+        if (end >= 4 * step) step *= 2;
+    }
+    return static_cast<int>(std::min<std::int64_t>(end, most));
+}
+
+ErrorSums predicted(const TileErrors& tile, int samples) {
+    const double share = static_cast<double>(tile.samples) / samples;
+    return scaled(tile.errors, tile.exponent == 1 ? share : power<float>(share, tile.exponent));
+}
+
+Allotment allot(std::span<const TileErrors> tiles, const RenderTarget& target, int most) {
+    const DefaultFpEnvironment guard;
+    const auto twice = [&](int samples) {
+        return static_cast<int>(std::min<std::int64_t>(2 * std::int64_t{samples}, most));
+    };
+    Allotment result;
+    if (target.error == 0) {
+        for (const TileErrors& tile : tiles) result.ends.push_back(twice(tile.samples));
+        return result;
+    }
+    result.ends = Greedy(tiles, most).run(mean_of_target(target.error, target.metric));
+    result.is_last = true;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        result.is_last = result.is_last && result.ends[i] <= twice(tiles[i].samples);
+    }
+    if (result.is_last) return result;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const int limit = twice(tiles[i].samples);
+        result.ends[i] = result.ends[i] > limit ? limit : tiles[i].samples;
+    }
+    return result;
+}
+
+}  // namespace tandem

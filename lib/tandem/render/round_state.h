@@ -1,0 +1,24 @@
+/// A render to a target, between two windows of its film.
+#pragma once
+
+#include <vector>
+
+#include "tandem/render/tiled_film.h"
+
+namespace tandem {
+
+struct Round {
+    std::vector<Film> fresh;  ///< by tile: the samples of its last round so far, with the plane variance alone; those
+                              ///< of the first round's last part, so that there are others
+    std::vector<int> begins;  ///< by tile: the samples that it had before the round in progress
+    std::vector<int> ends;    ///< and those that it has after it
+    bool is_last = false;     ///< the round in progress
+    double seconds = 0;       ///< of rendering, of all rounds so far
+};
+
+struct RoundState {
+    TiledFilm film;  ///< all samples so far, with the plane variance
+    Round round;
+};
+
+}  // namespace tandem
