@@ -13,7 +13,7 @@ namespace tandem {
 template <class Effects, class Real>
 TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJob& job, std::uint32_t x,
                                            std::uint32_t y) {
-    SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    SampleId<Real> id = sample_of<Real>(job, x, y, job.first_sample);
     PixelRays<Real> rays = rays_of_pixel<Real>(job, x, y);
     rays.orthographic = false;  // no view of such a camera has a finite sky
     PixelSum<Real> result;
@@ -33,7 +33,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJo
 template <class Effects, class Tracer>
 TANDEM_HD_COLD Vec3f careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
                                       std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    const SampleId<float> id = {&job->keys, job->frame, job->number_in_film(x, y), sample};
+    const SampleId<float> id = sample_of<float>(*job, x, y, sample);
     PathTally<float> tally;
     return sample_radiance<Effects>(*tracer, *scene, *job, rays_of_pixel<float>(*job, x, y), id, true,
                                     IndependentThreads(), tally);
@@ -44,7 +44,7 @@ template <class Effects, class Tracer>
 TANDEM_HD_INLINE PixelSum<float> render_certain_pixel(const Tracer& tracer, const CertainView& view,
                                                       const SceneView& scene, const PixelJob& job, std::uint32_t x,
                                                       std::uint32_t y, std::uint32_t slots) {
-    SampleId<float> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+    SampleId<float> id = sample_of<float>(job, x, y, job.first_sample);
     PixelRays<float> rays = rays_of_pixel<float>(job, x, y);
     rays.orthographic = false;  // or the view is not valid
     PixelSum<float> result;

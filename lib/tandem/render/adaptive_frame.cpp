@@ -13,6 +13,7 @@
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/sampler_names.h"
 #include "tandem/render/tile_windows.h"
 #include "tandem/render/tiled_film.h"
 
@@ -167,6 +168,12 @@ void check(const RenderTarget& target, const RenderJob& job) {
     }
     if (job.samples < 2 && !to_string(target).empty()) {
         throw InputError("one sample per pixel has no variance; allow 2 or more (--spp) for a target of error or time");
+    }
+    if (job.sampler != Sampler::random && !to_string(target).empty()) {
+        throw InputError(
+            fmt::format("a target of error or time estimates errors from independent samples, but those of the sampler "
+                        "'{}' are not independent; use --sampler random",
+                        to_string(job.sampler)));
     }
     if (job.window) throw InputError("a target of error or time needs the whole film, not a window");
 }
