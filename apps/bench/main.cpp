@@ -125,7 +125,7 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
 
 /// The options of the sweep alone.
 void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
-    command.add_option("--vary", sweep.axes, "Axes of the sweep: samples, tier, effects, depth, tessellation")
+    command.add_option("--vary", sweep.axes, "Axes of the sweep: samples, sampler, tier, effects, depth, tessellation")
         ->delimiter(',')
         ->capture_default_str();
     command.add_option("--levels", sweep.levels, "Levels of tessellation: spheres of 20 * 4^level triangles")

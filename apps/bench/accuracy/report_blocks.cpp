@@ -93,7 +93,8 @@ ScatterPlot pareto_plot(const SceneSweep& sweep, const std::vector<SweepBackend>
                      {},
                      {},
                      {}};
-    for (const Axis axis : {Axis::baseline, Axis::tier, Axis::effects, Axis::depth, Axis::tessellation}) {
+    for (const Axis axis :
+         {Axis::baseline, Axis::tier, Axis::effects, Axis::depth, Axis::tessellation, Axis::sampler}) {
         plot.shapes.emplace_back(to_string(axis));
     }
     const auto by = dominating_points(sweep, metric);
@@ -182,6 +183,25 @@ Table equal_error_table(const SceneSweep& sweep, const std::vector<SweepBackend>
         [](const Choice& choice, const SweepPoint& point) {
             return fastest_within(choice.priced, point.error(Metric::rmse));
         });
+}
+
+Table convergence_table(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
+    Table table{fmt::format("{}: how the error falls with samples: RMSE in proportion to a power of the samples per "
+                            "pixel, fitted by least squares of logarithms, with 95 % intervals",
+                            sweep.scene.name),
+                {{"Backend"}, {"Setting"}, {"Exponent", true}, {"At the most samples", true}},
+                {}};
+    for (const SweepBackend& backend : backends) {
+        for (const Setting& setting : sweep.plan.settings) {
+            if (setting.axis != Axis::baseline && setting.axis != Axis::sampler) continue;
+            const SweepPoint& last = *sweep.ladder(backend.name, setting).back();
+            const std::optional<Exponent> exponent = convergence(sweep, backend.name, setting);
+            table.rows.push_back({backend.name, setting.name,
+                                  exponent ? in_words(*exponent) : "fewer than two errors above the noise",
+                                  fmt::format("{} at {} spp", in_words(last.error(Metric::rmse)), last.samples)});
+        }
+    }
+    return table;
 }
 
 Table scene_table() {

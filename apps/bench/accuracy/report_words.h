@@ -1,6 +1,7 @@
 /// The accuracy report in words.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,14 @@ namespace tandem::bench {
 
 /// The price of a tenth of the error: of the baseline on a backend, from the points whose error is resolved.
 [[nodiscard]] PowerLaw price_law(const SceneSweep& sweep, const std::string& backend);
+
+/// The exponent of the RMSE against the samples of a setting, from the points whose error is resolved; nothing for
+/// fewer than two.
+[[nodiscard]] std::optional<Exponent> convergence(const SceneSweep& sweep, const std::string& backend,
+                                                  const Setting& setting);
+
+/// "-0.98 (-1.01 to -0.95)".
+[[nodiscard]] std::string in_words(const Exponent& exponent);
 
 /// What the report did not vary, for all scenes.
 [[nodiscard]] std::string not_varied(const SweepOptions& options);

@@ -19,7 +19,7 @@ struct SweepOptions {
     std::vector<std::string> scenes;  ///< as load_accuracy_scene() takes them; empty means the paper's
     std::vector<std::string> backends = {"cpu", "cuda"};
     std::vector<std::string> tiers = {"fast", "strict", "precise"};
-    std::vector<std::string> axes = {"samples", "tier", "effects", "depth", "tessellation"};
+    std::vector<std::string> axes = {"samples", "sampler", "tier", "effects", "depth", "tessellation"};
     std::vector<int> levels = {1, 3, 5};        ///< of tessellation
     std::vector<int> samples = {1, 4, 16, 64};  ///< per pixel
     FilmSize size{200, 180};

@@ -61,7 +61,7 @@ struct ScatterPlot {
     std::string title;
     Axis x;
     Axis y;
-    std::vector<std::string> shapes;  ///< what a shape means; up to five
+    std::vector<std::string> shapes;  ///< what a shape means; up to seven
     std::vector<ScatterSeries> series;
     std::vector<ReferenceValue> references;
 };
