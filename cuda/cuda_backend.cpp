@@ -207,8 +207,8 @@ class CudaBackend final : public Backend {
         const std::size_t variant = variant_for(variants, effects);
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
-            linked =
-                kernels_->find(job.tier, resident.view(), linked_facts(resident.view().scene, effects, job.limits));
+            linked = kernels_->find(job.tier, resident.view(),
+                                    linked_facts(resident.view().scene, effects, job.limits, job.sampler));
         }
         const SceneKernel& kernel =
             linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tandem/effects/variants.h"
+#include "tandem/kernel/sampler/sampler_kind.h"
 
 namespace tandem::cuda {
 
@@ -27,6 +28,7 @@ struct LinkedFacts {
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
+    std::uint32_t sampler = 0;                                  ///< Sampler, or any_sampler
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };
@@ -42,7 +44,8 @@ constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds
             .lights = any,
             .reflection = any,
             .refraction = any,
-            .diffuse = any};
+            .diffuse = any,
+            .sampler = any_sampler};
 }
 
 }  // namespace tandem::cuda

@@ -67,8 +67,9 @@ constexpr std::uint32_t most_linked_lights = 4;
 
 }  // namespace
 
-LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits) {
+LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits, Sampler sampler) {
     LinkedFacts facts;
+    facts.sampler = static_cast<std::uint32_t>(sampler);
     facts.effects = effects.bits();
 #define TANDEM_PRIMITIVE(Type, name, names) \
     if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;

@@ -22,6 +22,7 @@
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"
 #include "tandem/film/plane_names.h"
+#include "tandem/render/sampler_names.h"
 #include "tandem/scene/framing.h"
 #include "tandem/scene/named_scenes.h"
 
@@ -35,6 +36,7 @@ struct Words {
     int frame = 0;
     std::string frames;  // empty: the one above
     std::string tier = "strict";
+    std::string sampler = to_string(RenderJob{}.sampler);
     std::string effects;
     std::string limits = to_string(PathLimits{});
     std::string planes;  // empty: the colour alone
@@ -126,6 +128,11 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
             ->capture_default_str();
     app.add_option("--seed", sequence.job.seed, "seed of the random numbers")
         ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    std::string samplers;
+    for (const SamplerInfo& info : sampler_infos()) samplers += fmt::format("; {}: {}", info.name, info.help);
+    app.add_option("--sampler", words.sampler, "where the random numbers of samples come from" + samplers)
+        ->type_name("NAME")
         ->capture_default_str();
     auto* const frame = app.add_option("--frame", words.frame, "frame to render")
                             ->type_name("K")
@@ -288,6 +295,7 @@ int render(int argc, char** argv) {
     sequence.job.height = height;
     sequence.job.tier = parse_tier(words.tier);
     sequence.job.limits = parse_limits(words.limits);
+    sequence.job.sampler = parse_sampler(words.sampler);
     sequence.effects = parse_effects(words.effects);
     if (!words.planes.empty()) sequence.job.planes = parse_planes(words.planes);
     if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);

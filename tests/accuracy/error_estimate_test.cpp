@@ -116,6 +116,41 @@ TEST(PowerLaw, OfNoiseSaysThatADigitCostsAHundredTimes) {
     EXPECT_NEAR(law.price_of_a_digit(), 100, 1e-9);
 }
 
+TEST(Exponent, IsThatOfTheErrorsWithTheirInterval) {
+    std::vector<SamplesAndError> points;
+    for (const double samples : {1.0, 4.0, 16.0, 64.0}) {
+        const double error = 3 * std::pow(samples, -1.5);
+        points.push_back({samples, {error, {error / 1.1, error * 1.1}, true}});
+    }
+    points.push_back({256, {1e-3, {0, 2e-3}, false}});  // says nothing
+    const Exponent found = fit_exponent(points).value();
+    EXPECT_NEAR(found.value, -1.5, 1e-12);
+    // deviations of the logarithms of samples from their mean: -1.5, -0.5, 0.5, 1.5 times log 4
+    const double margin = std::log(1.1) / (std::sqrt(5.0) * std::log(4.0));
+    EXPECT_NEAR(found.interval.low, -1.5 - margin, 1e-12);
+    EXPECT_NEAR(found.interval.high, -1.5 + margin, 1e-12);
+    points.resize(1);
+    EXPECT_FALSE(fit_exponent(points));
+    EXPECT_FALSE(fit_exponent({}));
+}
+
+// Errors with a known spread: the interval has the exponent in about 95 of 100 cases.
+TEST(Exponent, IntervalCoversTheExponent) {
+    Random random(7);
+    constexpr double spread = 0.05;  // of the logarithm
+    const double covered = coverage(2000, -0.7, [&] {
+        std::vector<SamplesAndError> points;
+        for (const double samples : {1.0, 4.0, 16.0, 64.0}) {
+            const double error = std::pow(samples, -0.7) * std::exp(spread * test::normal(random));
+            const double factor = std::exp(1.96 * spread);
+            points.push_back({samples, {error, {error / factor, error * factor}, true}});
+        }
+        const Exponent found = fit_exponent(points).value();
+        return ErrorEstimate{found.value, found.interval, true};
+    });
+    EXPECT_NEAR(covered, 0.95, 0.02);
+}
+
 TEST(PowerLaw, OfABiasSaysThatTimeDoesNotHelp) {
     const std::vector<TimeAndError> points = {{1, 0.2}, {10, 0.2}};
     EXPECT_TRUE(std::isinf(fit_power_law(points).price_of_a_digit()));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,11 +30,12 @@ class SceneKernel : public ::testing::Test {
         if (!why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
     }
 
-    [[nodiscard]] static LinkedFacts facts(EffectMask effects, std::uint32_t lights = 1) {
+    [[nodiscard]] static LinkedFacts facts(EffectMask effects, std::uint32_t lights = 1,
+                                           Sampler sampler = Sampler::random) {
         SceneView scene{};
         scene.sphere_count = 3;
         scene.light_count = lights;
-        return linked_facts(scene, effects, PathLimits{});
+        return linked_facts(scene, effects, PathLimits{}, sampler);
     }
     /// Linked once for all tests of the program.
     static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
@@ -107,6 +109,33 @@ TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
     EXPECT_GT(bytes([](SceneView& s) { s.light_count = 1; }), plain);
 }
 
+/// How often the whole of a linked cubin, with the functions that its kernel calls, has a constant that only the Sobol
+/// samplers use: the first factor of the nested permutation (kernel/sampler/sobol.h).
+int sobol_constants(const LinkedFacts& facts, Structure structure) {
+    const std::uint32_t factor = 0x3D20ADEAU;
+    const std::vector<std::byte> cubin = link(render_input(Tier::strict, structure, facts, architecture));
+    int found = 0;
+    for (std::size_t at = 0; at + sizeof factor <= cubin.size(); at += sizeof factor) {
+        found += std::memcmp(cubin.data() + at, &factor, sizeof factor) == 0 ? 1 : 0;
+    }
+    return found;
+}
+
+TEST_F(SceneKernel, HasNoCodeForSamplersThatTheJobHasNot) {
+    for (const EffectMask effects :
+         {EffectMask(), Effect::lens | Effect::shadows, Effect::indirect | Effect::shadows}) {
+        for (const Structure structure : {Structure::few, Structure::bvh}) {
+            EXPECT_EQ(sobol_constants(facts(effects), structure), 0) << to_string(effects);
+            EXPECT_GT(sobol_constants(facts(effects, 1, Sampler::sobol), structure), 0) << to_string(effects);
+            LinkedFacts any = facts(effects);
+            any.sampler = any_sampler;
+            EXPECT_GT(sobol_constants(any, structure), 0) << to_string(effects);
+            EXPECT_GT(linked(any, structure).code_bytes, linked(facts(effects), structure).code_bytes);
+        }
+    }
+    EXPECT_LT(linked(facts({}, 1, Sampler::sobol)).code_bytes, linked(facts({}, 1, Sampler::sobol_blue)).code_bytes);
+}
+
 TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     SceneView scene{};
     scene.sphere_count = 1;
@@ -138,6 +167,8 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.cutout_kinds = PrimitiveKinds::triangle;
     EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).cutout_kinds, PrimitiveKinds::triangle);
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).cutout_kinds, 0U);
+    EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::sobol_blue).sampler,
+              static_cast<std::uint32_t>(Sampler::sobol_blue));
     scene.light_count = 1000;
     EXPECT_EQ(linked_facts(scene, {}, limits).lights, LinkedFacts::any);
 }

@@ -189,7 +189,7 @@ TEST(PixelDirections, AreThoseOfTheSamples) {
         }
         for (std::uint32_t pixel = 0; pixel < film_size; ++pixel) {
             const std::uint32_t y = (7 * pixel) % film_size;
-            const SampleId<float> id = {&job.keys, 0, job.number_in_film(pixel, y), pixel};
+            const SampleId<float> id = {&job.keys, 0, job.number_of(pixel, y), pixel};
             const Vec3f expected = sample_ray<NoEffects, float>(job, id, pixel, y).direction;
             bool level_is_chosen = false;
             (void)with_directions<float>(job, pixel, y, [&](const auto& directions) {
@@ -223,7 +223,7 @@ TEST(CertainPixel, IsNearTheGeneralCodeInTheTierFast) {
         const PixelSum<FastFloat> sky = render_sky<NoEffects, FastFloat>(c.scene, c.job, 3, 4);
         Vec3d expected = {0, 0, 0};
         for (std::uint32_t sample = 0; sample < c.job.samples; ++sample) {
-            const SampleId<double> id = {&c.job.keys, 0, c.job.number_in_film(3U, 4U), sample};
+            const SampleId<double> id = {&c.job.keys, 0, c.job.number_of(3U, 4U), sample};
             expected =
                 expected + background(c.scene.environment, sample_ray<NoEffects, double>(c.job, id, 3, 4).direction);
         }

@@ -108,6 +108,17 @@ TEST_F(AdaptiveFrame, HasTheSameBitsWithAnyThreadsAndInstructions) {
     EXPECT_EQ(a.error.high, b.error.high);
 }
 
+TEST_F(AdaptiveFrame, WantsIndependentSamples) {
+    NoiseBackend backend(Noise::uniform);
+    for (const Sampler sampler : {Sampler::sobol, Sampler::sobol_blue}) {
+        job.sampler = sampler;
+        EXPECT_TRUE(contains(input_error([&] { (void)render(backend); }), "use --sampler random"));
+        const RenderTarget in_time{.error = 0, .seconds = 10};
+        EXPECT_TRUE(contains(input_error([&] { check(in_time, job); }), "use --sampler random"));
+        EXPECT_NO_THROW(check(RenderTarget{}, job)) << "the time of all samples is no estimate of errors";
+    }
+}
+
 TEST_F(AdaptiveFrame, StopsAtTheMostSamples) {
     NoiseBackend backend(Noise::uniform);
     job.samples = 100;  // the last part is shorter than the one before

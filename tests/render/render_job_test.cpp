@@ -7,6 +7,7 @@
 
 #include "support/thrown_message.h"
 #include "tandem/base/error.h"
+#include "tandem/render/sampler_names.h"
 
 namespace tandem {
 namespace {
@@ -39,6 +40,26 @@ TEST(RenderJob, OfALargeFilmIsAllowedAWindow) {
     EXPECT_NE(thrown_message<InputError>([&] { check(job); }).find("render windows of it"), std::string::npos);
     job.window = FilmWindow{65000, 65000, 500, 500};
     EXPECT_EQ(thrown_message<InputError>([&] { check(job); }), "");
+}
+
+TEST(RenderJob, HasNoVarianceFromSamplesThatAreNotIndependent) {
+    for (const SamplerInfo& info : sampler_infos()) {
+        RenderJob job;
+        job.sampler = info.sampler;
+        EXPECT_EQ(thrown_message<InputError>([&] { check(job); }), "") << info.name;
+        job.planes = FilmPlane::variance;
+        const std::string refusal = thrown_message<InputError>([&] { check(job); });
+        EXPECT_EQ(refusal.empty(), info.sampler == Sampler::random) << info.name;
+        if (refusal.empty()) continue;
+        EXPECT_NE(refusal.find("use the sampler 'random'"), std::string::npos) << refusal;
+    }
+}
+
+TEST(SamplerNames, AreReadAsTheyAreWritten) {
+    for (const SamplerInfo& info : sampler_infos()) EXPECT_EQ(parse_sampler(to_string(info.sampler)), info.sampler);
+    EXPECT_EQ(sampler_infos().front().sampler, Sampler::random);
+    const std::string refusal = thrown_message<InputError>([] { (void)parse_sampler("halton"); });
+    EXPECT_NE(refusal.find("'halton'; the samplers are random, sobol, sobol_blue"), std::string::npos) << refusal;
 }
 
 }  // namespace

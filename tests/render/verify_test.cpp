@@ -12,6 +12,7 @@
 #include "tandem/images/image_io.h"
 #include "tandem/render/adaptive_frame.h"
 #include "tandem/render/frame_metadata.h"
+#include "tandem/render/sampler_names.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -67,6 +68,22 @@ TEST_F(VerifyTest, ImagesAsWrittenMatch) {
     EXPECT_EQ(some.drawn, 6U);
     EXPECT_EQ(some.tiles, 8U);
     EXPECT_EQ(some.largest_unseen_share(), 0.5);
+}
+
+TEST_F(VerifyTest, ImagesOfEverySamplerMatchAndOldOnesAreRandom) {
+    for (const Sampler sampler : {Sampler::sobol, Sampler::sobol_blue}) {
+        job.sampler = sampler;
+        DecodedImage drawn = image("a.pfm");
+        EXPECT_TRUE(verify(drawn).matches()) << to_string(sampler);
+        drawn.metadata->sampler = "random";
+        EXPECT_FALSE(verify(drawn).matches()) << "the samples are others";
+    }
+    job.sampler = Sampler::random;
+    DecodedImage old = image("a.pfm");
+    old.metadata->sampler.clear();
+    EXPECT_TRUE(verify(old).matches());
+    old.metadata->sampler = "sobol2";
+    EXPECT_TRUE(contains(input_error([&] { (void)verify(old); }), "no sampler 'sobol2'"));
 }
 
 TEST_F(VerifyTest, ChangedPixelsAreFound) {

@@ -113,11 +113,22 @@ void add_scene(const SceneSweep& sweep, const SweepOptions& options, const std::
     report.blocks.emplace_back(equal_time_pictures(options, sweep, backends));
     report.blocks.emplace_back(equal_time_table(sweep, backends));
     report.blocks.emplace_back(equal_error_table(sweep, backends));
+    report.blocks.emplace_back(convergence_table(sweep, backends));
     report.blocks.emplace_back(points_table(sweep));
     report.blocks.emplace_back(phases_table(sweep));
     for (const SweepBackend& backend : backends) {
         report.properties.emplace_back(fmt::format("price of a digit {} {}", sweep.scene.name, backend.name),
                                        fmt::format("{}", price_law(sweep, backend.name).price_of_a_digit()));
+    }
+    for (const SweepBackend& backend : backends) {
+        for (const Setting& setting : sweep.plan.settings) {
+            if (setting.axis != Axis::baseline && setting.axis != Axis::sampler) continue;
+            const std::optional<Exponent> exponent = convergence(sweep, backend.name, setting);
+            if (!exponent) continue;
+            report.properties.emplace_back(
+                fmt::format("exponent of samples {} {} {}", sweep.scene.name, backend.name, setting.name),
+                in_words(*exponent));
+        }
     }
     report.properties.emplace_back(fmt::format("reference {}", sweep.scene.name), sweep.reference.description);
     report.properties.emplace_back(fmt::format("reference noise {}", sweep.scene.name),

@@ -182,6 +182,25 @@ Table equal_error_table(const SceneSweep& sweep, const std::vector<SweepBackend>
         });
 }
 
+Table convergence_table(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
+    Table table{fmt::format("{}: how the error falls with samples: RMSE in proportion to a power of the samples per "
+                            "pixel, fitted by least squares of logarithms, with 95 % intervals",
+                            sweep.scene.name),
+                {{"Backend"}, {"Setting"}, {"Exponent", true}, {"At the most samples", true}},
+                {}};
+    for (const SweepBackend& backend : backends) {
+        for (const Setting& setting : sweep.plan.settings) {
+            if (setting.axis != Axis::baseline && setting.axis != Axis::sampler) continue;
+            const SweepPoint& last = *sweep.ladder(backend.name, setting).back();
+            const std::optional<Exponent> exponent = convergence(sweep, backend.name, setting);
+            table.rows.push_back({backend.name, setting.name,
+                                  exponent ? in_words(*exponent) : "fewer than two errors above the noise",
+                                  fmt::format("{} at {} spp", in_words(last.error(Metric::rmse)), last.samples)});
+        }
+    }
+    return table;
+}
+
 Table scene_table() {
     Table table{"The fixed list of scenes", {{"Axis"}, {"Difficulty"}, {"Scene"}, {"Why"}}, {}};
     for (const ListedScene& listed : listed_scenes()) {

@@ -31,6 +31,9 @@ namespace tandem::bench {
 [[nodiscard]] PictureComparison equal_time_pictures(const SweepOptions& options, const SceneSweep& sweep,
                                                     const std::vector<SweepBackend>& backends);
 
+/// How the error of every sampler falls with the samples.
+[[nodiscard]] Table convergence_table(const SceneSweep& sweep, const std::vector<SweepBackend>& backends);
+
 /// The fixed list of scenes.
 [[nodiscard]] Table scene_table();
 

@@ -66,6 +66,14 @@ std::string setting_sentence(const SceneSweep& sweep, const std::string& backend
     const ErrorEstimate& first = ladder[ladder.size() > 1 ? ladder.size() - 2 : 0]->error(Metric::rmse);
     const bool stays = ladder.size() > 1 && point.error(Metric::rmse).value > 0.8 * first.value &&
                        !overlap(point.error(Metric::rmse).interval, baseline.error(Metric::rmse).interval);
+    if (setting.axis == Axis::sampler) {
+        const auto ours = convergence(sweep, backend, setting);
+        const auto theirs = convergence(sweep, backend, sweep.plan.settings.front());
+        if (ours && theirs) {
+            text += fmt::format("; it falls with the samples to the power {}, that of {} {}", in_words(*ours),
+                                baseline.setting.name, in_words(*theirs));
+        }
+    }
     return text + (stays ? "; more samples hardly reduce it." : ".");
 }
 
@@ -127,6 +135,19 @@ PowerLaw price_law(const SceneSweep& sweep, const std::string& backend) {
     return fit_power_law(points);
 }
 
+std::optional<Exponent> convergence(const SceneSweep& sweep, const std::string& backend, const Setting& setting) {
+    std::vector<SamplesAndError> points;
+    for (const SweepPoint* point : sweep.ladder(backend, setting)) {
+        const ErrorEstimate& error = point->error(Metric::rmse);
+        if (error.resolved && point->failures.empty()) points.push_back({static_cast<double>(point->samples), error});
+    }
+    return fit_exponent(points);
+}
+
+std::string in_words(const Exponent& exponent) {
+    return fmt::format("{:.2f} ({:.2f} to {:.2f})", exponent.value, exponent.interval.low, exponent.interval.high);
+}
+
 std::vector<std::string> answers(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
     std::vector<std::string> sentences;
     for (const SweepBackend& backend : backends) {
@@ -156,7 +177,7 @@ std::string meaning_of_words() {
 
 std::string not_varied(const SweepOptions& options) {
     return fmt::format(
-        "The size of the image ({} x {} pixels), the frame (0), the camera, the sampler, the clamp (there is none) and "
+        "The size of the image ({} x {} pixels), the frame (0), the camera, the clamp (there is none) and "
         "the sums of samples (double). The picture filter, which is a box of one pixel: Tandem has no other. Threads "
         "({}), instruction set and clocks. Axes other than samples vary one at a time.",
         options.size.width, options.size.height,

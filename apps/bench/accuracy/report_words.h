@@ -1,6 +1,7 @@
 /// The accuracy report in words.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ namespace tandem::bench {
 
 /// What the words of the report mean, for readers who have not seen one before.
 [[nodiscard]] std::string meaning_of_words();
+
+/// The exponent of the RMSE against the samples of a setting, from the points whose error is resolved; nothing for
+/// fewer than two.
+[[nodiscard]] std::optional<Exponent> convergence(const SceneSweep& sweep, const std::string& backend,
+                                                  const Setting& setting);
+
+/// "-0.98 (-1.01 to -0.95)".
+[[nodiscard]] std::string in_words(const Exponent& exponent);
 
 /// What the report did not vary, for all scenes.
 [[nodiscard]] std::string not_varied(const SweepOptions& options);

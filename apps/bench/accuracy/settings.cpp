@@ -12,13 +12,25 @@
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/render/render_job.h"
+#include "tandem/render/sampler_names.h"
 
 namespace tandem::bench {
 
 namespace {
 
-constexpr std::array axis_names = {"baseline", "tier", "effects", "depth", "tessellation", "rasterised", "denoised"};
+constexpr std::array axis_names = {"baseline",     "tier",       "effects",  "depth",
+                                   "tessellation", "rasterised", "denoised", "sampler"};
 constexpr std::array<PathLimits, 3> varied_limits = {PathLimits{0, 0, 0}, PathLimits{2, 4, 1}, unlimited};
+
+void add_samplers(Setting base, SettingPlan& plan) {
+    base.axis = Axis::sampler;
+    for (const SamplerInfo& info : sampler_infos()) {
+        if (info.sampler == base.sampler) continue;
+        base.name = info.name;
+        base.sampler = info.sampler;
+        plan.settings.push_back(base);
+    }
+}
 
 void add_effects(const std::vector<EffectNeed>& needs, Setting base, SettingPlan& plan) {
     if (needs.empty()) plan.skipped.emplace_back("Effects: the scene needs none.");
@@ -103,12 +115,15 @@ const char* to_string(Axis axis) { return axis_names[static_cast<std::size_t>(ax
 
 VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> tiers) {
     if (tiers.empty()) throw InputError("accuracy needs a tier: fast, strict or precise");
-    VariedAxes axes{.tiers = std::move(tiers), .effects = false, .depth = false, .tessellation = false};
+    VariedAxes axes{
+        .tiers = std::move(tiers), .samplers = false, .effects = false, .depth = false, .tessellation = false};
     axes.rasterised = axes.denoised = false;
     bool varies_tier = false;
     for (const std::string& name : names) {
         if (name == "tier") {
             varies_tier = true;
+        } else if (name == "sampler") {
+            axes.samplers = true;
         } else if (name == "effects") {
             axes.effects = true;
         } else if (name == "depth") {
@@ -120,9 +135,10 @@ VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> t
         } else if (name == "denoised") {
             axes.denoised = true;
         } else if (name != "samples") {
-            throw InputError(fmt::format(
-                "no axis \"{}\"; there are samples, tier, effects, depth, tessellation, rasterised and denoised",
-                name));
+            throw InputError(
+                fmt::format("no axis \"{}\"; there are samples, sampler, tier, effects, depth, tessellation, "
+                            "rasterised and denoised",
+                            name));
         }
     }
     const auto strict = std::find(axes.tiers.begin(), axes.tiers.end(), Tier::strict);
@@ -141,6 +157,7 @@ SettingPlan plan_settings(const Scene& scene, const VariedAxes& axes) {
     const PreparedScene prepared = prepare(scene);
     const std::vector<EffectNeed> needs = derive_effects(scene, prepared);
     if (axes.tiers.size() == 1) plan.skipped.emplace_back("Tier: not asked for.");
+    axes.samplers ? add_samplers(base, plan) : void(plan.skipped.emplace_back("Sampler: not asked for."));
     axes.effects ? add_effects(needs, base, plan) : void(plan.skipped.emplace_back("Effects: not asked for."));
     axes.depth ? add_depths(needs, base, plan) : void(plan.skipped.emplace_back("Depth: not asked for."));
     axes.tessellation ? add_tessellations(scene, axes.levels, base, plan)

@@ -8,16 +8,17 @@
 
 #include "tandem/effects/names.h"
 #include "tandem/kernel/path_limits.h"
+#include "tandem/kernel/sampler/sampler_kind.h"
 #include "tandem/render/tier.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem::bench {
 
-/// What differs from the baseline: the tier strict with all effects, default limits and analytic shapes. Every setting
-/// is rendered with every number of samples.
-enum class Axis { baseline, tier, effects, depth, tessellation, rasterised, denoised };
-inline constexpr std::array all_axes = {Axis::baseline,     Axis::tier,       Axis::effects, Axis::depth,
-                                        Axis::tessellation, Axis::rasterised, Axis::denoised};
+/// What differs from the baseline: the tier strict with independent samples, all effects, default limits and analytic
+/// shapes. Every setting is rendered with every number of samples.
+enum class Axis { baseline, tier, effects, depth, tessellation, rasterised, denoised, sampler };
+inline constexpr std::array all_axes = {Axis::baseline,     Axis::tier,       Axis::effects,  Axis::depth,
+                                        Axis::tessellation, Axis::rasterised, Axis::denoised, Axis::sampler};
 
 [[nodiscard]] const char* to_string(Axis axis);
 
@@ -25,6 +26,7 @@ struct Setting {
     Axis axis = Axis::baseline;
     std::string name;  ///< "strict", "without shadows", "limits 2,4,1", "80 triangles a sphere"
     Tier tier = Tier::strict;
+    Sampler sampler = Sampler::random;
     ForcedEffects forced{};
     PathLimits limits{};
     std::optional<int> level{};  ///< of tessellation
@@ -38,6 +40,7 @@ inline constexpr PathLimits unlimited{255, 255, 255};
 
 struct VariedAxes {
     std::vector<Tier> tiers;  ///< without strict, the baseline is the first of them
+    bool samplers = true;
     bool effects = true;
     bool depth = true;
     bool tessellation = true;

@@ -178,6 +178,7 @@ RenderJob job_of(const SweepOptions& options, const Setting& setting, int sample
     job.samples = samples;
     job.seed = seed;
     job.tier = setting.tier;
+    job.sampler = setting.sampler;
     job.limits = setting.limits;
     return job;
 }

@@ -21,7 +21,8 @@ struct SweepOptions {
     std::vector<std::string> scenes;  ///< as load_accuracy_scene() takes them; empty means the paper's
     std::vector<std::string> backends = {"cpu", "cuda"};
     std::vector<std::string> tiers = {"fast", "strict", "precise"};
-    std::vector<std::string> axes = {"samples", "tier", "effects", "depth", "tessellation", "rasterised", "denoised"};
+    std::vector<std::string> axes = {"samples", "sampler",      "tier",       "effects",
+                                     "depth",   "tessellation", "rasterised", "denoised"};
     std::string denoiser;                       ///< its library; empty: where the system's loader looks
     std::vector<int> levels = {1, 3, 5};        ///< of tessellation
     std::vector<int> samples = {1, 4, 16, 64};  ///< per pixel

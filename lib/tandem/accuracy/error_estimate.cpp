@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tandem/accuracy/student_t.h"
 
@@ -55,6 +56,26 @@ PowerLaw fit_power_law(std::span<const TimeAndError> points) {
     }
     const double exponent = spread > 0 ? -slope / spread : 0;
     return {std::exp(y_mean + exponent * x_mean), exponent};
+}
+
+std::optional<Exponent> fit_exponent(std::span<const SamplesAndError> points) {
+    std::vector<TimeAndError> resolved;
+    for (const SamplesAndError& point : points) {
+        if (point.error.resolved && point.error.interval.low > 0) {
+            resolved.push_back({point.samples, point.error.value});
+        }
+    }
+    double mean = 0, spread = 0, margin2 = 0;
+    for (const TimeAndError& point : resolved) mean += std::log(point.seconds) / static_cast<double>(resolved.size());
+    for (const TimeAndError& point : resolved) spread += std::pow(std::log(point.seconds) - mean, 2);
+    if (!(spread > 0)) return std::nullopt;
+    for (const SamplesAndError& point : points) {
+        if (!point.error.resolved || !(point.error.interval.low > 0)) continue;
+        const double half = std::log(point.error.interval.high / point.error.interval.low) / 2;
+        margin2 += std::pow((std::log(point.samples) - mean) / spread * half, 2);
+    }
+    const double value = -fit_power_law(resolved).exponent, margin = std::sqrt(margin2);
+    return Exponent{value, {value - margin, value + margin}};
 }
 
 }  // namespace tandem

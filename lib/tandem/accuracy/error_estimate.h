@@ -1,6 +1,7 @@
 /// Means of errors over seeds, with intervals.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "tandem/report/statistics.h"
@@ -44,5 +45,21 @@ struct TimeAndError {
 /// Fits points with positive times and errors; the others are left out. Needs two with different times, or the exponent
 /// is 0.
 [[nodiscard]] PowerLaw fit_power_law(std::span<const TimeAndError> points);
+
+/// How an error falls with the number of samples: error = factor * samples^value.
+struct Exponent {
+    double value = 0;
+    Interval interval;  ///< 95 %
+};
+
+struct SamplesAndError {
+    double samples = 0;
+    ErrorEstimate error;
+};
+
+/// By least squares of logarithms, as fit_power_law(). The interval is that of the errors' own intervals, taken as
+/// independent; it does not say whether a power law holds. Nothing if fewer than two different numbers of samples have
+/// a resolved error.
+[[nodiscard]] std::optional<Exponent> fit_exponent(std::span<const SamplesAndError> points);
 
 }  // namespace tandem

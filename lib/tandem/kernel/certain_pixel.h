@@ -57,7 +57,7 @@ template <class Effects, class Real>
 TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJob& job, std::uint32_t x,
                                            std::uint32_t y) {
     return with_directions<Real>(job, x, y, [&](const auto& directions) {
-        SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+        SampleId<Real> id = sample_of<Real>(job, x, y, job.first_sample);
         PixelSum<Real> result;
         if constexpr (is_fast<Real>) {
             // the gradient is affine in the height, so that of the mean is the mean
@@ -96,7 +96,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_sky(const SceneView& scene, const PixelJo
 template <class Effects, class Real = float, class Tracer>
 TANDEM_HD_CALL Vec3<Real> careful_radiance(const Tracer* tracer, const SceneView* scene, const PixelJob* job,
                                            std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-    const SampleId<Real> id = {&job->keys, job->frame, job->number_in_film(x, y), sample};
+    const SampleId<Real> id = sample_of<Real>(*job, x, y, sample);
     PathTally<Real> tally;
     return sample_radiance<Effects>(*tracer, *scene, *job, rays_of_pixel<Real>(*job, x, y), id, true,
                                     IndependentThreads(), tally);
@@ -127,7 +127,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_certain_pixel(const Tracer& tracer, const
                                                      std::uint32_t y, std::uint32_t slots) {
     using Light = std::conditional_t<is_fast<Real>, Real, double>;
     return with_directions<Real>(job, x, y, [&](const auto& directions) {
-        SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample};
+        SampleId<Real> id = sample_of<Real>(job, x, y, job.first_sample);
         PixelSum<Real> result;
         const certain_detail::Companions companions;
         std::uint32_t sample = 0;

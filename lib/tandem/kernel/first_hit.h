@@ -56,7 +56,7 @@ TANDEM_HD void add(const Surface<Real>& surface, const Closest<Real>& hit, const
 template <class Real, class Tracer>
 TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                           const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active) {
-    SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), UInt<Real>(job.first_sample)};
+    SampleId<Real> id = sample_of<Real>(job, x, y, UInt<Real>(job.first_sample));
     FirstHits<Real> hits;
     PathTally<Real> tally;
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {

@@ -71,10 +71,13 @@ class LightReservoir {
     IncidentLight<Real> chosen_ = {{Real(0.0F), Real(0.0F), Real(0.0F)}, {Real(0.0F), Real(0.0F), Real(1.0F)}};
 };
 
-/// The random numbers for LightReservoir.
+/// The random numbers for LightReservoir. The number of draws varies, so only the first can come from a sequence of
+/// samples.
 template <class Real>
 TANDEM_HD PhiloxBlock<UInt<Real>> light_choice(const SampleId<Real>& sample, const UInt<Real>& vertex) {
-    return sample.block_at_vertex(Dimension::light, vertex);
+    const auto random = sample.random_block_at_vertex(Dimension::light, vertex);
+    if (sample.is_random()) return random;
+    return start_with(sample.block(Dimension::light_order, vertex).word[0], random);
 }
 
 }  // namespace tandem

@@ -64,7 +64,7 @@ class PathWalk {
 
   private:
     [[nodiscard]] TANDEM_HD SampleId<Real> id(const PixelJob& job) const {
-        return {&job.keys, job.frame, job.number_in_film(x_, y_), sample_};
+        return sample_of<Real>(job, x_, y_, sample_);
     }
 
     TANDEM_HD void begin(const SceneView& scene, const PixelJob& job, const Mask<Real>& begins) {

@@ -10,6 +10,7 @@ namespace tandem {
 struct PixelJob {
     CameraView camera;
     PhiloxKeys keys;  ///< of the seed
+    JobSampler sampler{};
     std::uint32_t frame;
     std::uint32_t first_sample, samples;
     std::uint32_t width;  ///< pixels of a row of the window; the pixels (x, y) of kernels are counted in the window
@@ -18,13 +19,21 @@ struct PixelJob {
     std::uint32_t film_width;
     std::uint32_t left, top;
 
-    /// The pixel's number in the film, which keys its random numbers: so the bits of a pixel do not depend on the
-    /// window.
+    /// The number that keys the random numbers of a pixel: in the film, so the bits of a pixel do not depend on the
+    /// window; for sobol_blue on a Morton curve.
     template <class Word>
-    [[nodiscard]] TANDEM_HD_INLINE Word number_in_film(const Word& x, const Word& y) const {
+    [[nodiscard]] TANDEM_HD_INLINE Word number_of(const Word& x, const Word& y) const {
+        if (sampler_of(sampler) == Sampler::sobol_blue) return morton(x + Word(left), y + Word(top));
         return (y + Word(top)) * Word(film_width) + (x + Word(left));
     }
 };
+
+/// Sample `number` of pixel (x, y) of the window.
+template <class Real>
+TANDEM_HD_INLINE SampleId<Real> sample_of(const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y,
+                                          const UInt<Real>& number) {
+    return {&job.keys, job.frame, job.number_of(x, y), number, job.sampler};
+}
 
 template <class Real>
 TANDEM_HD Mask<Real> is_finite(const Vec3<Real>& a) {
@@ -95,7 +104,7 @@ template <class Effects, class Real, class Tracer, class Threads = IndependentTh
 TANDEM_HD PixelSum<Real> render_pixel(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                       const UInt<Real>& x, const UInt<Real>& y, const Mask<Real>& active,
                                       const Threads& threads = {}) {
-    SampleId<Real> id = {&job.keys, job.frame, job.number_in_film(x, y), UInt<Real>(job.first_sample)};
+    SampleId<Real> id = sample_of<Real>(job, x, y, UInt<Real>(job.first_sample));
     const PixelRays<Real> rays = rays_of_pixel<Real>(job, x, y);
     PixelSum<Real> result;
     for (std::uint32_t sample = 0; sample < job.samples; ++sample) {

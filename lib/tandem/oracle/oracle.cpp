@@ -137,7 +137,7 @@ class OracleBackend final : public Backend {
         Vector sum{0, 0, 0}, squares{0, 0, 0};
         const std::uint32_t x = pixel % job.width, y = pixel / job.width;
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
-            const SampleId<float> id = {&job.keys, job.frame, job.number_in_film(x, y), job.first_sample + sample};
+            const SampleId<float> id = sample_of<float>(job, x, y, job.first_sample + sample);
             const auto random = id.block(Dimension::film);
             Ray<T> ray = camera_ray<T>(job.camera, x + job.left, y + job.top, to_unit_interval<T>(random.word[0]),
                                        to_unit_interval<T>(random.word[1]));

@@ -14,7 +14,7 @@ class Chance {
   public:
     Chance(const SampleId<float>& sample, std::uint32_t vertex) : sample_(sample), vertex_(vertex) {}
     Real operator()() {
-        if (next_ % 4 == 0) block_ = sample_.block(static_cast<Dimension>(128 + next_ / 4), vertex_);
+        if (next_ % 4 == 0) block_ = sample_.random_block(static_cast<Dimension>(128 + next_ / 4), vertex_);
         return Real{to_unit_interval<float>(block_.word[next_++ % 4])};
     }
 

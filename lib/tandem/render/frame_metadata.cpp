@@ -6,6 +6,7 @@
 
 #include "tandem/base/version.h"
 #include "tandem/film/plane_names.h"
+#include "tandem/render/sampler_names.h"
 
 namespace tandem {
 
@@ -18,6 +19,7 @@ ImageMetadata describe(const RenderJob& job, std::string scene_hash, std::string
     metadata.samples = job.samples;
     metadata.seed = job.seed;
     metadata.limits = to_string(job.limits);
+    metadata.sampler = to_string(job.sampler);
     metadata.tier = to_string(job.tier);
     metadata.backend = std::move(backend);
     metadata.version = version();
@@ -34,6 +36,7 @@ RenderJob job_of(const ImageMetadata& metadata) {
     job.frame = metadata.frame;
     job.tier = parse_tier(metadata.tier);
     job.limits = parse_limits(metadata.limits);
+    if (!metadata.sampler.empty()) job.sampler = parse_sampler(metadata.sampler);
     job.window = FilmWindow{0, 0, 1, 1};  // a film may be larger than what is rendered of it at once
     check(job);
     job.window.reset();
@@ -52,6 +55,7 @@ std::string difference_of_films(const ImageMetadata& there, const ImageMetadata&
     compare("samples", there.samples, here.samples);
     compare("seed", there.seed, here.seed);
     compare("limits", there.limits, here.limits);
+    compare("sampler", there.sampler, here.sampler);
     compare("tier", there.tier, here.tier);
     compare("planes", there.planes, here.planes);
     compare("target", there.target, here.target);

@@ -11,6 +11,7 @@ namespace tandem {
     const FilmWindow window = window_of(job);
     return {.camera = camera_view(camera, job.width, job.height),
             .keys = philox_keys(job.seed),
+            .sampler = make_job_sampler(job.sampler, job.seed, job.frame),
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "tandem/base/error.h"
+#include "tandem/render/sampler_names.h"
 
 namespace tandem {
 
@@ -50,6 +51,12 @@ void check(const RenderJob& job) {
          {std::pair{"reflections", job.limits.reflection}, std::pair{"refractions", job.limits.refraction},
           std::pair{"scatterings", job.limits.diffuse}}) {
         if (limit > 255) throw InputError(fmt::format("the limit of {} is {}, but must be from 0 to 255", kind, limit));
+    }
+    if (job.sampler != Sampler::random && job.planes.has(FilmPlane::variance)) {
+        throw InputError(
+            fmt::format("the plane 'variance' takes samples to be independent, but those of the sampler '{}' are not; "
+                        "use the sampler 'random', or name the planes without it",
+                        to_string(job.sampler)));
     }
     const FilmWindow window = window_of(job);
     const auto fits = [](int first, int size, int limit) { return first >= 0 && size >= 1 && size <= limit - first; };

@@ -7,6 +7,7 @@
 
 #include "tandem/film/film_planes.h"
 #include "tandem/kernel/path_limits.h"
+#include "tandem/kernel/sampler/sampler_kind.h"
 #include "tandem/render/tier.h"
 
 namespace tandem {
@@ -25,6 +26,7 @@ struct RenderJob {
     std::uint32_t frame = 0;   ///< random numbers differ from frame to frame
     Tier tier = Tier::strict;  ///< must be the tier that the scene was loaded for
     PathLimits limits{};
+    Sampler sampler = Sampler::random;  ///< samplers other than random have no variance plane
     int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples, except for rounding
     PlaneMask planes{};    ///< the planes of the film beside the colour
     /// The pixels to render, if not all. The film that comes back has the window's size, and its pixels have the bits

@@ -6,6 +6,7 @@
 
 #include "tandem/base/error.h"
 #include "tandem/render/allotment.h"
+#include "tandem/render/sampler_names.h"
 
 namespace tandem {
 
@@ -23,6 +24,12 @@ void check(const RenderTarget& target, const RenderJob& job) {
     if (target.metric == ErrorMetric::flip && job.samples < first_round_end) {
         throw InputError(
             fmt::format("FLIP is estimated from {} samples per pixel or more; raise --spp", first_round_end));
+    }
+    if (job.sampler != Sampler::random && is_set) {
+        throw InputError(
+            fmt::format("a target of error or time estimates errors from independent samples, but those of the sampler "
+                        "'{}' are not independent; use --sampler random",
+                        to_string(job.sampler)));
     }
     if (job.window) throw InputError("a target of error or time needs the whole film, not a window");
 }

@@ -87,13 +87,23 @@ TEST(AccuracyScenes, TwinHasTheSpheresAsMeshes) {
     EXPECT_FALSE(tessellated_twin(textured, 2));
 }
 
+TEST(AccuracySettings, VaryTheSampler) {
+    const SettingPlan plan =
+        plan_settings(load_accuracy_scene("named:paper", {4, 4}).scene, parse_axes({"sampler"}, {Tier::strict}));
+    ASSERT_EQ(plan.settings.size(), 3U);
+    EXPECT_EQ(plan.settings[0].sampler, Sampler::random);
+    EXPECT_EQ(plan.settings[1].name, "sobol");
+    EXPECT_EQ(plan.settings[2].sampler, Sampler::sobol_blue);
+    EXPECT_EQ(plan.settings[2].axis, Axis::sampler);
+}
+
 TEST(AccuracySettings, VaryWhatTheSceneHas) {
     const std::vector<Tier> tiers = {Tier::fast, Tier::strict, Tier::precise};
-    const VariedAxes all = parse_axes({"samples", "tier", "effects", "depth", "tessellation"}, tiers);
+    const VariedAxes all = parse_axes({"samples", "sampler", "tier", "effects", "depth", "tessellation"}, tiers);
     const SettingPlan paper = plan_settings(load_accuracy_scene("named:paper", {4, 4}).scene, all);
     EXPECT_EQ(paper.settings.front().name, "strict");
     EXPECT_EQ(paper.settings.front().axis, Axis::baseline);
-    EXPECT_EQ(paper.settings.size(), 6U) << "tiers and tessellations";
+    EXPECT_EQ(paper.settings.size(), 8U) << "tiers, samplers and tessellations";
     EXPECT_EQ(paper.skipped.size(), 4U) << "effects and depth, and what was not asked for";
     const SettingPlan furnace = plan_settings(load_accuracy_scene("closed:furnace/50", {4, 4}).scene, all);
     std::set<Axis> axes;
@@ -102,7 +112,7 @@ TEST(AccuracySettings, VaryWhatTheSceneHas) {
     EXPECT_FALSE(axes.contains(Axis::tessellation));
     const SettingPlan alone = plan_settings(load_accuracy_scene("named:paper", {4, 4}).scene, parse_axes({}, tiers));
     EXPECT_EQ(alone.settings.size(), 1U);
-    EXPECT_EQ(alone.skipped.size(), 6U);
+    EXPECT_EQ(alone.skipped.size(), 7U);
     EXPECT_TRUE(contains(input_error([&] { (void)parse_axes({"colour"}, tiers); }), "tessellation"));
     EXPECT_TRUE(contains(input_error([&] { (void)parse_axes({}, {}); }), "fast"));
 }

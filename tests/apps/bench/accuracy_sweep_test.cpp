@@ -212,6 +212,29 @@ TEST(AccuracyWords, SayWhatADigitCostsAndWhatToChoose) {
     EXPECT_FALSE(contains(text, "precise (")) << "it is dominated";
 }
 
+TEST(AccuracyWords, SayHowTheErrorOfASamplerFalls) {
+    SceneSweep sweep = made_up({{"strict", 1, 0.1, 0.4},
+                                {"strict", 4, 0.4, 0.2},
+                                {"strict", 16, 1.6, 0.1},
+                                {"sobol", 1, 0.1, 0.4},
+                                {"sobol", 4, 0.4, 0.1},
+                                {"sobol", 16, 1.6, 0.025}});
+    sweep.plan.settings[1].axis = Axis::sampler;
+    const Table table = convergence_table(sweep, one_backend());
+    ASSERT_EQ(table.rows.size(), 2U);
+    EXPECT_EQ(table.rows[0][2], "-0.50 (-0.51 to -0.49)");
+    EXPECT_EQ(table.rows[1][2], "-1.00 (-1.01 to -0.99)");
+    std::string text;
+    for (const std::string& sentence : answers(sweep, one_backend())) text += sentence + "\n";
+    EXPECT_TRUE(
+        contains(text,
+                 "it falls with the samples to the power -1.00 (-1.01 to -0.99), that of strict -0.50 (-0.51 to "
+                 "-0.49)."));
+    sweep.points[4].errors.fill({0.1, {0, 0.2}, false});
+    sweep.points[5].errors.fill({0.1, {0, 0.2}, false});
+    EXPECT_TRUE(contains(convergence_table(sweep, one_backend()).rows[1][2], "fewer than two"));
+}
+
 TEST(AccuracyWords, SayThatABiasDoesNotGoAway) {
     const SceneSweep sweep = made_up({{"strict", 1, 0.1, 0.4}, {"strict", 4, 0.4, 0.4}});
     EXPECT_TRUE(contains(answers(sweep, one_backend()).front(), "more samples do not reduce the error"));

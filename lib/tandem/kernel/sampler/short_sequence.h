@@ -34,4 +34,11 @@ class ShortSequence {
     Word a_, b_, c_, counter_;
 };
 
+/// A start of ShortSequence whose first number is `first`, and whose later ones follow from `random`: with four
+/// independent words, the first three numbers are independent.
+template <class Word>
+TANDEM_HD_INLINE PhiloxBlock<Word> start_with(const Word& first, const PhiloxBlock<Word>& random) {
+    return {{first - random.word[1] - random.word[3], random.word[1], random.word[2], random.word[3]}};
+}
+
 }  // namespace tandem

@@ -1,0 +1,27 @@
+#include "tandem/render/sampler_names.h"
+
+#include "tandem/base/error.h"
+
+namespace tandem {
+
+const std::vector<SamplerInfo>& sampler_infos() {
+    static const std::vector<SamplerInfo> infos = {
+#define TANDEM_SAMPLER(name, help) {Sampler::name, #name, help},
+#include "tandem/kernel/sampler/samplers.def"
+#undef TANDEM_SAMPLER
+    };
+    return infos;
+}
+
+std::string to_string(Sampler sampler) { return sampler_infos()[static_cast<std::size_t>(sampler)].name; }
+
+Sampler parse_sampler(std::string_view name) {
+    std::string known;
+    for (const SamplerInfo& info : sampler_infos()) {
+        if (name == info.name) return info.sampler;
+        known += (known.empty() ? "" : ", ") + std::string(info.name);
+    }
+    throw InputError("there is no sampler '" + std::string(name) + "'; the samplers are " + known);
+}
+
+}  // namespace tandem
