@@ -15,18 +15,10 @@
 
 namespace tandem {
 
-namespace {
-
-constexpr std::array library_names = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1", "libOpenImageDenoise.so"};
-constexpr const char* advice =
-    "Install Open Image Denoise, and name its libOpenImageDenoise.so.2 with --denoiser FILE, or its folder in "
-    "LD_LIBRARY_PATH (docs/denoising.md)";
-
 // The part of its documented C interface that is used, in the names and values of versions 1.4 to 2.x.
+namespace oidn {
+
 using Handle = void*;
-constexpr int device_type_cpu = 1;
-constexpr int format_float3 = 3;
-constexpr int error_none = 0;
 
 struct Functions {
     Handle (*new_device)(int type) = nullptr;
@@ -50,9 +42,22 @@ struct LibraryCloser {
 };
 using Library = std::unique_ptr<void, LibraryCloser>;
 
-Library open_library(const std::string& file) {
+inline constexpr int device_type_cpu = 1;
+inline constexpr int format_float3 = 3;
+inline constexpr int error_none = 0;
+
+}  // namespace oidn
+
+namespace {
+
+constexpr std::array library_names = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1", "libOpenImageDenoise.so"};
+constexpr const char* advice =
+    "Install Open Image Denoise, and name its libOpenImageDenoise.so.2 with --denoiser FILE, or its folder in "
+    "LD_LIBRARY_PATH (docs/denoising.md)";
+
+oidn::Library open_library(const std::string& file) {
     if (!file.empty()) {
-        Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+        oidn::Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
         if (library) return library;
         const char* reason = ::dlerror();
         throw EnvironmentError(fmt::format("cannot open the denoiser '{}': {}. {}", file,
@@ -60,7 +65,7 @@ Library open_library(const std::string& file) {
     }
     std::string names, reasons;
     for (const char* name : library_names) {
-        Library library(::dlopen(name, RTLD_NOW | RTLD_LOCAL));
+        oidn::Library library(::dlopen(name, RTLD_NOW | RTLD_LOCAL));
         if (library) return library;
         const char* reason = ::dlerror();
         names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
@@ -88,8 +93,8 @@ void find(void* library, Function& function, const char* name, const char* older
     function = reinterpret_cast<Function>(found);
 }
 
-Functions functions_of(void* library) {
-    Functions f;
+oidn::Functions functions_of(void* library) {
+    oidn::Functions f;
     find(library, f.new_device, "oidnNewDevice");
     find(library, f.commit_device, "oidnCommitDevice");
     find(library, f.release_device, "oidnReleaseDevice");
@@ -127,21 +132,21 @@ struct Denoiser::State {
     /// Throws what the library has to complain about since the last call. A null device: that none could be made.
     void check(const char* what) const {
         const char* message = nullptr;
-        if (call.get_error(device, &message) == error_none && device != nullptr) return;
+        if (call.get_error(device, &message) == oidn::error_none && device != nullptr) return;
         throw EnvironmentError(
             fmt::format("Open Image Denoise cannot {}: {}", what, message == nullptr ? "it gives no reason" : message));
     }
 
-    Library library;
-    Functions call;
-    Handle device = nullptr;
+    oidn::Library library;
+    oidn::Functions call;
+    oidn::Handle device = nullptr;
     std::string name;
     std::mutex one_at_a_time;
 };
 
 Denoiser::Denoiser(const std::string& library, int threads) : state_(std::make_unique<State>(library)) {
-    const Functions& call = state_->call;
-    state_->device = call.new_device(device_type_cpu);
+    const oidn::Functions& call = state_->call;
+    state_->device = call.new_device(oidn::device_type_cpu);
     state_->check("make a CPU device");
     if (threads > 0) call.set_device_int(state_->device, "numThreads", threads);
     call.set_device_bool(state_->device, "setAffinity", false);  // the threads of a renderer need the cores too
@@ -163,11 +168,12 @@ FloatImage Denoiser::denoise(const Film& film) const {
     FloatImage result{colour.width, colour.height, std::vector<Vec3f>(pixel_count(colour))};
 
     const std::lock_guard guard(state_->one_at_a_time);
-    const Functions& call = state_->call;
-    const std::unique_ptr<void, void (*)(Handle)> filter(call.new_filter(state_->device, "RT"), call.release_filter);
+    const oidn::Functions& call = state_->call;
+    const std::unique_ptr<void, void (*)(oidn::Handle)> filter(call.new_filter(state_->device, "RT"),
+                                                               call.release_filter);
     state_->check("make its filter");
     const auto set = [&](const char* name, void* pixels) {
-        call.set_image(filter.get(), name, pixels, format_float3, static_cast<std::size_t>(colour.width),
+        call.set_image(filter.get(), name, pixels, oidn::format_float3, static_cast<std::size_t>(colour.width),
                        static_cast<std::size_t>(colour.height), 0, 0, 0);
     };
     set("color", colour.pixels.data());
