@@ -50,7 +50,8 @@ class Layout {
 
 /// Whether rays pass many triangles near by before they hit one: from the boxes of some triangles, whose areas over the
 /// area of the scene's box add up to the number of boxes that a line through the scene meets. Then neighbouring rays
-/// take ways of different lengths. Triangles of a closed surface have a few such boxes, those without order dozens.
+/// take ways of different lengths. It is 4 for a sphere of fine triangles, and 8.9 for a million triangles without
+/// order (named:triangles/1000000), the two scenes in which the limit was tried (docs/performance.md).
 bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
     constexpr std::uint32_t most_inspected = 1024;
     constexpr double many = 8;

@@ -134,11 +134,15 @@ TEST_P(ClosestHit, HasTheSameBitsForRaysOfImages) {
         std::vector<Ray<float>> shuffled;
         for (const std::size_t i : order) shuffled.push_back(rays[i]);
         ASSERT_EQ(row_length(shuffled, 1), 0U);
-        const std::vector<RayEnd> ends(rays.size(), RayEnd{3});
+        std::vector<RayEnd> ends(rays.size());
+        for (std::size_t i = 0; i < ends.size(); ++i) ends[i].t = i % 2 == 0 ? 3 : 9;
+        std::vector<RayEnd> shuffled_ends;
+        for (const std::size_t i : order) shuffled_ends.push_back(ends[i]);
         for (const bool shadow : {false, true}) {
             std::vector<Hit> expected(rays.size());
             const auto part = shadow ? std::span<const RayEnd>(ends) : std::span<const RayEnd>();
-            backend_->trace(*scene, {.rays = shuffled, .hits = expected, .ends = part});
+            const auto shuffled_part = shadow ? std::span<const RayEnd>(shuffled_ends) : std::span<const RayEnd>();
+            backend_->trace(*scene, {.rays = shuffled, .hits = expected, .ends = shuffled_part});
             std::size_t found = 0;
             for (const Coherence coherence : {Coherence::unknown, Coherence::coherent, Coherence::incoherent}) {
                 std::vector<Hit> hits(rays.size());

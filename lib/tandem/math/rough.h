@@ -29,17 +29,21 @@ TANDEM_HD_INLINE float rough_inverse_square_root(float a) {
 #endif
 }
 
-/// lesser() and greater() where `a` is no NaN, also for -0 and +0: a single instruction on a GPU.
+/// lesser() and greater(), but for the sign of a zero, where `a` is no NaN: a single instruction on a GPU.
 TANDEM_HD_INLINE float rough_lesser(float a, float b) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
-    return fminf(a, b);
+    float result;
+    asm("min.f32 %0, %1, %2;" : "=f"(result) : "f"(a), "f"(b));
+    return result;
 #else
     return lesser(a, b);
 #endif
 }
 TANDEM_HD_INLINE float rough_greater(float a, float b) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
-    return fmaxf(a, b);
+    float result;
+    asm("max.f32 %0, %1, %2;" : "=f"(result) : "f"(a), "f"(b));
+    return result;
 #else
     return greater(a, b);
 #endif
