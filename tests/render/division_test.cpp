@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "support/random.h"
@@ -47,6 +48,9 @@ TEST(Division, PortionsEndTogether) {
     EXPECT_DOUBLE_EQ(fair_portion({{.pace = 2, .busy = 10}, {.pace = 2}}, 0, 15), 5) << "20 s: 10 + 2 * 5, 2 * 10";
     EXPECT_DOUBLE_EQ(fair_portion({{.pace = 2, .busy = 100}, {.pace = 2}}, 0, 15), 0);
     EXPECT_DOUBLE_EQ(fair_portion({{.pace = 2, .busy = 100}, {.pace = 2}}, 1, 15), 15);
+    constexpr double never = std::numeric_limits<double>::infinity();
+    EXPECT_DOUBLE_EQ(fair_portion({{.pace = 2, .busy = never}, {.pace = 2}, {}}, 1, 30), 15);
+    EXPECT_EQ(fair_portion({{}, {}}, 0, 0), 0);
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         test::Random random(seed);
         std::vector<Worker> workers(1 + random.below(6));
@@ -72,12 +76,13 @@ TEST(Division, PortionsEndTogether) {
 }
 
 TEST(Division, PartsShrinkTowardsTheEnd) {
-    EXPECT_EQ(part_size(900, true, 10), 300U);
-    EXPECT_EQ(part_size(600, true, 10), 200U);
-    EXPECT_EQ(part_size(14, true, 10), 14U) << "nothing less than 10 stays";
-    EXPECT_EQ(part_size(800, false, 10), 50U) << "to learn the pace";
-    EXPECT_EQ(part_size(3, true, 10), 10U);
-    EXPECT_EQ(part_size(0, true, 0), 1U);
+    EXPECT_EQ(part_size(800, 2, true, 10), 400U);
+    EXPECT_EQ(part_size(800, 4, true, 10), 200U);
+    EXPECT_EQ(part_size(600, 4, true, 10), 150U);
+    EXPECT_EQ(part_size(13, 4, true, 10), 13U) << "nothing less than 10 stays";
+    EXPECT_EQ(part_size(800, 4, false, 10), 50U) << "to learn the pace";
+    EXPECT_EQ(part_size(3, 4, true, 10), 10U);
+    EXPECT_EQ(part_size(0, 4, true, 0), 1U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <new>
 #include <numeric>
@@ -28,8 +29,14 @@ constexpr std::size_t most_bands = 2;
 /// Bands begin at multiples of so many rows, which is what a block of a GPU's threads covers.
 constexpr std::size_t band_step = 8;
 
-/// The least part of a frame is at least so small a part of what a member has of it.
-constexpr std::size_t most_parts = 16;
+/// How many parts a member makes of its portion of what is left (part_size()). Bands are rendered two at a time, and
+/// rows may differ much, so a band is a smaller part than one of rays, each of which is traced alone.
+constexpr int band_steps = 4, ray_steps = 2;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The least part of rays is at least so small a part of what a member has of them.
+constexpr std::size_t most_ray_parts = 16;
 
 enum class Failure { input, environment, bug };
 
@@ -59,14 +66,13 @@ class Pace {
   public:
     void add(double units, double seconds) {
         if (!(units > 0) || !(seconds > 0)) return;
-        units_ = memory * units_ + units;
-        seconds_ = memory * seconds_ + seconds;
+        const double now = seconds / units;
+        seconds_per_unit_ = seconds_per_unit_ > 0 ? 0.5 * (seconds_per_unit_ + now) : now;
     }
-    [[nodiscard]] double get() const { return units_ > 0 ? seconds_ / units_ : 0; }
+    [[nodiscard]] double get() const { return seconds_per_unit_; }
 
   private:
-    static constexpr double memory = 0.85;  ///< of earlier parts: about those of a frame, whose rows cost differently
-    double units_ = 0, seconds_ = 0;
+    double seconds_per_unit_ = 0;
 };
 
 class Crew;
@@ -228,9 +234,11 @@ class Crew {
     /// Takes rays for a member, of `all` that there were. Nothing if none are left.
     [[nodiscard]] std::optional<Division::Part> take_rays(const CombinedScene& scene, std::size_t member,
                                                           std::size_t all, Division& rays) {
-        const std::size_t least = std::max(options_.least_rays, all / (most_parts * members_.size()));
-        const auto part = rays.take(size_of_part(scene.ray_paces, member, rays.left(), least, 1));
-        if (part) expect(member, scene.ray_paces[member].get() * static_cast<double>(part->count));
+        const std::size_t least = std::max(options_.least_rays, all / (most_ray_parts * members_.size()));
+        const std::vector<Worker> crew = workers(scene.ray_paces, 1);
+        const double portion = fair_portion(crew, member, rays.left());
+        const auto part = rays.take(size_of_part(portion, crew[member].pace, ray_steps, least));
+        if (part) members_[member]->free_at = clock_.seconds() + crew[member].pace * static_cast<double>(part->count);
         return part;
     }
     void count_rays(std::size_t member, std::size_t rays) {
@@ -255,7 +263,7 @@ class Crew {
         std::deque<std::function<void()>> tasks;
         std::deque<Band> bands;  ///< submitted; only its own thread changes them
         Stopwatch busy;          ///< since it began with the oldest of them
-        double free_at = 0;      ///< by clock_, when it will have done what it took
+        double free_at = 0;      ///< by clock_, when it will have traced the rays that it took
         std::uint64_t samples = 0, rays = 0;
         bool has_failed = false;
         bool has_bug = false;
@@ -293,39 +301,32 @@ class Crew {
     [[nodiscard]] Band take_band(std::size_t index) {
         const std::shared_ptr<SharedFrame> frame = queue_.front();
         const double samples_of_row = static_cast<double>(frame->window.width) * frame->job.samples;
-        const auto width = static_cast<std::size_t>(frame->window.width);
-        const auto height = static_cast<std::size_t>(frame->window.height);
-        const std::size_t least_rows = std::max(options_.least_pixels / width, height / (most_parts * members_.size()));
-        const std::vector<Pace>& paces = frame->scene->sample_paces;
-        const std::size_t rows = size_of_part(paces, index, frame->rows.left(), least_rows, samples_of_row);
-        Band band{frame, frame->rows.take(rows).value()};
-        expect(index, paces[index].get() * band.samples());
+        const std::size_t least_rows = options_.least_pixels / static_cast<std::size_t>(frame->window.width);
+        std::vector<Worker> crew = workers(frame->scene->sample_paces, samples_of_row);
+        for (Worker& worker : crew)
+            worker.busy = worker.busy < never ? 0 : never;  // each has two bands, and takes the next when one is done
+        const double portion = fair_portion(crew, index, frame->rows.left());
+        Band band{frame, frame->rows.take(size_of_part(portion, crew[index].pace, band_steps, least_rows)).value()};
         if (frame->rows.is_empty()) queue_.pop_front();
         ++frame->bands;
         if (!frame->watch) frame->watch.emplace();
         return band;
     }
 
-    /// The member has taken work that will take it so long.
-    void expect(std::size_t index, double seconds) {
-        Member& member = *members_[index];
-        member.free_at = std::max(member.free_at, clock_.seconds()) + seconds;
-    }
-
-    /// What a member takes of the units that are left; each is `units` of those that the paces count.
-    [[nodiscard]] std::size_t size_of_part(const std::vector<Pace>& paces, std::size_t index, std::size_t left,
-                                           std::size_t least, double units) const {
+    /// The members; those that have failed are busy for ever. `units`: how many of those that the paces count make one.
+    [[nodiscard]] std::vector<Worker> workers(const std::vector<Pace>& paces, double units) const {
         std::vector<Worker> workers;
-        std::size_t place = 0;
         const double now = clock_.seconds();
         for (std::size_t i = 0; i < paces.size(); ++i) {
-            if (members_[i]->has_failed) continue;
-            if (i == index) place = workers.size();
-            workers.push_back({paces[i].get() * units, std::max(0.0, members_[i]->free_at - now)});
+            const bool failed = members_[i]->has_failed;
+            workers.push_back({paces[i].get() * units, failed ? never : std::max(0.0, members_[i]->free_at - now)});
         }
-        const double pace = workers[place].pace;
+        return workers;
+    }
+
+    [[nodiscard]] std::size_t size_of_part(double portion, double pace, int steps, std::size_t least) const {
         if (pace > 0) least = std::max(least, static_cast<std::size_t>(options_.least_seconds / pace));
-        return part_size(fair_portion(workers, place, left), pace > 0, least);
+        return part_size(portion, steps, pace > 0, least);
     }
 
     void start(std::size_t index, Band band, std::unique_lock<std::mutex>& lock) {
@@ -368,10 +369,6 @@ class Crew {
         member.samples += static_cast<std::uint64_t>(band.samples());
         const Band done = std::move(band);
         member.bands.pop_front();
-        member.free_at = 0;
-        for (const Band& other : member.bands) {
-            expect(index, other.frame->scene->sample_paces[index].get() * other.samples());
-        }
         settle(*done.frame);
     }
 

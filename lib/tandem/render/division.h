@@ -81,12 +81,12 @@ struct Worker {
     }
 }
 
-/// How much a worker takes of its portion: half of it, so that what is left can correct what was not foreseen; all of
-/// it if less than `least` would stay. Before its pace is known it takes a sixteenth, to learn it. Few parts cost
-/// little, and the parts become smaller towards the end. (Guided self-scheduling: C. Polychronopoulos, D. Kuck, IEEE
-/// Transactions on Computers C-36(12), 1987.)
-[[nodiscard]] inline std::size_t part_size(double portion, bool is_known, std::size_t least) {
-    const double part = portion / (is_known ? 3 : 16);
+/// How much a worker takes of its portion: one of `steps` equal parts, so that what is left can correct what was not
+/// foreseen, such as rows that cost more than others; all of it if less than `least` would stay. So the parts become
+/// smaller towards the end. Before its pace is known it takes a sixteenth, to learn it. (Guided self-scheduling: C.
+/// Polychronopoulos, D. Kuck, IEEE Transactions on Computers C-36(12), 1987.)
+[[nodiscard]] inline std::size_t part_size(double portion, int steps, bool is_known, std::size_t least) {
+    const double part = portion / (is_known ? steps : 16);
     if (is_known && portion - part < static_cast<double>(least)) {
         return std::max({static_cast<std::size_t>(std::ceil(portion)), least, std::size_t{1}});
     }
