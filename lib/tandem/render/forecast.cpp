@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tandem/math/fp_environment.h"
+#include "tandem/render/tile_windows.h"
 
 namespace tandem {
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int most_bands = 8;
 
 /// What the probe cannot show of the time, as a share of it: two standard deviations.
-constexpr double unknown_share_of_time = 0.1;
+constexpr double unknown_share_of_time = 0.2;
 
 struct Band {
     FilmWindow window;
@@ -71,15 +72,36 @@ Outcome outcome_of(std::vector<TileErrors> tiles, const RenderTarget& target, in
     }
 }
 
-/// Pixels times samples of the tiles within a window.
-double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector<int>& samples) {
+/// Pixels times samples of the tiles within a window, those that are marked `factor` times.
+double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector<int>& samples,
+               const std::vector<bool>& marked, double factor) {
     double work = 0;
     for (std::size_t i = 0; i < grid.count(); ++i) {
         const FilmWindow tile = grid.tile(i);
         if (tile.top < window.top || tile.top >= window.top + window.height) continue;
-        work += static_cast<double>(pixel_count(tile)) * samples[i];
+        work += static_cast<double>(pixel_count(tile)) * samples[i] * (marked[i] ? factor : 1);
     }
     return work;
+}
+
+/// Renders the tiles that are marked once more, and returns their time over that of their bands for as many samples.
+double dearness_of(Backend& backend, const std::shared_ptr<ResidentScene>& scene, RenderJob job, const TileGrid& grid,
+                   const std::vector<Band>& bands, const std::vector<bool>& marked,
+                   const std::function<double()>& clock) {
+    std::vector<int> samples(grid.count());
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = marked[i] ? job.samples : 0;
+    double expected = 0;
+    for (const Band& band : bands) {
+        double rate = 0;
+        for (const double of_pass : band.rates) rate += of_pass / probe_passes;
+        expected += rate * work_in(band.window, grid, samples, marked, 1);
+    }
+    const double start = clock();
+    for (const FilmWindow& window : windows_of(grid, marked)) {
+        job.window = window;
+        (void)backend.render(scene, job);
+    }
+    return expected > 0 ? (clock() - start) / expected : 1;
 }
 
 }  // namespace
@@ -134,12 +156,21 @@ Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, c
         result.least_error = {error.value, error.low, error.high};
         result.can_reach = error.value <= target.error;
     }
+    // tiles with much noise take more time per sample than others of their row
+    std::vector<bool> noisy(grid.count());
+    const std::vector<int>& ends = outcomes[0].samples;
+    const int fewest = *std::min_element(ends.begin(), ends.end());
+    std::transform(ends.begin(), ends.end(), noisy.begin(), [&](int end) { return end > fewest; });
+    job.first_sample += job.samples;
+    const double dearness = dearness_of(backend, resident, job, grid, bands, noisy, clock);
+
     std::array<double, 3> work{};
     std::array<double, probe_passes> seconds{};
     for (const Band& band : bands) {
-        for (std::size_t i = 0; i < work.size(); ++i) work[i] += work_in(band.window, grid, outcomes[i].samples);
+        for (std::size_t i = 0; i < work.size(); ++i)
+            work[i] += work_in(band.window, grid, outcomes[i].samples, noisy, 1);
         for (std::size_t pass = 0; pass < probe_passes; ++pass) {
-            seconds[pass] += band.rates[pass] * work_in(band.window, grid, outcomes[0].samples);
+            seconds[pass] += band.rates[pass] * work_in(band.window, grid, ends, noisy, dearness);
         }
     }
     double mean = 0, squares = 0;

@@ -25,8 +25,9 @@ struct Forecast {
 /// Renders probe_passes times the whole film with a few samples per pixel, and predicts render_to_target(), or the
 /// samples of the job if the target has no error. The rounds are allotted as by the render, as if the errors of the
 /// probe would fall with the number of samples as they should; the interval is from errors at the ends of theirs. The
-/// time is that of the probe's samples in the same rows of tiles; its interval is from the spread of the passes
-/// (Student's t), and from a tenth for what the probe cannot show, such as smaller windows. The interval does not know
+/// time is that of the probe's samples in the same rows of tiles, and for the tiles that get more samples than others,
+/// of a further pass over them alone; its interval is from the spread of the passes (Student's t), and from a fifth for
+/// what the probe cannot show, such as smaller windows. The interval does not know
 /// of light that the probe did not find, nor of other load to come. `clock`: seconds. Throws as render_to_target()
 /// does.
 [[nodiscard]] Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target,
