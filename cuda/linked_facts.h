@@ -1,12 +1,12 @@
 /// The facts that a render kernel is linked for (cuda/scene_kernels.h): one struct, made on the host from the scene and
-/// the job, or when Tandem is built (compiled_facts.cu). A constant to the kernel once it is linked.
+/// the job, or when Tandem is built (compiled_facts.cu). A constant to the kernel once it is linked. This header
+/// includes none that asks for a fact, because linked_kernel.cu says afterwards where the facts are.
 #pragma once
 
 #include <cstdint>
 #include <iterator>
 
 #include "tandem/effects/variants.h"
-#include "tandem/kernel/sampler/sampler_kind.h"
 
 namespace tandem::cuda {
 
@@ -28,7 +28,7 @@ struct LinkedFacts {
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
-    std::uint32_t sampler = 0;                                  ///< Sampler, or any_sampler
+    std::uint32_t sampler = 0;                                  ///< Sampler, or `any`
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };
@@ -45,7 +45,7 @@ constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds
             .reflection = any,
             .refraction = any,
             .diffuse = any,
-            .sampler = any_sampler};
+            .sampler = any};
 }
 
 }  // namespace tandem::cuda

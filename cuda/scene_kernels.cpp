@@ -35,6 +35,8 @@ static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchroni
                   variants[1].effects == all_effects,
               "compiled_code() and CMakeLists.txt know two");
 
+static_assert(any_sampler == LinkedFacts::any);
+
 namespace {
 
 constexpr const char* kernel_name = "tandem_render";
