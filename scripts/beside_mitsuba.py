@@ -238,7 +238,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         file, film = os.path.join(folder, "scene.gltf"), os.path.join(folder, "film.pfm")
         write_with_camera(gltf, file, eye, target, options.yfov)
-        command = [options.render, file, "-o", film, "--size", options.size, "--spp", str(options.spp), "--indirect",
+        command = [options.render, file, "-o", film, "--size", options.size, "--spp", str(options.spp), "--sampler", "random", "--indirect",
                    "--light", "none", "--limits", "5,5,5", "--aov", "depth"]
         subprocess.run(command + (["--env", options.env] if options.env else []), check=True)
         ours = read_pfm(film)

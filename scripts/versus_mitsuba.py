@@ -120,7 +120,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         picture = os.path.join(options.pictures or folder, "tandem.png")
         command = [options.render, os.path.join(ROOT, "assets", "scenes", "whitted.gltf"), "-o", picture, "--size", options.size]
-        command += ["--spp", str(options.spp), "--backend", "cpu", "--tier", options.tier, "--exposure", "0", "--force", "--quiet", "--json", "-"]
+        command += ["--spp", str(options.spp), "--sampler", "random", "--backend", "cpu", "--tier", options.tier, "--exposure", "0", "--force", "--quiet", "--json", "-"]
         for _ in range(options.repetitions):
             frame = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["frames"][0]
             ours.append(frame["seconds"]["render"])

@@ -36,7 +36,7 @@ struct Words {
     int frame = 0;
     std::string frames;  // empty: the one above
     std::string tier = "strict";
-    std::string sampler = to_string(RenderJob{}.sampler);
+    std::string sampler;  // empty: default_sampler()
     std::string effects;
     std::string limits = to_string(PathLimits{});
     std::string planes;  // empty: the colour alone
@@ -54,6 +54,13 @@ struct Words {
     std::string denoiser;                           // empty: where the system's loader looks
     std::optional<std::string> exposure, transfer;  // as the scene says if not given
 };
+
+/// The sampler whose images have the least error for their time (docs/samplers.md), unless an error is estimated from
+/// the samples.
+Sampler default_sampler(const Words& words, const RenderJob& job) {
+    const bool estimates = words.target_error > 0 || words.time_budget > 0 || job.planes.has(FilmPlane::variance);
+    return estimates ? Sampler::random : Sampler::sobol;
+}
 
 /// The most samples per pixel for a target, if the user does not say.
 constexpr int most_samples_of_target = 65536;
@@ -131,9 +138,11 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->capture_default_str();
     std::string samplers;
     for (const SamplerInfo& info : sampler_infos()) samplers += fmt::format("; {}: {}", info.name, info.help);
-    app.add_option("--sampler", words.sampler, "where the random numbers of samples come from" + samplers)
-        ->type_name("NAME")
-        ->capture_default_str();
+    app.add_option("--sampler", words.sampler,
+                   "where the random numbers of samples come from" + samplers +
+                       ". Default: sobol, but random with a target and for the plane variance, which need independent "
+                       "samples (docs/samplers.md)")
+        ->type_name("NAME");
     auto* const frame = app.add_option("--frame", words.frame, "frame to render")
                             ->type_name("K")
                             ->check(CLI::NonNegativeNumber)
@@ -295,9 +304,9 @@ int render(int argc, char** argv) {
     sequence.job.height = height;
     sequence.job.tier = parse_tier(words.tier);
     sequence.job.limits = parse_limits(words.limits);
-    sequence.job.sampler = parse_sampler(words.sampler);
     sequence.effects = parse_effects(words.effects);
     if (!words.planes.empty()) sequence.job.planes = parse_planes(words.planes);
+    sequence.job.sampler = words.sampler.empty() ? default_sampler(words, sequence.job) : parse_sampler(words.sampler);
     if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);
     if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
     if (!words.checkpoint.file.empty()) sequence.checkpoint = words.checkpoint;
