@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <mutex>
+#include <optional>
 #include <vector>
 
+#include "cpu/group_hierarchy.h"
 #include "cpu/instruction_sets.h"
 #include "tandem/base/error.h"
 #include "tandem/base/memory.h"
@@ -24,6 +27,7 @@
 #include "tandem/math/fp_environment.h"
 #include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
+#include "tandem/render/ray_coherence.h"
 #include "tandem/render/ready_frame.h"
 #include "tandem/render/traced_job.h"
 
@@ -37,34 +41,31 @@ constexpr std::size_t loop_limit = 24;
 /// What Embree's hierarchy takes at least while it is built: 115 measured with Embree 3.13.
 constexpr std::size_t bvh_bytes_per_primitive = 100;
 
-/// Owns an Embree handle.
-template <class Handle, void (*release)(Handle)>
-class EmbreeHandle {
-  public:
-    explicit EmbreeHandle(Handle handle = nullptr) : handle_(handle) {}
-    EmbreeHandle(EmbreeHandle&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-    EmbreeHandle& operator=(EmbreeHandle&& other) noexcept {
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~EmbreeHandle() {
-        if (handle_ != nullptr) release(handle_);
-    }
-    Handle get() const { return handle_; }
+/// From this number of primitives on, single rays may go through a hierarchy of groups (docs/performance.md). While it
+/// is built it takes less than this: with two of them, for a million spheres, the peak rose by 123 bytes a sphere.
+constexpr std::size_t least_for_groups = 20'000;
+constexpr std::size_t group_bytes_per_primitive = 100;
 
-  private:
-    Handle handle_;
-};
-using EmbreeDevice = EmbreeHandle<RTCDevice, rtcReleaseDevice>;
-using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
-using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
+/// Whether neighbours in the list are neighbours in a mesh: of up to 64 pairs, most share a corner.
+bool are_connected(const std::vector<Triangle>& triangles) {
+    const std::size_t step = triangles.size() / 64 + 1;
+    std::size_t pairs = 0, connected = 0;
+    for (std::size_t i = 1; i < triangles.size(); i += step, ++pairs) {
+        const Triangle &a = triangles[i - 1], &b = triangles[i];
+        const auto is_of_b = [&b](const Vec3f& corner) { return corner == b.v0 || corner == b.v1 || corner == b.v2; };
+        if (is_of_b(a.v0) || is_of_b(a.v1) || is_of_b(a.v2)) ++connected;
+    }
+    return 2 * connected > pairs;
+}
 
-/// Throws what Embree last reported on this thread.
-void check_embree(RTCDevice device, const char* doing) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_NONE) return;
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw EnvironmentError(fmt::format("out of memory while {}", doing));
-    throw std::runtime_error(fmt::format("Embree failed while {} (error {})", doing, static_cast<int>(error)));
+/// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres or
+/// triangles of meshes. A guess, which affects only the speed.
+bool groups_pay(const PreparedScene& scene, Tier tier) {
+    const std::size_t count = primitive_count(scene);
+    const bool embree_decides = tier == Tier::fast && scene.triangles.size() + scene.quads.size() > 0;
+    if (count < least_for_groups || embree_decides) return false;
+    const std::size_t meshes = are_connected(scene.triangles) ? scene.triangles.size() : 0;
+    return 10 * (scene.spheres.size() + meshes) > 9 * count;
 }
 
 class CpuScene final : public ResidentScene {
@@ -73,15 +74,39 @@ class CpuScene final : public ResidentScene {
         : ResidentScene(tier), scene_(scene.copies.empty() ? scene : without_copies(scene)), copies_(scene.copies) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
-        view_ = {tandem::view(scene_), {}, nullptr, {}};
+        view_ = {tandem::view(scene_), {}, nullptr, {}, nullptr};
         if (count > loop_limit) build(device, kernels, count);
         times_.build = watch.seconds();
     }
 
-    [[nodiscard]] PhaseTimes load_times() const override { return times_; }
+    /// With the time for groups, once there are any.
+    [[nodiscard]] PhaseTimes load_times() const override {
+        PhaseTimes times = times_;
+        times.build += group_seconds_;
+        return times;
+    }
     [[nodiscard]] const PreparedScene& prepared() const { return scene_; }
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
+
+    /// The scene for rays that are not coherent, which kernels trace one by one. The first call makes the groups, in
+    /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
+    /// called in a TBB task.
+    [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, const TierKernels& kernels,
+                                                           tbb::task_arena& arena) {
+        if (!groups_pay(scene_, tier())) return view_;
+        std::call_once(groups_made_, [&] {
+            const Stopwatch watch;
+            const std::size_t count = primitive_count(scene_);
+            try {
+                require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
+                arena.execute([&] { groups_.emplace(device, kernels, view_); });
+            } catch (const EnvironmentError&) {  // the scene has another hierarchy
+            }
+            group_seconds_ = watch.seconds();
+        });
+        return groups_ ? groups_->view() : view_;
+    }
 
   private:
     void build(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
@@ -119,10 +144,7 @@ class CpuScene final : public ResidentScene {
     /// Primitives [0, count) as user geometry.
     void add_primitives(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
         if (count == 0) return;
-        const EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-        check_embree(device, "making a scene");
-        rtcSetGeometryUserPrimitiveCount(geometry.get(), count);
-        rtcSetGeometryUserData(geometry.get(), &view_);
+        const EmbreeGeometry geometry = user_geometry(device, &view_, count);
         rtcSetGeometryBoundsFunction(geometry.get(), padded_bounds, nullptr);
         rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
         rtcSetGeometryOccludedFunction(geometry.get(), kernels.occluded);
@@ -173,6 +195,10 @@ class CpuScene final : public ResidentScene {
     CpuSceneView view_;
     EmbreeScene embree_;
     PhaseTimes times_;
+
+    std::once_flag groups_made_;
+    std::optional<GroupHierarchy> groups_;
+    std::atomic<double> group_seconds_ = 0;
 };
 
 class CpuBackend final : public Backend {
@@ -214,15 +240,18 @@ class CpuBackend final : public Backend {
     double trace(ResidentScene& scene, const TraceJob& job) override {
         const DefaultFpEnvironment guard;
         check(job);
-        const auto& resident = dynamic_cast<const CpuScene&>(scene);
+        auto& resident = dynamic_cast<CpuScene&>(scene);
         const TierKernels& kernels = set_.kernels(scene.tier());
+        const CpuSceneView& view = are_scattered(job, resident.view())
+                                       ? resident.view_for_single_rays(device_.get(), kernels, arena_)
+                                       : resident.view();
         return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {
             std::atomic<std::uint64_t> rejected = 0;
             const Stopwatch watch;
             arena_.execute([&] {
                 tbb::parallel_for(tbb::blocked_range<std::size_t>(0, traced.rays.size(), 1024), [&](const auto& range) {
                     const DefaultFpEnvironment guard_of_task;
-                    rejected += kernels.trace(resident.view(), part(traced, range.begin(), range.size()));
+                    rejected += kernels.trace(view, part(traced, range.begin(), range.size()));
                 });
             });
             const double seconds = watch.seconds();
@@ -288,6 +317,12 @@ class CpuBackend final : public Backend {
     }
 
   private:
+    /// Whether kernels will trace rays of the job one by one: a guess, which affects only the speed.
+    static bool are_scattered(const TraceJob& job, const CpuSceneView& view) {
+        if (view.embree == nullptr || job.coherence == Coherence::coherent) return false;
+        return job.coherence == Coherence::incoherent || !are_coherent(job.rays, reach(view.frame.bounds));
+    }
+
     /// Renders the samples of a tile one by one, so that their squares can be added. `one_sample`: a temporary film for
     /// the calls of draw(job, film). The sums have the same bits as from one call for all samples.
     template <class Draw>

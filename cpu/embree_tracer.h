@@ -113,6 +113,14 @@ TANDEM_HD_INLINE Mask<Real> is_excluded(const SceneView& scene, const QueryConte
     }
 }
 
+/// The query of one ray.
+template <class Real>
+TANDEM_HD_INLINE RTCRay single_ray(const Proposal<Real>& proposal, float tnear, float tfar) {
+    const Ray<float> p = {to_plain(proposal.ray.origin), to_plain(proposal.ray.direction)};
+    return {p.origin.x, p.origin.y, p.origin.z, tnear, p.direction.x, p.direction.y, p.direction.z, 0,
+            tfar,       0xFFFFFFFF, 0,          0};
+}
+
 template <class T>
 TANDEM_HD_INLINE T load(const void* field) {
     T result;
@@ -163,7 +171,7 @@ struct EmbreeTracer {
         query.source = &source;
         if (!start(query, ray, active, false)) return query.best;
         RTCRayHit rayhit;
-        rayhit.ray = single_ray(query, to_plain(query.proposal.start_for(source)), 3e38F);
+        rayhit.ray = embree_detail::single_ray(query.proposal, to_plain(query.proposal.start_for(source)), 3e38F);
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(view.embree, query.head, rayhit);
         if constexpr (is_fast<Real>) {
@@ -212,7 +220,7 @@ struct EmbreeTracer {
         if (!start(query, ray, active, false)) return false;
         const float limit = to_plain(query.proposal.limit(t_max));
         if (!(limit >= 0)) return false;
-        RTCRay embree_ray = single_ray(query, 0.0F, limit);
+        RTCRay embree_ray = embree_detail::single_ray(query.proposal, 0.0F, limit);
         embree::occluded1(view.embree, query.head, embree_ray);
         return embree_ray.tfar < 0;
     }
@@ -248,13 +256,6 @@ struct EmbreeTracer {
         query.filter = make_filter_ray(ray);
         embree::init_context(query.head, coherent);
         return true;
-    }
-
-    template <class Real>
-    TANDEM_HD_INLINE static RTCRay single_ray(const QueryContext<Real>& query, float tnear, float tfar) {
-        const Ray<float> p = {to_plain(query.proposal.ray.origin), to_plain(query.proposal.ray.direction)};
-        return {p.origin.x, p.origin.y, p.origin.z, tnear, p.direction.x, p.direction.y, p.direction.z, 0,
-                tfar,       0xFFFFFFFF, 0,          0};
     }
 
     template <class PacketRay, class Real>

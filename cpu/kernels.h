@@ -22,12 +22,16 @@ namespace tandem {
 /// tier fast, faces are Embree's own geometry.
 enum GeometryId : std::uint32_t { our_primitives, embree_triangles, embree_quads, geometry_count };
 
-/// A scene as kernels read it. `embree` is null for a scene of few primitives, which are tested one by one.
+struct GroupView;  // primitive_groups.h
+
+/// A scene as kernels read it. `embree` is null for a scene of few primitives, which are tested one by one. If `groups`
+/// is not null, single rays go through its hierarchy.
 struct CpuSceneView {
     SceneView scene;
     StructureFrame frame;
     RTCScene embree;
     std::uint32_t first_id[geometry_count];  ///< of the primitives in each geometry
+    const GroupView* groups;
 };
 
 /// Pixels [x0, x1) x [y0, y1).
@@ -82,6 +86,9 @@ struct CpuKernels {
     // Embree's callbacks for user geometry, whose user pointer is a CpuSceneView.
     static void intersect(const RTCIntersectFunctionNArguments* args);
     static void occluded(const RTCOccludedFunctionNArguments* args);
+    // The same for groups of primitives, for single rays.
+    static void intersect_group(const RTCIntersectFunctionNArguments* args);
+    static void occluded_group(const RTCOccludedFunctionNArguments* args);
     // Embree's filters for hits on its own faces, in the tier fast.
     static void filter_nearest(const RTCFilterFunctionNArguments* args);
     static void filter_any(const RTCFilterFunctionNArguments* args);
@@ -94,6 +101,8 @@ struct TierKernels {
     std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
     RTCIntersectFunctionN intersect;
     RTCOccludedFunctionN occluded;
+    RTCIntersectFunctionN intersect_group;
+    RTCOccludedFunctionN occluded_group;
     RTCFilterFunctionN filter_nearest;  ///< null except in the tier fast
     RTCFilterFunctionN filter_any;      ///< the same
 };

@@ -1,6 +1,7 @@
 /// The source and end of a ray in the CPU's tracers: one type for all rays, so that each decision is compiled once.
 #pragma once
 
+#include "tandem/kernel/traversal/hit_interval.h"
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
@@ -19,6 +20,15 @@ struct QuerySource : PathSource<Real> {
     TANDEM_HD_INLINE explicit QuerySource(const ShadowSource<Real>& source)
         : PathSource<Real>{source}, light(source.light) {}
 };
+
+/// hit_interval_from() of the same source.
+template <class Real, class Primitive>
+TANDEM_HD_INLINE HitInterval query_interval(const QuerySource<Real>& source, std::uint32_t id, const QueryRay& ray,
+                                            const Primitive& primitive) {
+    if (source.light == id) return certain_miss;
+    const PathSource<Real>& path = source;
+    return hit_interval_from<Real, Primitive>(path, id, ray, primitive);
+}
 
 namespace query_detail {
 

@@ -22,6 +22,7 @@ struct RayContender {
     std::function<double(std::span<const Ray<float>>, std::span<Hit>, RenderCounters&)> trace;
     bool is_compared = false;  ///< the bits of its hits are compared with those of the first contender
     std::vector<Hit> hits;
+    std::shared_ptr<ResidentScene> resident{};  ///< null for raw Embree
 };
 
 /// Null for scenes that Embree's own spheres or triangles cannot represent.
@@ -50,7 +51,7 @@ RayContender make_contender(Backend& backend, const PreparedScene& scene, Tier t
     const auto trace = [&backend, resident](auto rays, auto hits, RenderCounters& counters) {
         return backend.trace(*resident, {.rays = rays, .hits = hits, .counters = &counters});
     };
-    return {std::move(row), trace, true, {}};
+    return {std::move(row), trace, true, {}, resident};
 }
 
 /// Measures all contenders in rounds of alternating order. One round before them warms up and gives the hits.
@@ -58,6 +59,9 @@ void measure(std::vector<RayContender>& contenders, const std::vector<Ray<float>
     for (RayContender& contender : contenders) {
         contender.hits.resize(rays.size());
         contender.trace(rays, contender.hits, contender.row.counters);
+        // the first rays of a kind may build more
+        if (contender.resident != nullptr)
+            phase(contender.row, "build").seconds = {contender.resident->load_times().build};
     }
     std::vector<Hit> scratch(rays.size());
     for (int round = 0; round < repetitions; ++round) {

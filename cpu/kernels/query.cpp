@@ -1,9 +1,12 @@
 // closest_hit(), any_hit() and Embree's callbacks of one tier for one instruction set.
-#include "cpu/embree_tracer.h"
+#include "cpu/group_tracer.h"
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
 
 namespace tandem {
+
+template <class Isa, class Real>
+using IsaOf = std::conditional_t<is_fast<Real>, Fast<Isa>, Isa>;
 
 // Scenes of few primitives, which have no Embree scene, are only tested with packets (cpu/kernels/trace.cpp).
 
@@ -12,6 +15,8 @@ Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const 
                           const Mask<Real>& active) {
     if constexpr (RealTraits<Real>::lanes > 1) {
         if (view.embree == nullptr) return LoopTracer{view.scene}.closest(ray, source, active);
+    } else if (view.groups != nullptr) {
+        return GroupTracer<IsaOf<Isa, Real>>{view}.closest(ray, source, active);
     }
     return EmbreeTracer{view}.closest(ray, source, active);
 }
@@ -21,6 +26,8 @@ Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<
                    const QuerySource<Real>& source, const Mask<Real>& active) {
     if constexpr (RealTraits<Real>::lanes > 1) {
         if (view.embree == nullptr) return LoopTracer{view.scene}.occluded(ray, t_max, source, active);
+    } else if (view.groups != nullptr) {
+        return GroupTracer<IsaOf<Isa, Real>>{view}.occluded(ray, t_max, source, active);
     }
     return EmbreeTracer{view}.occluded(ray, t_max, source, active);
 }
@@ -34,6 +41,16 @@ template <class Isa, Tier tier>
 void CpuKernels<Isa, tier>::occluded(const RTCOccludedFunctionNArguments* args) {
     using Reals = TierReals<Isa, tier>;
     occluded_callback<typename Reals::One, typename Reals::Packet>(args);
+}
+template <class Isa, Tier tier>
+void CpuKernels<Isa, tier>::intersect_group(const RTCIntersectFunctionNArguments* args) {
+    using One = typename TierReals<Isa, tier>::One;
+    intersect_group_callback<One, IsaOf<Isa, One>>(args);
+}
+template <class Isa, Tier tier>
+void CpuKernels<Isa, tier>::occluded_group(const RTCOccludedFunctionNArguments* args) {
+    using One = typename TierReals<Isa, tier>::One;
+    occluded_group_callback<One, IsaOf<Isa, One>>(args);
 }
 template <class Isa, Tier tier>
 void CpuKernels<Isa, tier>::filter_nearest(const RTCFilterFunctionNArguments* args) {
@@ -61,6 +78,8 @@ template Mask<Packet> any_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Pa
                                                const QuerySource<Packet>&, const Mask<Packet>&);
 template void These::intersect(const RTCIntersectFunctionNArguments*);
 template void These::occluded(const RTCOccludedFunctionNArguments*);
+template void These::intersect_group(const RTCIntersectFunctionNArguments*);
+template void These::occluded_group(const RTCOccludedFunctionNArguments*);
 #if TANDEM_KERNEL_FILTERS
 template void These::filter_nearest(const RTCFilterFunctionNArguments*);
 template void These::filter_any(const RTCFilterFunctionNArguments*);

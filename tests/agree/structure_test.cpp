@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/bundles.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
 #include "tandem/compile/build_bvh.h"
@@ -245,44 +246,12 @@ std::size_t crowded_rays(const Structure& structure, const std::vector<Ray<float
 }
 
 TEST(Bvh, DecidesAboutCrowds) {
-    // bundles of primitives that touch, overlap or coincide where rays hit them
-    test::Random random(11);
-    PreparedScene solids, faces;
-    for (int bundle = 0; bundle < 12; ++bundle) {
-        const Vec3f at = {random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F)};
-        for (int i = 0; i < 8; ++i) {
-            const float nudge = i % 3 == 0 ? 0.0F : random.log_uniform(-26.0, -20.0);
-            const float radius = 0.5F + nudge;
-            solids.spheres.push_back({{at.x, at.y + nudge, at.z}, radius});
-            solids.boxes.push_back(
-                {{at.x - 0.45F, at.y - 0.45F, at.z - 0.45F - nudge}, {at.x + 0.45F, at.y + 0.45F, at.z + 0.45F}});
-            // a fan around a common corner, and copies of one triangle
-            const float angle = static_cast<float>(i) * 0.785398F;
-            const Vec3f a = {at.x + std::cos(angle), at.y + std::sin(angle), at.z};
-            const Vec3f b = {at.x + std::cos(angle + 0.785398F), at.y + std::sin(angle + 0.785398F), at.z + nudge};
-            faces.triangles.push_back({at, a, b});
-            faces.triangles.push_back({{at.x, at.y, at.z + 1}, {at.x + 1, at.y, at.z + 1}, {at.x, at.y + 1, at.z + 1}});
-            faces.quads.push_back({at, a, {at.x, at.y, at.z + 1}, {at.x - 1, at.y, at.z}});
-            if (i % 2 == 0) faces.quads.back().attributes.sides = FaceSides::culled;
-            if (i % 3 == 0) faces.triangles.back().attributes.sides = FaceSides::culled;
-        }
-    }
-    for (PreparedScene* scene : {&solids, &faces}) {
-        scene->material_of.assign(
-            scene->spheres.size() + scene->boxes.size() + scene->triangles.size() + scene->quads.size(), 0);
-        scene->materials.emplace_back();
+    const test::Bundles bundles = test::make_bundles(11);
+    for (const PreparedScene* scene : {&bundles.solids, &bundles.faces}) {
         const Structure structure(*scene);
-        std::vector<Ray<float>> rays = test::make_rays(structure.scene, 10'000, 12);
-        for (int i = 0; i < 10'000; ++i) {  // at the common corners, and at sides
-            const std::uint32_t id = random.below(primitive_count(view(structure.scene)));
-            const Aabb box = primitive_bounds(view(structure.scene), id);
-            const Vec3f target =
-                scene == &faces && id < faces.triangles.size() && i % 2 == 0 ? faces.triangles[id].v0 : box.upper;
-            const Vec3f origin = {random.uniform(-30.0F, 30.0F), random.uniform(-30.0F, 30.0F), 20};
-            rays.push_back({origin, target - origin});
-        }
+        const std::vector<Ray<float>> rays = test::rays_at_bundles(structure.scene, 10'000, 12);
         EXPECT_GT(crowded_rays(structure, rays), 1000U);
-        expect_same_as_loop(structure, rays, scene == &solids ? "solids" : "faces");
+        expect_same_as_loop(structure, rays, scene == &bundles.solids ? "solids" : "faces");
     }
 }
 

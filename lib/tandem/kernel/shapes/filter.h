@@ -11,6 +11,8 @@
 /// matters, and directions shorter than 1e-15 pass the sphere's filter, because their squares would be inaccurate. On
 /// overflow and NaN the comparison is false and the ray passes. A ray in double (tier precise) is rounded to float
 /// first, which adds twice u (|offset|_1 + |origin|_1) |direction|. Tested by tests/kernel/shapes/filter_test.cpp.
+///
+/// The primitive may differ between lanes: then its numbers are of type Float<Real>, else floats.
 /// Source of the sphere test: E. Haines, J. Guenther, T. Akenine-Moeller, Ray Tracing Gems ch. 7 (the perpendicular).
 #pragma once
 
@@ -51,8 +53,9 @@ TANDEM_HD_INLINE FilterRay<Real> make_filter_ray(const Ray<Real>& ray) {
 }
 
 /// Whether the line of the ray may touch the sphere; false only for certain misses.
-template <class Real>
-TANDEM_HD_INLINE Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3f& sphere_centre, float radius) {
+template <class Real, class Number = float>
+TANDEM_HD_INLINE Mask<Real> may_touch_sphere(const FilterRay<Real>& f, const Vec3<Number>& sphere_centre,
+                                             const std::type_identity_t<Number>& radius) {
     using F = Float<Real>;
     const Vec3<F> offset = narrow(f.ray.origin) - broadcast<F>(sphere_centre);
     const Vec3<F> moment = loose_cross(offset, narrow(f.ray.direction));
@@ -121,12 +124,12 @@ TANDEM_HD_INLINE Mask<Real> may_touch_box(const FilterRay<Real>& f, const Vec3f&
 /// in 1-norms; the ray's own rounding in the tier precise adds 2 u of that and u |d| |origin| |e|. a . (e1 x e2) has
 /// the same error with |a| in place of |d|, plus u (|a| + |origin|) |e|^2 for the rounding of a. The terms with 1e-30
 /// keep the limits above the loss by underflow; where a volume overflows, its limit does too.
-template <class Real>
-TANDEM_HD_INLINE Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3f& v0, const Vec3f& v1,
-                                               const Vec3f& v2) {
+template <class Real, class Number = float>
+TANDEM_HD_INLINE Mask<Real> may_touch_triangle(const FilterRay<Real>& f, const Vec3<Number>& v0, const Vec3<Number>& v1,
+                                               const Vec3<Number>& v2) {
     using F = Float<Real>;
-    const Vec3f e1 = v1 - v0;
-    const Vec3f e2 = v2 - v0;
+    const Vec3<Number> e1 = v1 - v0;
+    const Vec3<Number> e2 = v2 - v0;
     const F size(norm1(e1) + norm1(e2));
     const Vec3<F> d = narrow(f.ray.direction);
     const Vec3<F> a = broadcast<F>(v0) - narrow(f.ray.origin);
