@@ -76,7 +76,7 @@ TANDEM_HD_INLINE unsigned test_parts(const Group& group, const Test& test) {
 template <class W, class Group>
 TANDEM_HD_INLINE unsigned filter_group(const FilterRay<W>& f, const Group& group) {
     return group_detail::test_parts<W>(
-        group, [&](int first) TANDEM_INLINE_LAMBDA { return group_detail::may_touch(f, group, first); });
+        group, [&](int first) __attribute__((always_inline)) { return group_detail::may_touch(f, group, first); });
 }
 
 }  // namespace tandem

@@ -32,11 +32,12 @@ struct GroupQuery {
     template <Search search>
     TANDEM_HD_INLINE bool test(const CpuSceneView& view, std::uint32_t number) {
         bool found = false;
-        visit_group(*view.groups, number, [&](const auto& group) TANDEM_INLINE_LAMBDA {
-            for (unsigned rest = filter_group(filter, group); rest != 0 && !found; rest &= rest - 1) {
-                found = keep<search>(view, group, lowest_bit(rest));
-            }
-        });
+        visit_group(
+            *view.groups, number, [&](const auto& group) __attribute__((always_inline)) {
+                for (unsigned rest = filter_group(filter, group); rest != 0 && !found; rest &= rest - 1) {
+                    found = keep<search>(view, group, lowest_bit(rest));
+                }
+            });
         return found;
     }
 
@@ -62,7 +63,7 @@ struct GroupQuery {
             return query_interval<Real, Sphere>(*source, id, interval_ray, sphere);
         }
         HitInterval interval = certain_miss;
-        const auto set = [&]<class Body>(const Body& body) TANDEM_INLINE_LAMBDA {
+        const auto set = [&]<class Body>(const Body& body) __attribute__((always_inline)) {
             interval = query_interval<Real, Body>(*source, id, interval_ray, body);
         };
         visit_primitive<others>(scene, id - scene.sphere_count, set);
