@@ -139,7 +139,8 @@ class GroupTracer : public ::testing::TestWithParam<std::tuple<InstructionSet, T
 
 TEST_P(GroupTracer, GivesTheBitsOfTheLoopForEveryFill) {
     for (int count = 1; count < 34; ++count) {
-        const test::HardScene solids = {"solids", 1, 0, 1.5, count}, faces = {"faces", 1, 0, 1.5, count, true};
+        const test::HardScene solids = {"solids", 1, 0, 1.5, count},
+                              faces = {"faces", 1, 0, 1.5, count, test::HardKinds::faces};
         const std::string number = std::to_string(count);
         std::vector<PreparedScene> scenes = {test::make_scene(solids, 50),
                                              test::make_scene(faces, 51),
