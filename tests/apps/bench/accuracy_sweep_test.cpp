@@ -121,6 +121,7 @@ TEST(AccuracySweep, MeasuresTheRungBelowAndADenoiser) {
 
 TEST(AccuracySweep, SaysWhatTheRungBelowLacksAndWhyThereIsNoDenoiser) {
     const VariedAxes axes{.tiers = {Tier::strict},
+                          .samplers = false,
                           .effects = false,
                           .depth = false,
                           .tessellation = false,
@@ -135,7 +136,7 @@ TEST(AccuracySweep, SaysWhatTheRungBelowLacksAndWhyThereIsNoDenoiser) {
     EXPECT_TRUE(contains(plan.skipped.back(), "Denoised: not run. It is not here."));
     const SettingPlan many = plan_settings(named_scene("spheres/300000"), axes);
     EXPECT_EQ(many.settings.size(), 1U);
-    EXPECT_TRUE(contains(many.skipped[4], "the rasteriser draws at most 4000000"));
+    EXPECT_TRUE(contains(many.skipped[5], "the rasteriser draws at most 4000000"));
 }
 
 TEST(AccuracySweep, FailsIfABackendThatPromisesBitsHasOthers) {
