@@ -235,6 +235,7 @@ bool run_coverage(const CoverageOptions& options, const BackendSource& source, R
         log_progress("coverage: " + name);
         CoveredScene scene(options, *backend, name);
         std::vector<Trial> trials;
+        trials.reserve(static_cast<std::size_t>(options.trials));
         for (int i = 0; i < options.trials; ++i) trials.push_back(scene.run(options.seed + static_cast<unsigned>(i)));
         report.rows.push_back(row_of(scene, options, trials));
         covers = covers && figure(report.rows.back(), "covered") >= least_covered;

@@ -93,7 +93,8 @@ GpuScale time_gpus(const GpuScaleOptions& options, const BackendSource& source, 
     add(make_combined_backend(std::move(alone)), 1, "1 GPU in bands");
 
     for (int round = -warm_ups; round < options.repetitions; ++round) {
-        for (const std::size_t i : interleaved_order(contenders.size(), static_cast<std::size_t>(round + warm_ups))) {
+        const int turn = round + warm_ups;
+        for (const std::size_t i : interleaved_order(contenders.size(), static_cast<std::size_t>(turn))) {
             measure(contenders[i], job, round);
         }
     }

@@ -351,12 +351,12 @@ std::vector<Target> all_targets(int cores) {
         "gpu-share", "Paper's animation on the GPU with PNG files: at least 95 % of the wall-clock time is kernel time",
         least_render_share, 1, [](TargetRun& run, TargetResult& result) { run.render_share(result); }));
     for (const auto& [gpus, efficiency] : {std::pair{2, 0.95}, std::pair{4, 0.9}}) {
-        targets.push_back(target(fmt::format("gpu-scale-{}", gpus),
-                                 fmt::format("4K frames of the paper's scene and of a million spheres, 64 samples, "
-                                             "strict, {} GPUs: efficiency at least {}",
-                                             gpus, efficiency),
-                                 efficiency, gpus,
-                                 [gpus](TargetRun& run, TargetResult& result) { run.gpu_scale(result, gpus); }));
+        targets.push_back(target(
+            fmt::format("gpu-scale-{}", gpus),
+            fmt::format("4K frames of the paper's scene and of a million spheres, 64 samples, "
+                        "strict, {} GPUs: efficiency at least {}",
+                        gpus, efficiency),
+            efficiency, gpus, [count = gpus](TargetRun& run, TargetResult& result) { run.gpu_scale(result, count); }));
     }
     return targets;
 }

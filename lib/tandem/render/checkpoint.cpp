@@ -46,6 +46,7 @@ std::string line(const char* key, const std::vector<int>& samples) {
 
 std::vector<int> samples_of(const std::vector<Film>& films) {
     std::vector<int> samples;
+    samples.reserve(films.size());
     for (const Film& film : films) samples.push_back(film.samples());
     return samples;
 }

@@ -35,7 +35,8 @@ GpuChoice these(std::vector<int> numbers) {
     std::sort(sorted.begin(), sorted.end());
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice != sorted.end()) throw InputError(fmt::format("GPU {} is named twice", *twice));
-    return {.count = static_cast<int>(numbers.size()), .numbers = std::move(numbers)};
+    const int count = static_cast<int>(numbers.size());
+    return {.count = count, .numbers = std::move(numbers)};
 }
 
 std::string list_of(const std::vector<std::string>& names) {

@@ -163,7 +163,7 @@ struct LoopTracerFor {
                         const std::uint32_t i = first + static_cast<std::uint32_t>(lowest_bit(candidates));
                         test_primitive(primitives[i], id + i, ray, source, true, best);
                         if constexpr (search == Search::any) {
-                            if (best.t < t_max) return;
+                            if (any(best.t < t_max)) return;  // clang compiles this for packets too
                         }
                     }
                 }
