@@ -10,16 +10,13 @@
 /// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes,
 ///                         lights). Not forced on the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET).
 /// TANDEM_HD_CALL          host and device, never inline: for long functions, and for code that few rays need, so that
-/// it
-///                         takes no registers from the common path. Each file has its own copy. Pass arguments by
+///                         it takes no registers from the common path. Each file has its own copy. Pass arguments by
 ///                         value.
-/// TANDEM_HD_CALL_ON(side) a call on one side, always inline on the other.
-///     host                a step of the path loop: a call keeps compile time linear in the code; on the device it
-///     would
-///                         need a stack.
-///     device              long code with many callers: warps wait if the code is larger than the instruction caches
-///                         (docs/performance.md). Inline in kernels that fit into the caches too (TANDEM_SHORT_PATHS,
-///                         cuda/linked_kernel.cu).
+/// TANDEM_HD_CALL_ON(side) a call on one side, always inline on the other. `host`: a step of the path loop; the call
+///                         keeps compile time linear in the code, and on the device it would need a stack. `device`:
+///                         long code with many callers, because warps wait if the code is larger than the instruction
+///                         caches (docs/performance.md); inline in kernels that fit into the caches too
+///                         (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
 /// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
 ///                         short
 /// TANDEM_KEEP_ROUNDING    (x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions of
