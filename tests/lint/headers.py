@@ -15,9 +15,7 @@ import shutil
 import subprocess
 import sys
 
-from lint import Report, compile_commands
-
-WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wundef", "-Werror"]
+from lint import Report, WARNINGS, compile_commands
 
 
 def include_flags(root, build):

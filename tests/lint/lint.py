@@ -6,6 +6,7 @@ import re
 import sys
 
 KERNEL_ROOMS = ("math", "kernel")
+WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wundef", "-Werror"]
 CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 # The paper's method re-created to be measured, not used: its arithmetic is its own.
 BASELINE = "apps/bench/baseline/"
