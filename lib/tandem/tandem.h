@@ -1,5 +1,5 @@
-/// Everything that programs need to load, make and render scenes. cmake --install installs this header and the headers
-/// that it includes.
+/// Everything that programs need to load, make and render scenes. The headers named here are the public ones;
+/// cmake --install also installs the headers that they include (docs/building.md).
 #pragma once
 
 #include "tandem/backends/make_backend.h"
