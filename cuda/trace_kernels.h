@@ -43,7 +43,7 @@ void launch_one(const Tracer& tracer, const DeviceRays& rays, cudaStream_t strea
            stream, tracer, rays);
 }
 
-/// Rays whose neighbours may take other ways are traced by two kernels.
+/// Rays that may diverge from their neighbours are traced by two kernels.
 template <class Real, Ask ask, class Tracer>
 void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if constexpr (can_refill<Tracer> && !is_fast<Real>) {
