@@ -10,7 +10,7 @@
 
 namespace tandem::cuda {
 
-/// Resident blocks per multiprocessor. Where the decisions are behind the walk, it needs fewer registers than they.
+/// Resident blocks per multiprocessor. A traversal with deferred decisions needs fewer registers than the decisions.
 template <class Real, class Tracer>
 inline constexpr unsigned int trace_blocks = [] {
     if (!can_refill<Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;

@@ -322,7 +322,7 @@ CLI::App* add_coverage(CLI::App& app, Everything& all) {
         ->check(CLI::Range(1, 100'000));
     command
         ->add_option("--equal-samples", coverage.equal_samples,
-                     "The target is the error of an image with this many samples in every pixel")
+                     "The target is the error of an image with as many samples in every pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
     command
