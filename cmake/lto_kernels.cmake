@@ -37,8 +37,8 @@ if(tandem_nvcc_help MATCHES "--gen-opt-lto")
   set(tandem_optimised_lto --gen-opt-lto)
 endif()
 
-# nvlink finds libnvvm.so, NVIDIA's optimiser, in the folder lib64 of the one that it is told. A toolkit's installer and the
-# wheels of PyPI put it in different places.
+# nvlink looks for libnvvm.so, NVIDIA's optimiser, in lib64 of the folder that it is given. A toolkit's installer and NVIDIA's
+# Python packages put that file in different places.
 find_path(
   TANDEM_NVVM_DIR lib64/libnvvm.so
   HINTS ${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}/nvvm ${CMAKE_CUDA_COMPILER_TOOLKIT_ROOT}

@@ -42,7 +42,7 @@ inline void check_embree(RTCDevice device, const char* doing) {
     throw std::runtime_error(fmt::format("Embree failed while {} (error {})", doing, static_cast<int>(error)));
 }
 
-/// User geometry whose user data is `data`, without its functions. Throws if memory is out.
+/// User geometry whose user data is `data`, without its functions. Throws if there is not enough memory.
 inline EmbreeGeometry user_geometry(RTCDevice device, void* data, unsigned int count) {
     EmbreeGeometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
     check_embree(device, "making a scene");

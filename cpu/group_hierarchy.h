@@ -10,8 +10,8 @@ namespace tandem {
 /// Neither copied nor moved, because Embree and kernels keep its address.
 class GroupHierarchy {
   public:
-    /// `scene`: its arrays outlive the hierarchy. To be called in a TBB arena. Throws EnvironmentError if memory is
-    /// out.
+    /// `scene`: its arrays outlive the hierarchy. To be called in a TBB arena. Throws EnvironmentError if there
+    /// is not enough memory.
     GroupHierarchy(RTCDevice device, const TierKernels& kernels, const CpuSceneView& scene);
     GroupHierarchy(const GroupHierarchy&) = delete;
     GroupHierarchy& operator=(const GroupHierarchy&) = delete;

@@ -1,4 +1,4 @@
-/// The query of one ray to the hierarchy of groups, which decides behind the traversal.
+/// The query of one ray to the hierarchy of groups, which decides hits after the traversal.
 #pragma once
 
 #include "cpu/group_filter.h"
@@ -9,8 +9,8 @@
 namespace tandem {
 
 /// In the exact tiers the filters of a group run on all of its primitives at once, the intervals of hits
-/// (hit_interval.h) of the few that remain give the limit of the traversal, and those that overlap at the nearest are
-/// decided behind it. In the tier fast the decision costs no more than the interval, so it comes at once.
+/// (hit_interval.h) of the few that remain give the limit of the traversal, and hits that overlap the nearest one are
+/// decided after the traversal. In the tier fast a decision costs no more than an interval, so it is made at once.
 ///
 /// The QueryContext of Embree must come first: Embree passes its address to the callbacks.
 template <class Real, class Isa>
@@ -41,7 +41,7 @@ struct GroupQuery {
         return found;
     }
 
-    /// Behind the traversal.
+    /// After the traversal.
     TANDEM_HD_INLINE void decide_candidates(const SceneView& scene) {
         candidates.for_each(limit, [&](std::uint32_t id) { decide(scene, id); });
     }

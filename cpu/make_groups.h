@@ -19,7 +19,7 @@ struct PrimitiveGroups {
 };
 
 /// Every primitive is in one group. Neighbours by the surface area heuristic, in the order of the tree. To be called in
-/// a TBB arena. Throws EnvironmentError if memory is out.
+/// a TBB arena. Throws EnvironmentError if there is not enough memory.
 [[nodiscard]] PrimitiveGroups make_groups(RTCDevice device, const SceneView& scene);
 
 /// The ids of group `number`; no_primitive comes last.

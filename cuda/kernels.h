@@ -21,7 +21,7 @@ struct DeviceSceneView {
     BvhView bvh;               ///< without nodes for a scene of few primitives, which are tested one by one
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
     CertainScene certain;      ///< for that view
-    bool diverges;             ///< even neighbouring rays of a hierarchy take ways of different lengths
+    bool diverges;             ///< even neighbouring rays visit very different numbers of nodes
 };
 
 /// The tracers: how the primitives of a scene are found.

@@ -10,7 +10,7 @@
 
 namespace tandem::cuda {
 
-/// Resident blocks per multiprocessor. Where the decisions are behind the walk, it needs fewer registers than they.
+/// Resident blocks per multiprocessor. A traversal with deferred decisions needs fewer registers than the decisions.
 template <class Real, class Tracer>
 inline constexpr unsigned int trace_blocks = [] {
     if (!can_refill<Tracer> || !std::is_same_v<Real, float>) return resident_blocks<Real, Tracer>;
@@ -43,7 +43,7 @@ void launch_one(const Tracer& tracer, const DeviceRays& rays, cudaStream_t strea
            stream, tracer, rays);
 }
 
-/// Rays whose neighbours may take other ways are traced by two kernels.
+/// Rays that may diverge from their neighbours are traced by two kernels.
 template <class Real, Ask ask, class Tracer>
 void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if constexpr (can_refill<Tracer> && !is_fast<Real>) {

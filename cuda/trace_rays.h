@@ -22,8 +22,8 @@ __device__ __forceinline__ auto source_of(const DeviceRays& job, std::size_t i) 
     }
 }
 
-/// The ray of a place in the order of work. 32 places are a tile of 8 x 4 rays of an image, because these take more
-/// similar ways than 32 of a row.
+/// The ray at a place in the order of work. In an image, 32 places are a tile of 8 x 4 rays, because the traversals of
+/// these are more alike than those of 32 rays of a row.
 __device__ __forceinline__ std::size_t ray_at(const DeviceRays& job, std::size_t place) {
     if (place >= job.tiled) return place;
     const auto tile = static_cast<std::uint32_t>(place / 32), within = static_cast<std::uint32_t>(place % 32);

@@ -109,7 +109,7 @@ CLI::App* add_parity(CLI::App& app, Everything& all) {
 
 CLI::App* add_versus(CLI::App& app, Everything& all) {
     CLI::App* command =
-        app.add_subcommand("versus", "Time the backends against each other, phase by phase, or their rays per second");
+        app.add_subcommand("versus", "Time the backends against each other: frames phase by phase, or rays per second");
     command->add_option("SCENE", all.versus.scene, "A glTF file or named:NAME")->capture_default_str();
     add_backends_option(*command, all.versus);
     command->add_option("--tier", all.versus.tier, "Accuracy tier: fast, strict or precise")->capture_default_str();
@@ -307,11 +307,11 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
 CLI::App* add_coverage(CLI::App& app, Everything& all) {
     CLI::App* command = app.add_subcommand(
         "coverage",
-        "Render to a target many times: do the stated errors and the forecasts hold? Status 1 if the errors do not");
+        "Render to a target many times, and check the stated errors and the forecasts. Status 1 if the errors fail");
     CoverageOptions& coverage = all.coverage;
     command->add_option("SCENE", coverage.scenes, "glTF files, named:NAME, closed:furnace/PERCENT or closed:glass")
         ->required();
-    command->add_option("--metric", coverage.metric, "Of the error: rmse, relmse or flip")
+    command->add_option("--metric", coverage.metric, "Metric of the error: rmse, relmse or flip")
         ->capture_default_str()
         ->check(CLI::IsMember({"rmse", "relmse", "flip"}));
     command->add_option(
@@ -337,7 +337,7 @@ CLI::App* add_coverage(CLI::App& app, Everything& all) {
         ->capture_default_str()
         ->check(CLI::Range(0, 1024));
     command->add_option("--seed", coverage.seed, "Seed of the first render")->capture_default_str();
-    command->add_option("--clock", coverage.clock, "Clock of the times: wall, or process where other load disturbs")
+    command->add_option("--clock", coverage.clock, "Clock of the times: wall; or process, for machines with other load")
         ->capture_default_str()
         ->check(CLI::IsMember({"wall", "process"}));
     return command;

@@ -80,8 +80,8 @@ void declare_target(CLI::App& app, Words& words) {
             ->type_name("E")
             ->check(CLI::PositiveNumber);
     app.add_option("--metric", words.metric,
-                   "of that error: rmse, in units of radiance; relmse, the mean of relative squared errors; or flip, "
-                   "what a person sees, from 0 to 1")
+                   "metric of that error: rmse, in units of radiance; relmse, the mean of relative squared errors; or "
+                   "flip, the difference that a person sees, from 0 to 1")
         ->needs(error)
         ->check(CLI::IsMember({"rmse", "relmse", "flip"}))
         ->capture_default_str();
@@ -96,16 +96,16 @@ void declare_denoiser(CLI::App& app, Words& words) {
         "--denoise", words.denoise,
         "denoise the image by Open Image Denoise, if it is installed (docs/denoising.md): fewer samples "
         "look smooth, but the error is unknown, and the image cannot be verified. The hash that is printed "
-        "is that of the film before");
-    app.add_option("--denoiser", words.denoiser, "its library, if the system's loader does not find it")
+        "is that of the film before denoising");
+    app.add_option("--denoiser", words.denoiser, "the denoiser's library, if the system's loader does not find it")
         ->type_name("FILE")
         ->needs(denoise);
 }
 
 void declare_checkpoint(CLI::App& app, Words& words) {
     auto* const file = app.add_option("--checkpoint", words.checkpoint.file,
-                                      "render one frame in tiles, and write the finished ones to this file now and "
-                                      "then and when interrupted; it is removed when the image is written")
+                                      "render one frame in tiles, and write the finished ones to this file regularly "
+                                      "and when interrupted; it is removed when the image is written")
                            ->type_name("FILE");
     app.add_option("--checkpoint-every", words.checkpoint.every, "seconds from one checkpoint to the next")
         ->type_name("SECONDS")

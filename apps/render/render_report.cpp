@@ -12,7 +12,8 @@ std::string frame_line(const FrameRecord& record) {
     std::string line = fmt::format("frame {}  {}  {}", record.metadata.frame, record.metadata.film_sha256, record.file);
     if (record.skipped) line += "  kept";
     if (!record.metadata.denoised.empty()) {
-        line += fmt::format("  denoised by {}; the hash is that of the film before", record.metadata.denoised);
+        line +=
+            fmt::format("  denoised by {}; the hash is that of the film before denoising", record.metadata.denoised);
     }
     for (const std::string& clause : in_words(record.counters)) line += "  " + clause;
     if (!record.warning.empty()) line += "  " + record.warning;

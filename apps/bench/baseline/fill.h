@@ -34,7 +34,7 @@ struct EdgeValues {
 
 /// Calls visit(x, y, edge values) for the pixels of `range` whose sample is inside the triangle, or on an edge of it
 /// that is a top or a left one: so every sample of a mesh is covered once, also on the edges between its triangles.
-/// All of it is in whole numbers, exact.
+/// The arithmetic is exact, in integers.
 /// Source: J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988; the top-left rule of Direct3D.
 template <class Visit>
 void fill(const ScreenTriangle& triangle, const SamplePlace& place, const PixelRange& range, Visit visit) {

@@ -39,7 +39,7 @@ inline constexpr EffectMask rasterised_effects =
     Effect::inverse_square | Effect::spot_lights | Effect::directional_lights | Effect::emission;
 
 /// Spheres become triangles, as many as keep them within a tenth of a pixel, up to 20 * 4^6 each; fewer if the scene
-/// would have more than four million. Faces stay what they are. Throws EnvironmentError as why_not_rasterised() says.
+/// would have more than four million. Faces are unchanged. Throws EnvironmentError as why_not_rasterised() says.
 [[nodiscard]] RasterScene make_raster_scene(const PreparedScene& scene, int width, int height);
 
 /// Why the scene cannot be rasterised, or empty: it has more than four million triangles even with the coarsest

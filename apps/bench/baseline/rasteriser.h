@@ -1,4 +1,4 @@
-/// The rung below ray tracing: first hits from a z-buffer and direct light without shadows, on the CPU. Written
+/// The step below ray tracing: first hits from a z-buffer and direct light without shadows, on the CPU. Written
 /// plainly, as a course on computer graphics teaches it: docs/paper.md, row 20.
 #pragma once
 

@@ -69,18 +69,17 @@ oidn::Library open_library(const std::string& file) {
         if (library) return library;
         const char* reason = ::dlerror();
         names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-        // its own name first: it is nowhere; another one first: something that it needs is missing
+        // its own name comes first if it is not found; another one if a library that it needs is missing
         if (reason != nullptr && !std::string_view(reason).starts_with(name)) reasons += fmt::format("; {}", reason);
     }
     const char* folders = std::getenv("LD_LIBRARY_PATH");
-    throw EnvironmentError(
-        fmt::format("Open Image Denoise is not where it was looked for: {}, in the folders of LD_LIBRARY_PATH ({}), "
-                    "then in those of "
-                    "the system's loader{}. {}",
-                    names, folders == nullptr || *folders == '\0' ? "not set" : folders, reasons, advice));
+    throw EnvironmentError(fmt::format(
+        "cannot load Open Image Denoise: tried {} in the folders of LD_LIBRARY_PATH ({}) and of the system's loader{}. "
+        "{}",
+        names, folders == nullptr || *folders == '\0' ? "not set" : folders, reasons, advice));
 }
 
-/// `older`: its name in versions before 2.0, if that was another.
+/// `older`: the function's name in versions before 2.0, if it had another.
 template <class Function>
 void find(void* library, Function& function, const char* name, const char* older = nullptr) {
     void* found = ::dlsym(library, name);
@@ -129,7 +128,7 @@ struct Denoiser::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Throws what the library has to complain about since the last call. A null device: that none could be made.
+    /// Throws the library's error since the last call, if there is one. A null device: that none could be made.
     void check(const char* what) const {
         const char* message = nullptr;
         if (call.get_error(device, &message) == oidn::error_none && device != nullptr) return;

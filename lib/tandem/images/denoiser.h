@@ -1,5 +1,5 @@
 /// Denoising by Intel Open Image Denoise, which is opened at run time if it is installed (docs/denoising.md). A
-/// denoised image has a bias that nobody bounds, and no guaranteed bits: it is no film, and says so in its metadata.
+/// denoised image has an unknown bias and no guaranteed bits: it is not a film, and its metadata say that.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class Denoiser {
   public:
     /// `library`: a file; if empty, libOpenImageDenoise.so.2, .1 and then without a number, where the system's loader
     /// looks. `threads`: 0 means as many as the library chooses. Throws EnvironmentError, which says what to install
-    /// and where it was looked for, or what the library itself has to complain about.
+    /// and where the library was looked for, or has the library's own message.
     explicit Denoiser(const std::string& library = {}, int threads = 0);
     ~Denoiser();
     Denoiser(const Denoiser&) = delete;

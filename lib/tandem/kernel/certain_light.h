@@ -1,12 +1,12 @@
-/// The light of a certain hit, in cheap double precision: the bits of the general code, or the answer that they are
-/// not certain.
+/// The light of a certain hit, in cheap double precision: either the bits of the general code, or the answer that the
+/// bits are not certain.
 ///
 /// Needs: a valid CertainView; a hit that certain_hit() gave for the direction; no effects.
 /// Gives: the radiance that advance() gives for the sample in strict, bit for bit, or false.
 /// Method: what reaches float is the cosine of the diffuse lobe and the power of the highlight. Each is bounded from
 ///         both sides by the errors of this code and of the general code together. The radiance grows with both, so
-///         that of the lower bounds and that of the upper bounds enclose the general one. Where they have the same
-///         bits, so has it.
+///         that of the lower bounds and that of the upper bounds enclose the general one. Where these two have the
+///         same bits, the general one has them too.
 /// Bounds: u = 2^-53, f = origin - centre, r the radius, h half the chord, s the distance along the ray, G = |f|^2 / (h
 ///         r) >= 1, L the way to the light, S = `extent`. Each bound is for this code plus the general code; |f|
 ///         >= 1.15 r gives s <= |f| and b >= |f| / 2.

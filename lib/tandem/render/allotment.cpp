@@ -13,8 +13,8 @@ namespace tandem {
 
 namespace {
 
-/// The part of a tile that may come next. Gains are compared by their powers of two, and those of equal power are taken
-/// in an order that knows nothing of the samples. Else noise would choose between tiles that are alike: where samples
+/// The part of a tile that may come next. Gains are compared by their powers of two, and equal ones are taken in an
+/// order that does not depend on the samples. Otherwise noise would choose between tiles that are alike: where samples
 /// have two values, as at edges, the mean is far from the truth where the variance seems low, so the tiles with the
 /// largest errors would get the fewest samples. From one part to the next the gain halves, so this costs little.
 struct Step {

@@ -1,4 +1,4 @@
-/// Which tiles get how many samples, so that the whole film reaches an error with few.
+/// How many samples each tile gets, so that the whole film reaches an error with few samples.
 #pragma once
 
 #include <span>
@@ -8,12 +8,13 @@
 
 namespace tandem {
 
-/// The samples of a tile come in parts, each rendered from zero and added to the film, so that the bits of the film
-/// depend on where parts end, and not on who decided that there be more: after 8, 16, 24, 32, 48, 64, 96, 128, ...
-/// samples per pixel, and after `most`, the samples of the job. Returns the end of the part that follows `samples`.
+/// The samples of a tile come in parts, each summed from zero and then added to the film. So the bits of the film
+/// depend on where parts end, and not on the rounds that they were rendered in. Parts end after 8, 16, 24, 32, 48, 64,
+/// 96, 128, ... samples per pixel, and after `most`, the samples of the job. Returns the end of the part that follows
+/// `samples`.
 [[nodiscard]] int next_part_end(int samples, int most);
 
-/// All tiles get that many in the first round, or the most samples if they are fewer.
+/// The samples of every tile in the first round, or the most samples if these are fewer.
 inline constexpr int first_round_end = 16;
 
 /// A tile, and its errors as its samples so far show them.
@@ -24,20 +25,21 @@ struct TileErrors {
 };
 
 struct Allotment {
-    std::vector<int> ends;  ///< by tile: the samples that it has after the round; as before if it is not in the round
-    bool is_last = false;   ///< after it the film is predicted to have the error
+    std::vector<int> ends;  ///< by tile: its samples after the round; unchanged if it is not in the round
+    bool is_last = false;   ///< the film is predicted to have the error after it
 };
 
-/// Allots the next round. Beginning with one more part for each tile, the part that reduces the error of the whole film
-/// most per sample, within a factor of two, comes next, until the error that is predicted from `tiles`, with a standard
-/// error more, is that of the target, or no part helps. The error of a tile falls with 1 / samples, so this gives
-/// samples about in proportion to the standard deviation: what minimises their number (J. Neyman, "On the Two Different
-/// Aspects of the Representative Method", Journal of the Royal Statistical Society 97 (4), 1934).
+/// Allots the next round. Every tile gets one part. Then parts are added in the order of their gain, which is how much
+/// they reduce the error of the whole film per sample, to within a factor of two. That ends when the error predicted
+/// from `tiles`, plus a standard error, is that of the target, or when no part helps. The error of a tile falls with 1
+/// / samples, so tiles get samples about in proportion to their standard deviation, which minimises the number of
+/// samples (J. Neyman, "On the Two Different Aspects of the Representative Method", Journal of the Royal Statistical
+/// Society 97 (4), 1934).
 ///
-/// If no tile needs more than twice its samples, the round is the last: every tile gets at least a part, and what the
-/// round shows has decided nothing. Else only tiles that need more get samples, at most twice as many as they have, and
-/// the next round is allotted again by what is known then. If the target is not reached, and all tiles with an error
-/// have the most samples, no tile is in the round. Without an error in the target, all tiles get twice as many.
+/// If no tile needs more than twice its samples, the round is the last: what it shows has decided nothing. Otherwise
+/// only the tiles that need more than that get samples in this round, twice as many as they have, and the next round is
+/// allotted by what is known then. If the target is not reached, and all tiles with an error have the most samples, no
+/// tile is in the round. If the target has no error, all tiles get twice as many.
 [[nodiscard]] Allotment allot(std::span<const TileErrors> tiles, const RenderTarget& target, int most);
 
 /// The errors of a tile if it had `samples`.

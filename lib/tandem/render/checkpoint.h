@@ -17,8 +17,8 @@ struct Checkpoint {
     std::optional<Round> round{};  ///< in progress, of a render to a target
 };
 
-/// Writes the tiles that have samples, whole or not at all (write_file()): sums and planes in their memory's form,
-/// behind a text with the frame, the samples of the tiles, the round and the counters, and a SHA-256 of everything.
+/// Writes the tiles that have samples, as a whole file or not at all (write_file()): the SHA-256 of what follows it, a
+/// text with the frame, the samples of the tiles, the round and the counters, and the sums and planes as in memory.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// Reads it back, bit for bit. Throws InputError that says what to do if the file cannot be read, is no checkpoint, is

@@ -32,8 +32,9 @@ void check_output(const CheckpointOptions& options);
                                                                    const CheckpointOptions& options,
                                                                    const std::atomic<bool>& interrupted);
 
-/// The same for render_to_target(), with the film that it has without an interruption, unless its time ends it. That
-/// time is of all its runs together. The error of the target must be that of the checkpoint; its time may differ.
+/// The same for render_to_target(). The film is that of a render without an interruption, unless the time limit ends
+/// the render; the time limit counts all runs together. The target's error must be that of the checkpoint; its time
+/// limit may differ.
 [[nodiscard]] std::optional<TargetFrame> render_to_target_with_checkpoints(
     Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target, ImageMetadata frame,
     const CheckpointOptions& options, const std::atomic<bool>& interrupted, const std::function<double()>& clock);

@@ -17,23 +17,23 @@ struct CombinedMember {
 };
 
 struct CombinedOptions {
-    /// Parts of a frame, or of rays, are at least so large, unless the whole is smaller.
+    /// The least size of a part of a frame, or of rays, unless the whole is smaller.
     std::size_t least_pixels = std::size_t{1} << 16;
     std::size_t least_rays = std::size_t{1} << 18;
-    double least_seconds = 1e-4;  ///< and take a member at least so long
+    double least_seconds = 1e-4;  ///< the least time that a part should take
     /// As BackendOptions::report.
     std::function<void(const std::string& sentence)> report{};
 };
 
 /// A backend that divides its work among the members. Each of them loads every scene. The rows of a window are cut into
-/// bands, and the members take bands as they get done with others (division.h); rays are cut into parts in the same
+/// bands, and a member that has finished a band takes another (division.h); rays are divided into parts in the same
 /// way. A pixel and a ray are computed by one member, from the same numbers as without the others, so films and hits
 /// have the bits that any of the members gives. Small windows are not cut; several of them are rendered at once
 /// (frames_in_flight()).
 ///
-/// A member that throws is left out from then on: what it had taken, other members do again. This is told by
-/// `options.report`, by the warning of the next frame, and by capabilities(). Only an InputError, which says that the
-/// scene or the job is wrong, is passed on. If no member is left, the error names all of them and their failures: an
+/// A member that throws is left out from then on, and other members do again what it had taken. `options.report`, the
+/// warning of the next frame, and capabilities() report this. Only an InputError, which says that the scene or the job
+/// is wrong, is passed on. If no member is left, the error names all of them and their failures: an
 /// EnvironmentError, unless one of the failures was a bug.
 ///
 /// Each member is used from one thread alone, apart from make_film(). Of the frame's times, `compile` is the longest of

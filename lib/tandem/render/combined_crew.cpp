@@ -17,13 +17,13 @@ namespace {
 /// Bands that a member holds at a time: while one is rendered, the film of another is downloaded.
 constexpr std::size_t most_bands = 2;
 
-/// How many parts a member makes of its portion of what is left (part_size()). Bands are rendered two at a time, and
-/// rows may differ much, so a band is a smaller part than one of rays, each of which is traced alone.
+/// Into how many parts a member divides its portion of what is left (part_size()). A member renders two bands at a
+/// time, but traces one part of the rays at a time; and rows may differ much in cost. So bands are smaller parts.
 constexpr int band_steps = 4, ray_steps = 2;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
-/// The least part of rays is at least so small a part of what a member has of them.
+/// The least size of a part of rays: a member's equal share of all rays, divided by this, if that is large enough.
 constexpr std::size_t most_ray_parts = 16;
 
 enum class Failure { input, environment, bug };
@@ -269,7 +269,7 @@ void Crew::leave_out(std::size_t index, const std::exception_ptr& error) {
     while (!member.bands.empty()) {
         Band band = std::move(member.bands.back());
         member.bands.pop_back();
-        band.pending.reset();  // a GPU stops writing to the film before others do it again
+        band.pending.reset();  // the GPU stops writing to the film before others render the band again
         --band.frame->bands;
         if (band.frame->is_done) continue;
         band.frame->rows.give_back(band.rows);

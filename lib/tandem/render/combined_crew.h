@@ -1,4 +1,4 @@
-/// The members of a combined backend at work (combined_backend.h): their threads, and the queue of frames.
+/// How a combined backend (combined_backend.h) works: the threads of its members, and the queue of frames.
 #pragma once
 
 #include <condition_variable>
@@ -20,10 +20,10 @@
 
 namespace tandem {
 
-/// Bands begin at multiples of so many rows, which is what a block of a GPU's threads covers.
+/// Bands begin at multiples of this number of rows: a block of GPU threads covers as many.
 inline constexpr std::size_t band_step = 8;
 
-/// The time that a member takes for a unit, from what it has done; 0: not known yet.
+/// The time that a member takes for a unit of work, measured on what it has done; 0 before that.
 class Pace {
   public:
     void add(double units, double seconds) {
@@ -53,7 +53,7 @@ class CombinedScene final : public ResidentScene {
     Crew& crew_;
 };
 
-/// A frame in work. Guarded by the crew's mutex.
+/// A frame that members are rendering. Guarded by the crew's mutex.
 struct SharedFrame {
     SharedFrame(std::shared_ptr<CombinedScene> of, const RenderJob& asked, Film memory)
         : scene(std::move(of)),
@@ -67,7 +67,7 @@ struct SharedFrame {
     const FilmWindow window;
     Film film;
     Division rows;
-    std::size_t bands = 0;  ///< that members hold
+    std::size_t bands = 0;  ///< held by members now
     RenderStats stats;
     double compile = 0;
     std::optional<Stopwatch> watch;  ///< since the first band
@@ -139,7 +139,7 @@ class Crew {
         require_one();
     }
 
-    /// Calls f while nothing else changes.
+    /// Calls f with the mutex locked.
     template <class F>
     auto locked(F f) {
         const std::lock_guard lock(mutex_);
@@ -151,11 +151,11 @@ class Crew {
 
     void submit(const std::shared_ptr<SharedFrame>& frame);
     [[nodiscard]] RenderResult wait_for(SharedFrame& frame);
-    /// Renders no more bands of a frame that nobody waits for.
+    /// Renders no more bands of a frame whose result is no longer wanted.
     void cancel(SharedFrame& frame);
 
     // While locked():
-    /// Takes rays for a member, of `all` that there were. Nothing if none are left.
+    /// Takes a part of the rays for a member. `all`: how many there were at first. Nothing if none are left.
     [[nodiscard]] std::optional<Division::Part> take_rays(const CombinedScene& scene, std::size_t member,
                                                           std::size_t all, Division& rays);
     void count_rays(std::size_t member, std::size_t rays);
@@ -182,7 +182,8 @@ class Crew {
 
     [[nodiscard]] bool has_band_for(std::size_t index) const;
     [[nodiscard]] Band take_band(std::size_t index);
-    /// The members; those that have failed are busy for ever. `units`: how many of those that the paces count make one.
+    /// The members as workers; those that have failed are busy for ever. A worker's unit is `units` of the paces'
+    /// units.
     [[nodiscard]] std::vector<Worker> workers(const std::vector<Pace>& paces, double units) const;
     [[nodiscard]] std::size_t size_of_part(double portion, double pace, int steps, std::size_t least) const;
 
@@ -193,7 +194,7 @@ class Crew {
     /// What happens if a member's band number `which` throws.
     void fail(std::size_t index, std::size_t which, const std::exception_ptr& error);
     void end_with(SharedFrame& frame, const std::exception_ptr& error);
-    /// Gives the member nothing more to do, and what it holds to the others.
+    /// Gives the member no more work, and what it holds to the others.
     void leave_out(std::size_t index, const std::exception_ptr& error);
 
     [[nodiscard]] bool works_nobody() const;
@@ -203,7 +204,7 @@ class Crew {
     CombinedOptions options_;
     Stopwatch clock_;
     std::vector<std::unique_ptr<Member>> members_;
-    std::mutex mutex_;  ///< of everything below, and of what says so
+    std::mutex mutex_;  ///< guards everything below, and what the comments above say
     std::condition_variable wake_, settled_;
     std::deque<std::shared_ptr<SharedFrame>> queue_;  ///< frames with rows that nobody has taken
     std::vector<std::string> warnings_;               ///< for the next frame that is done

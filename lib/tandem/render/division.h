@@ -1,4 +1,4 @@
-/// Work that several processors share while they work: each takes its next part from what is left.
+/// Work that several processors share: each takes one part after another from what is left.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class Division {
         return units;
     }
 
-    /// Takes at least one unit, about `wanted`; nothing if nothing is left. No part smaller than half of that stays.
+    /// Takes about `wanted` units, at least one; nothing if nothing is left. Never leaves less than half of that.
     [[nodiscard]] std::optional<Part> take(std::size_t wanted) {
         if (open_.empty()) return std::nullopt;
         Part& front = open_.front();
@@ -81,8 +81,8 @@ struct Worker {
     }
 }
 
-/// How much a worker takes of its portion: one of `steps` equal parts, so that what is left can correct what was not
-/// foreseen, such as rows that cost more than others; all of it if less than `least` would stay. So the parts become
+/// How much a worker takes of its portion: one of `steps` equal parts, so that later parts can make up for what was not
+/// foreseen, such as rows that cost more than others; all of it if less than `least` would be left. So the parts become
 /// smaller towards the end. Before its pace is known it takes a sixteenth, to learn it. (Guided self-scheduling: C.
 /// Polychronopoulos, D. Kuck, IEEE Transactions on Computers C-36(12), 1987.)
 [[nodiscard]] inline std::size_t part_size(double portion, int steps, bool is_known, std::size_t least) {

@@ -14,7 +14,7 @@ namespace tandem {
 /// not all. Every tile must have samples. The same bits on every machine.
 ///
 /// A parametric bootstrap: the FLIP between the truth and the truth with the film's noise is taken to be that between
-/// an estimate of the truth and the same with noise of the film's kind. (B. Efron, R. Tibshirani, "An Introduction to
+/// an estimate of the truth and the same with noise like the film's. (B. Efron, R. Tibshirani, "An Introduction to
 /// the Bootstrap", 1993, section 6.5.)
 /// - The estimate of the truth is the film, smoothed where its values spread no more than their noise does: in a window
 ///   of 5 x 5 pixels with the mean m and the variance s^2 of values and the mean v of the variances of their noise, the

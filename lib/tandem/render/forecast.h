@@ -22,14 +22,17 @@ struct Forecast {
     bool can_reach = true;        ///< the error of the target, with the samples of the job
 };
 
-/// Renders probe_passes times the whole film with a few samples per pixel, and predicts render_to_target(), or the
-/// samples of the job if the target has no error. The rounds are allotted as by the render, as if the errors of the
-/// probe would fall with the number of samples as they should; the interval is from errors at the ends of theirs. The
-/// time is that of the probe's samples in the same rows of tiles, and for the tiles that get more samples than others,
-/// of a further pass over them alone; its interval is from the spread of the passes (Student's t), and from a fifth for
-/// what the probe cannot show, such as smaller windows. The interval does not know
-/// of light that the probe did not find, nor of other load to come. `clock`: seconds. Throws as render_to_target()
-/// does.
+/// Renders the whole film probe_passes times with a few samples per pixel, and predicts render_to_target(), or the time
+/// of the job's samples if the target has no error.
+///
+/// Samples: the rounds are allotted as the render does, from the errors of the probe, which are assumed to fall with
+/// the number of samples as TileErrors::exponent says. The interval is from both ends of the interval of the probe's
+/// error. Time: from that of the probe's samples in the same rows of tiles. For the tiles that get more samples than
+/// others, it is corrected by a further pass over these tiles alone. The interval is from the spread of the passes
+/// (Student's t), and from a fifth of the time for what the probe cannot show, such as smaller windows. It includes
+/// neither light that the probe did not find nor other load to come.
+///
+/// `clock`: seconds. Throws as render_to_target() does.
 [[nodiscard]] Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, const RenderTarget& target,
                                 const std::function<double()>& clock);
 

@@ -7,8 +7,8 @@
 namespace tandem {
 
 struct GpuChoice {
-    int count = 1;               ///< the first so many; 0: all
-    std::vector<int> numbers{};  ///< not empty: these, by CUDA's numbers, instead
+    int count = 1;               ///< this many, from the first on; 0: all
+    std::vector<int> numbers{};  ///< if not empty, these instead, by CUDA's numbers
     friend bool operator==(const GpuChoice&, const GpuChoice&) = default;
 };
 

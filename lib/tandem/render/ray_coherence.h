@@ -13,9 +13,9 @@ namespace tandem {
 /// it.
 [[nodiscard]] bool are_coherent(std::span<const Ray<float>> rays, float reach);
 
-/// The rays of a row, if the rays seem to be those of the pixels of an image, row by row, so that a ray is as like the
-/// one below it as the next one; else 0. A multiple of 8, of which the number of rays is a multiple. Compares some
-/// rays. A guess: only speed may depend on it.
+/// The number of rays in a row, if the rays seem to be those of the pixels of an image, row by row: then a ray is as
+/// similar to the one below it as to the next one. Otherwise 0. The result is a multiple of 8 and divides the number of
+/// rays. Compares some of the rays. A guess: only speed may depend on it.
 [[nodiscard]] std::uint32_t row_length(std::span<const Ray<float>> rays, float reach);
 
 }  // namespace tandem

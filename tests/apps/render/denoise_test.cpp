@@ -43,8 +43,9 @@ TEST_F(Denoise, TheFileHasTheFilteredPixelsAndSaysSo) {
     const Film film = gradient_film(options.job);
     EXPECT_EQ(record.metadata.film_sha256, film_hash(film)) << "of the film before";
     EXPECT_EQ(record.metadata.denoised, "Open Image Denoise 2.3.4");
-    EXPECT_NE(frame_line(record).find("denoised by Open Image Denoise 2.3.4; the hash is that of the film before"),
-              std::string::npos);
+    EXPECT_NE(
+        frame_line(record).find("denoised by Open Image Denoise 2.3.4; the hash is that of the film before denoising"),
+        std::string::npos);
     const DecodedImage file = read_image(folder.file("a.pfm"));
     EXPECT_EQ(file.metadata, record.metadata);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.pfm", "a.pfm.txt"})) << "no planes that nobody asked for";
@@ -94,8 +95,9 @@ TEST(DenoiseProgram, DenoisesAndDoesNotVerifyWhatItDenoised) {
     const Finished render =
         tandem_render("named:paper --size 16x14 --spp 2 --denoise --denoiser '" TANDEM_STUB_DENOISER "' -o " + image);
     EXPECT_EQ(render.status, 0) << render.printed;
-    EXPECT_NE(render.printed.find("denoised by Open Image Denoise 2.3.4; the hash is that of the film before"),
-              std::string::npos)
+    EXPECT_NE(
+        render.printed.find("denoised by Open Image Denoise 2.3.4; the hash is that of the film before denoising"),
+        std::string::npos)
         << render.printed;
     const Finished verify = tandem_render("verify " + image);
     EXPECT_EQ(verify.status, 2);
