@@ -12,6 +12,7 @@ namespace tandem {
     return {.camera = camera_view(camera, job.width, job.height),
             .keys = philox_keys(job.seed),
             .sampler = make_job_sampler(job.sampler, job.seed, job.frame),
+            .filter = job.filter,
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),
