@@ -208,7 +208,7 @@ class CudaBackend final : public Backend {
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
             linked = kernels_->find(job.tier, resident.view(),
-                                    linked_facts(resident.view().scene, effects, job.limits, job.sampler));
+                                    linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter));
         }
         const SceneKernel& kernel =
             linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);

@@ -29,6 +29,7 @@ struct LinkedFacts {
     std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
     std::uint32_t sampler = 0;                                  ///< Sampler, or `any`
+    std::uint32_t filter = 0;                                   ///< PixelFilter, or `any`
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };
@@ -45,7 +46,8 @@ constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds
             .reflection = any,
             .refraction = any,
             .diffuse = any,
-            .sampler = any};
+            .sampler = any,
+            .filter = any};
 }
 
 }  // namespace tandem::cuda

@@ -26,7 +26,7 @@ __device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTrace
                                                        std::uint32_t x, std::uint32_t y) {
     constexpr std::uint32_t least_samples = 8;
     if (job.samples < least_samples || !tracer.culls_pixels) return ConstantMemoryTracer::all_slots;
-    const PixelTile tile = {job.left + x, job.top + y, warp_width, warp_height};
+    const PixelTile tile = {job.left + x, job.top + y, warp_width, warp_height, reach_of(filter_of(job.filter))};
     const RayBundle rays = bundle_of_tile(job.camera, tile, Effects::has(Effect::lens));
     static_assert(ConstantMemoryTracer::slot_count <= warp_width * warp_height);
     const std::uint32_t slot = threadIdx.x % 32;
@@ -38,7 +38,7 @@ __device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTrace
 template <class Effects, class Real>
 __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTracer& tracer, const PixelJob& job,
                                                        std::uint32_t x, std::uint32_t y, std::uint32_t slots) {
-    if (!Effects::has_any(all_effects)) {
+    if (!Effects::has_any(all_effects) && filter_of(job.filter) == PixelFilter::box) {
         const CertainView& view = tracer.certain;
         if (slots == 0 && view.is_finite_sky != 0) return render_sky<Effects, Real>(tracer.scene, job, x, y);
         if constexpr (!std::is_same_v<Real, double>) {

@@ -35,7 +35,7 @@ static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchroni
                   variants[1].effects == all_effects,
               "compiled_code() and CMakeLists.txt know two");
 
-static_assert(any_sampler == LinkedFacts::any);
+static_assert(any_sampler == LinkedFacts::any && any_filter == LinkedFacts::any);
 
 namespace {
 
@@ -69,9 +69,11 @@ constexpr std::uint32_t most_linked_lights = 4;
 
 }  // namespace
 
-LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits, Sampler sampler) {
+LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits, Sampler sampler,
+                         PixelFilter filter) {
     LinkedFacts facts;
     facts.sampler = static_cast<std::uint32_t>(sampler);
+    facts.filter = static_cast<std::uint32_t>(filter);
     facts.effects = effects.bits();
 #define TANDEM_PRIMITIVE(Type, name, names) \
     if (scene.name##_count > 0) facts.kinds |= PrimitiveKinds::name;

@@ -19,7 +19,7 @@ namespace tandem::cuda {
 /// The facts of a scene and a job for the kernel that renders them. Unused facts are left out, so that scenes that
 /// differ only in these share a kernel.
 [[nodiscard]] LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathLimits& limits,
-                                       Sampler sampler = Sampler::random);
+                                       Sampler sampler = Sampler::random, PixelFilter filter = PixelFilter::box);
 
 /// The input for linking a kernel with these facts; needs no GPU. `architecture`: as in JitInput.
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);

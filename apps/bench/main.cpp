@@ -129,7 +129,8 @@ CLI::App* add_versus(CLI::App& app, Everything& all) {
 void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
     command
         .add_option("--vary", sweep.axes,
-                    "Axes of the sweep: samples, sampler, tier, effects, depth, tessellation, rasterised, denoised")
+                    "Axes of the sweep: samples, sampler, filter, tier, effects, depth, tessellation, rasterised, "
+                    "denoised")
         ->delimiter(',')
         ->capture_default_str();
     command.add_option("--levels", sweep.levels, "Levels of tessellation: spheres of 20 * 4^level triangles")

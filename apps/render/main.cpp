@@ -22,6 +22,7 @@
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"
 #include "tandem/film/plane_names.h"
+#include "tandem/render/pixel_filter_names.h"
 #include "tandem/render/sampler_names.h"
 #include "tandem/scene/framing.h"
 #include "tandem/scene/named_scenes.h"
@@ -37,6 +38,7 @@ struct Words {
     std::string frames;  // empty: the one above
     std::string tier = "strict";
     std::string sampler;  // empty: default_sampler()
+    std::string filter = "box";
     std::string effects;
     std::string limits = to_string(PathLimits{});
     std::string planes;  // empty: the colour alone
@@ -143,6 +145,13 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
                        ". Default: sobol, but random with a target and for the plane variance, which need independent "
                        "samples (docs/samplers.md)")
         ->type_name("NAME");
+    std::string filters;
+    for (const PixelFilterInfo& info : pixel_filter_infos()) filters += fmt::format("; {}: {}", info.name, info.help);
+    app.add_option(
+           "--filter", words.filter,
+           "filter of the picture: which part of it a pixel shows, and with what weights (docs/filters.md)" + filters)
+        ->type_name("NAME")
+        ->capture_default_str();
     auto* const frame = app.add_option("--frame", words.frame, "frame to render")
                             ->type_name("K")
                             ->check(CLI::NonNegativeNumber)
@@ -307,6 +316,7 @@ int render(int argc, char** argv) {
     sequence.effects = parse_effects(words.effects);
     if (!words.planes.empty()) sequence.job.planes = parse_planes(words.planes);
     sequence.job.sampler = words.sampler.empty() ? default_sampler(words, sequence.job) : parse_sampler(words.sampler);
+    sequence.job.filter = parse_pixel_filter(words.filter);
     if (words.exposure) sequence.exposure = parse_exposure(*words.exposure);
     if (words.transfer) sequence.transfer = parse_transfer(*words.transfer);
     if (!words.checkpoint.file.empty()) sequence.checkpoint = words.checkpoint;

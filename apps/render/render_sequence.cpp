@@ -341,7 +341,7 @@ class Sequence {
     /// Empty if the exposure is known.
     std::optional<Backdrop> backdrop(const PreparedScene& prepared, const RenderJob& job) const {
         if (!exposure_is_open_) return std::nullopt;
-        return Backdrop(prepared, job.width, job.height);
+        return Backdrop(prepared, job.width, job.height, job.filter);
     }
 
     void close_exposure(double stops) {

@@ -15,6 +15,7 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "support/estimate.h"
+#include "support/small_job.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
@@ -27,16 +28,7 @@ namespace {
 using test::effect_scenes;
 using test::EffectScene;
 using test::Estimate;
-
-RenderJob small_job(Tier tier = Tier::strict) {
-    RenderJob job;
-    job.tier = tier;
-    job.width = 61;
-    job.height = 43;
-    job.samples = 4;
-    job.seed = 3;
-    return job;
-}
+using test::small_job;
 
 PreparedScene prepare_forced(const Scene& scene, EffectMask on, EffectMask off) {
     PrepareOptions options;

@@ -7,6 +7,7 @@
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
+#include "support/small_job.h"
 #include "tandem/film/plane_image.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/render/motion_blur.h"
@@ -43,12 +44,7 @@ const std::vector<NamedScene>& scenes() {
 }
 
 RenderJob small_job(Tier tier, PlaneMask planes) {
-    RenderJob job;
-    job.tier = tier;
-    job.width = 61;
-    job.height = 43;
-    job.samples = 4;
-    job.seed = 3;
+    RenderJob job = test::small_job(tier);
     job.planes = planes;
     return job;
 }

@@ -31,11 +31,11 @@ class SceneKernel : public ::testing::Test {
     }
 
     [[nodiscard]] static LinkedFacts facts(EffectMask effects, std::uint32_t lights = 1,
-                                           Sampler sampler = Sampler::random) {
+                                           Sampler sampler = Sampler::random, PixelFilter filter = PixelFilter::box) {
         SceneView scene{};
         scene.sphere_count = 3;
         scene.light_count = lights;
-        return linked_facts(scene, effects, PathLimits{}, sampler);
+        return linked_facts(scene, effects, PathLimits{}, sampler, filter);
     }
     /// Linked once for all tests of the program.
     static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
@@ -109,16 +109,19 @@ TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
     EXPECT_GT(bytes([](SceneView& s) { s.light_count = 1; }), plain);
 }
 
-/// How often the whole of a linked cubin, with the functions that its kernel calls, has a constant that only the Sobol
-/// samplers use: the first factor of the nested permutation (kernel/sampler/sobol.h).
-int sobol_constants(const LinkedFacts& facts, Structure structure) {
-    const std::uint32_t factor = 0x3D20ADEAU;
+/// How often the whole of a linked cubin, with the functions that its kernel calls, has a constant.
+int occurrences(std::uint32_t constant, const LinkedFacts& facts, Structure structure) {
     const std::vector<std::byte> cubin = link(render_input(Tier::strict, structure, facts, architecture));
     int found = 0;
-    for (std::size_t at = 0; at + sizeof factor <= cubin.size(); at += sizeof factor) {
-        found += std::memcmp(cubin.data() + at, &factor, sizeof factor) == 0 ? 1 : 0;
+    for (std::size_t at = 0; at + sizeof constant <= cubin.size(); at += sizeof constant) {
+        found += std::memcmp(cubin.data() + at, &constant, sizeof constant) == 0 ? 1 : 0;
     }
     return found;
+}
+
+/// Of one that only the Sobol samplers use: the first factor of the nested permutation (kernel/sampler/sobol.h).
+int sobol_constants(const LinkedFacts& facts, Structure structure) {
+    return occurrences(0x3D20ADEAU, facts, structure);
 }
 
 TEST_F(SceneKernel, HasNoCodeForSamplersThatTheJobHasNot) {
@@ -134,6 +137,29 @@ TEST_F(SceneKernel, HasNoCodeForSamplersThatTheJobHasNot) {
         }
     }
     EXPECT_LT(linked(facts({}, 1, Sampler::sobol)).code_bytes, linked(facts({}, 1, Sampler::sobol_blue)).code_bytes);
+}
+
+TEST_F(SceneKernel, HasNoCodeForFiltersThatTheJobHasNot) {
+    // the last coefficients of kernel/sampler/pixel_filter.h
+    const std::uint32_t gaussian = bits_of(14.0505F), window = bits_of(-30.9285F);
+    const auto with = [](EffectMask effects, PixelFilter filter) { return facts(effects, 1, Sampler::random, filter); };
+    for (const EffectMask effects : {EffectMask(), Effect::lens | Effect::shadows, EffectMask(Effect::reflection)}) {
+        for (const Structure structure : {Structure::few, Structure::bvh}) {
+            const auto has = [&](std::uint32_t constant, const LinkedFacts& facts) {
+                return occurrences(constant, facts, structure) > 0;
+            };
+            EXPECT_FALSE(has(gaussian, facts(effects)) || has(window, facts(effects))) << to_string(effects);
+            const LinkedFacts soft = with(effects, PixelFilter::gaussian);
+            const LinkedFacts sharp = with(effects, PixelFilter::blackman_harris);
+            EXPECT_TRUE(has(gaussian, soft) && !has(window, soft)) << to_string(effects);
+            EXPECT_TRUE(has(window, sharp) && !has(gaussian, sharp)) << to_string(effects);
+            LinkedFacts any = facts(effects);
+            any.filter = any_filter;
+            EXPECT_TRUE(has(gaussian, any) && has(window, any)) << to_string(effects);
+        }
+    }
+    // box alone has the faster code for few solids (kernel/certain_pixel.h)
+    EXPECT_LT(linked(with({}, PixelFilter::tent)).code_bytes, linked(facts({})).code_bytes);
 }
 
 TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
@@ -169,6 +195,8 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).cutout_kinds, 0U);
     EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::sobol_blue).sampler,
               static_cast<std::uint32_t>(Sampler::sobol_blue));
+    EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::random, PixelFilter::tent).filter,
+              static_cast<std::uint32_t>(PixelFilter::tent));
     scene.light_count = 1000;
     EXPECT_EQ(linked_facts(scene, {}, limits).lights, LinkedFacts::any);
 }

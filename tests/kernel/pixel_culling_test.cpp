@@ -73,8 +73,9 @@ TEST(PixelCulling, KeepsEveryPrimitiveThatACameraRayHits) {
         const LoopTracer one_by_one = {scene};
         const CameraView camera = random_camera(random, static_cast<int>(seed % 3));
         for (int i = 0; i < 300; ++i) {
+            const double reach = std::max(0, i % 4 - 1) * 0.5;  // 0, 0.5, 1: of filters
             const PixelTile tile = {random.below(film_size), random.below(film_size), 1 + random.below(9),
-                                    1 + random.below(5)};
+                                    1 + random.below(5), reach};
             const RayBundle bundle = bundle_of_tile(camera, tile, true);
             std::uint32_t slots = 0;
             for (std::uint32_t slot = 0; slot < ConstantMemoryTracer::slot_count; ++slot) {
@@ -84,11 +85,13 @@ TEST(PixelCulling, KeepsEveryPrimitiveThatACameraRayHits) {
             std::uint32_t hit_slots = 0;
             for (int sample = 0; sample < 64; ++sample) {
                 const std::uint32_t x = tile.x + random.below(tile.width), y = tile.y + random.below(tile.height);
-                // corners of the pixel too
-                const auto offset = [&] {
-                    return sample < 4 ? (random.coin() ? 0.99999994F : 0.0F) : random.uniform(0.0F, 1.0F);
+                // corners of the pixel and of the filter too
+                const auto offset = [&](float beyond) {
+                    return sample < 4 ? (random.coin() ? 0.99999994F + beyond : -beyond)
+                                      : random.uniform(-beyond, 1 + beyond);
                 };
-                const float u = offset(), v = offset(), a = random.uniform(0.0F, 1.0F), b = offset();
+                const auto beyond = static_cast<float>(reach);
+                const float u = offset(beyond), v = offset(beyond), a = random.uniform(0.0F, 1.0F), b = offset(0);
                 Ray<float> ray = camera_ray<float>(camera, x, y, u, v);
                 if (camera.has_lens) ray = through_lens(camera, ray, a, b);
                 const Closest<float> all = one_by_one.closest(ray, NoSource{}, true);

@@ -196,6 +196,8 @@ TEST_F(CheckpointTest, OfAnotherRenderIsRefusedWithWhatDiffers) {
     EXPECT_TRUE(contains(refused(), "samples is '3' there, but '4' here"));
     job.tier = Tier::precise;
     EXPECT_TRUE(contains(refused(), "tier is 'strict' there, but 'precise' here"));
+    job.filter = PixelFilter::tent;
+    EXPECT_TRUE(contains(refused(), "filter is 'box' there, but 'tent' here"));
     job.planes = FilmPlane::depth;
     EXPECT_TRUE(contains(refused(), "planes is '' there, but 'depth' here"));
     scene.materials[0].phong.diffuse.x *= 0.5F;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "tandem/compile/prepare.h"
@@ -68,6 +69,26 @@ INSTANTIATE_TEST_SUITE_P(Cameras, Foreground,
                                                   std::get<PerspectiveCamera>(camera).lens = {0.002, 3, 0, 0};
                                               }}),
                          [](const auto& info) { return std::string(info.param.name); });
+
+// Samples of a wide filter see the background beyond the pixel.
+TEST(ForegroundOfFilms, KnowsTheReachOfTheFilter) {
+    Scene scene = named_scene("paper");
+    scene.nodes.erase(scene.nodes.begin() + 1, scene.nodes.end());  // all but the camera
+    scene.animation.clear();
+    scene.environment.bottom = {1, 1, 1};
+    scene.environment.top = {0, 9, 0};
+    const PreparedScene prepared = prepare(scene);
+    RenderJob job{.width = 24, .height = 20, .samples = 1};  // a sample alone is anywhere in the filter
+    job.filter = PixelFilter::gaussian;
+    const std::unique_ptr<Backend> oracle = make_oracle_backend({});
+    const Film film = oracle->render(oracle->load(prepared, job.tier), job).film;
+    const auto visible = [&](PixelFilter filter) {
+        const FloatImage seen = Backdrop(prepared, job.width, job.height, filter).foreground(film);
+        return std::count_if(seen.pixels.begin(), seen.pixels.end(), [](const Vec3f& c) { return !(c == black); });
+    };
+    EXPECT_EQ(visible(PixelFilter::gaussian), 0);
+    EXPECT_GT(visible(PixelFilter::box), 5) << "the test can fail";
+}
 
 TEST(ForegroundOfFilms, OfABlackBackgroundIsEverything) {
     Scene scene = named_scene("paper");

@@ -7,6 +7,7 @@
 
 #include "support/thrown_message.h"
 #include "tandem/base/error.h"
+#include "tandem/render/pixel_job.h"
 #include "tandem/render/sampler_names.h"
 
 namespace tandem {
@@ -53,6 +54,20 @@ TEST(RenderJob, HasNoVarianceFromSamplesThatAreNotIndependent) {
         if (refusal.empty()) continue;
         EXPECT_NE(refusal.find("use the sampler 'random'"), std::string::npos) << refusal;
     }
+}
+
+// A filter may send rays beyond the film: those too must be traceable.
+TEST(RenderJob, NeedsACameraWhoseRaysOfTheFilterAreTraceable) {
+    PreparedCamera camera;
+    camera.render_from_camera = compose({0, 0, 0}, Quaternion{}, {1, 1, 1});
+    camera.orthographic = true;
+    camera.half_height = 0.8e18;
+    RenderJob job;
+    job.width = job.height = 4;
+    EXPECT_EQ(thrown_message<InputError>([&] { (void)make_pixel_job(camera, job); }), "");
+    job.filter = PixelFilter::gaussian;  // 0.4e18 farther
+    const std::string refusal = thrown_message<InputError>([&] { (void)make_pixel_job(camera, job); });
+    EXPECT_NE(refusal.find("farther than 1e18"), std::string::npos) << refusal;
 }
 
 TEST(SamplerNames, AreReadAsTheyAreWritten) {

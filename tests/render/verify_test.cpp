@@ -12,6 +12,7 @@
 #include "tandem/images/image_io.h"
 #include "tandem/render/adaptive_frame.h"
 #include "tandem/render/frame_metadata.h"
+#include "tandem/render/pixel_filter_names.h"
 #include "tandem/render/sampler_names.h"
 #include "tandem/scene/named_scenes.h"
 
@@ -84,6 +85,22 @@ TEST_F(VerifyTest, ImagesOfEverySamplerMatchAndOldOnesAreRandom) {
     EXPECT_TRUE(verify(old).matches());
     old.metadata->sampler = "sobol2";
     EXPECT_TRUE(contains(input_error([&] { (void)verify(old); }), "no sampler 'sobol2'"));
+}
+
+TEST_F(VerifyTest, ImagesOfEveryFilterMatchAndOldOnesHaveBox) {
+    for (const PixelFilter filter : {PixelFilter::tent, PixelFilter::gaussian, PixelFilter::blackman_harris}) {
+        job.filter = filter;
+        DecodedImage drawn = image("a.pfm");
+        EXPECT_TRUE(verify(drawn).matches()) << to_string(filter);
+        drawn.metadata->filter.clear();
+        EXPECT_FALSE(verify(drawn).matches()) << "the samples are elsewhere";
+    }
+    job.filter = PixelFilter::box;
+    DecodedImage old = image("a.pfm");
+    old.metadata->filter.clear();
+    EXPECT_TRUE(verify(old).matches());
+    old.metadata->filter = "sinc";
+    EXPECT_TRUE(contains(input_error([&] { (void)verify(old); }), "no filter 'sinc'"));
 }
 
 TEST_F(VerifyTest, ChangedPixelsAreFound) {

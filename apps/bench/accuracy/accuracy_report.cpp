@@ -8,6 +8,7 @@
 #include "accuracy/report_words.h"
 #include "output.h"
 #include "tandem/base/error.h"
+#include "tandem/render/pixel_filter_names.h"
 #include "tandem/report/format_number.h"
 
 namespace tandem::bench {
@@ -52,11 +53,14 @@ void rebuild(const SweepOptions& options, const std::vector<SweepBackend>& backe
         fmt::format("The references of the accuracy report in {}, rendered again.", options.reference_folder);
     for (const std::string& name : options.scenes) {
         const AccuracyScene scene = load_accuracy_scene(name, options.size);
-        const DescribedReference described =
-            make_reference(scene, reference_backend(backends), reference_options(options));
-        report.blocks.emplace_back(
-            Paragraph{fmt::format("{}: {} RMSE of each, from their difference: {}.", name, described.description,
-                                  format_number(described.reference.noise_floor()))});
+        for (const PixelFilterInfo& info : pixel_filter_infos()) {
+            if (info.filter != PixelFilter::box && !varied_axes(options).filters) continue;
+            const DescribedReference described =
+                make_reference(scene, reference_backend(backends), reference_options(options, info.filter));
+            report.blocks.emplace_back(
+                Paragraph{fmt::format("{}: {} RMSE of each, from their difference: {}.", name, described.description,
+                                      format_number(described.reference.noise_floor()))});
+        }
     }
 }
 
@@ -107,6 +111,16 @@ void add_scene(const SceneSweep& sweep, const SweepOptions& options, const std::
         "A box is the 95 % interval of a point in both directions. Grey points are dominated: another point of "
         "the same backend is no slower and no worse, and its interval of one of the two is better. Their "
         "numbers are those of the table."});
+    if (!sweep.filters.empty()) {
+        report.blocks.emplace_back(Paragraph{
+            "Points of filters are grey too, without a number, because their images approximate another image than "
+            "the others do. Their errors are measured from references with the same filter, so they compare noise."});
+    }
+    for (const FilterReference& other : sweep.filters) {
+        report.properties.emplace_back(
+            fmt::format("difference of converged images {} {}", sweep.scene.name, to_string(other.filter)),
+            in_words(other.difference));
+    }
     for (const Metric metric : {Metric::rmse, Metric::trimmed, Metric::flip}) {
         report.blocks.emplace_back(pareto_plot(sweep, backends, metric));
     }

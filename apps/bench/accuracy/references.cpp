@@ -3,16 +3,18 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "accuracy/settings.h"
 #include "frame_timing.h"
 #include "output.h"
-#include "pictures.h"
 #include "tandem/base/error.h"
 #include "tandem/images/image_io.h"
+#include "tandem/render/frame_metadata.h"
 #include "tandem/render/motion_blur.h"
+#include "tandem/render/pixel_filter_names.h"
 
 namespace tandem::bench {
 
@@ -31,39 +33,28 @@ RenderJob job_of(const ReferenceOptions& options, char which) {
     job.seed = seed_of(options, which);
     job.tier = Tier::precise;
     job.limits = unlimited;
+    job.filter = options.filter;
     return job;
 }
 
 ImageMetadata metadata_of(const AccuracyScene& scene, const Backend& backend, const RenderJob& job) {
-    ImageMetadata metadata = describe_picture(job, backend.name());
-    metadata.scene_hash = frame_hash(scene.scene, plan_frame(scene.scene, {}, job));
-    metadata.limits = to_string(job.limits);
-    return metadata;
+    return describe(job, frame_hash(scene.scene, plan_frame(scene.scene, {}, job)), backend.name());
 }
 
 /// What makes a stored reference another one than the wanted; empty if it is the one.
-std::string mismatch(const ImageMetadata& stored, const ImageMetadata& wanted) {
-    const auto differs = [](const char* what, const auto& has, const auto& wants) {
-        return has == wants ? std::string() : fmt::format("{} {}, not {}", what, has, wants);
-    };
-    for (const std::string& difference :
-         {differs("width", stored.width, wanted.width), differs("height", stored.height, wanted.height),
-          differs("samples", stored.samples, wanted.samples), differs("seed", stored.seed, wanted.seed),
-          differs("limits", stored.limits, wanted.limits), differs("tier", stored.tier, wanted.tier),
-          differs("scene", stored.scene_hash, wanted.scene_hash)}) {
-        if (!difference.empty()) return difference;
-    }
-    return {};
+std::string mismatch(const std::optional<ImageMetadata>& stored, ImageMetadata wanted) {
+    if (!stored) return "there is no metadata of Tandem's beside the image";
+    wanted.version = stored->version;  // it approximates the same truth
+    return difference_of_films(*stored, wanted);
 }
 
 FloatImage read_reference(const std::string& path, const ImageMetadata& wanted) {
     DecodedImage stored = read_image(path);
-    const std::string problem =
-        stored.metadata ? mismatch(*stored.metadata, wanted) : "no metadata of Tandem's beside the image";
+    const std::string problem = mismatch(stored.metadata, wanted);
     if (!problem.empty()) {
         throw InputError(
-            fmt::format("the reference {} has {}: render it again with --rebuild-references, or name "
-                        "another folder",
+            fmt::format("the reference {} is not the wanted one: {}; render it again with --rebuild-references, or "
+                        "name another folder",
                         path, problem));
     }
     return std::move(stored.image);
@@ -83,8 +74,8 @@ FloatImage image_of(const AccuracyScene& scene, Backend& backend, const Referenc
     if (!path.empty() && !options.rebuild && std::filesystem::exists(path)) {
         return read_reference(path, metadata_of(scene, backend, job));
     }
-    log_progress(fmt::format("{}: reference {} with {} samples per pixel on {}", scene.name, which, options.samples,
-                             backend.name()));
+    log_progress(fmt::format("{}: reference {} of {} with {} samples per pixel on {}", scene.name, which,
+                             to_string(options.filter), options.samples, backend.name()));
     TimedFrame frame = render_timed(backend, scene.scene, job);
     FloatImage image = film_to_image(frame.film);
     if (!path.empty()) {
@@ -106,7 +97,9 @@ std::string reference_path(const AccuracyScene& scene, const ReferenceOptions& o
             (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.';
         name += plain ? c : '_';
     }
-    return fmt::format("{}/{}-{}x{}-{}.pfm", options.folder, name, options.size.width, options.size.height, which);
+    const std::string filter = options.filter == PixelFilter::box ? "" : to_string(options.filter) + "-";
+    return fmt::format("{}/{}-{}x{}-{}{}.pfm", options.folder, name, options.size.width, options.size.height, filter,
+                       which);
 }
 
 DescribedReference make_reference(const AccuracyScene& scene, Backend& backend, const ReferenceOptions& options) {
@@ -117,11 +110,14 @@ DescribedReference make_reference(const AccuracyScene& scene, Backend& backend, 
     }
     FloatImage a = image_of(scene, backend, options, 'a');
     FloatImage b = image_of(scene, backend, options, 'b');
+    const std::string filter =
+        options.filter == PixelFilter::box ? "" : fmt::format(" with the filter {}", to_string(options.filter));
     const std::string place = options.folder.empty() ? "" : fmt::format(", kept in {}", options.folder);
-    return {Reference(std::move(a), std::move(b)),
-            fmt::format("The references are two images in the tier precise, with {} samples per pixel each, the seeds "
-                        "{} and {}, and paths of up to 255 vertices of each kind{}.",
-                        options.samples, seed_of(options, 'a'), seed_of(options, 'b'), place)};
+    return {
+        Reference(std::move(a), std::move(b)),
+        fmt::format("The references{} are two images in the tier precise, with {} samples per pixel each, the seeds "
+                    "{} and {}, and paths of up to 255 vertices of each kind{}.",
+                    filter, options.samples, seed_of(options, 'a'), seed_of(options, 'b'), place)};
 }
 
 }  // namespace tandem::bench

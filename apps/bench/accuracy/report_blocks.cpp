@@ -24,6 +24,7 @@ std::string tooltip(const SweepPoint& point, Metric metric, const std::optional<
     std::string text =
         fmt::format("{}: {} in {}", point.row.label, in_words(point.error(metric)), format_seconds(point.seconds()));
     if (by) text += fmt::format("; dominated by {}", sweep.points[*by].row.label);
+    if (!has_the_image_of_the_baseline(point.setting)) text += "; from references with this filter";
     if (!point.failures.empty()) text += fmt::format("; {}", fmt::join(point.failures, "; "));
     return text;
 }
@@ -36,6 +37,7 @@ struct Choice {
     Choice(const SceneSweep& sweep, const std::string& backend) {
         for (const SweepPoint& point : sweep.points) {
             if (point.row.backend != backend || !point.failures.empty()) continue;
+            if (!has_the_image_of_the_baseline(point.setting)) continue;
             points.push_back(&point);
             priced.push_back(point.priced(Metric::rmse));
         }
@@ -74,12 +76,16 @@ std::vector<std::optional<std::size_t>> dominating_points(const SceneSweep& swee
     while (first < sweep.points.size()) {
         std::size_t last = first;
         std::vector<PricedError> priced;
-        while (last < sweep.points.size() && sweep.points[last].row.backend == sweep.points[first].row.backend) {
-            priced.push_back(sweep.points[last++].priced(metric));
+        std::vector<std::size_t> indices;
+        for (; last < sweep.points.size() && sweep.points[last].row.backend == sweep.points[first].row.backend;
+             ++last) {
+            if (!has_the_image_of_the_baseline(sweep.points[last].setting)) continue;
+            priced.push_back(sweep.points[last].priced(metric));
+            indices.push_back(last);
         }
         const auto by = dominating(priced);
         for (std::size_t i = 0; i < by.size(); ++i) {
-            if (by[i]) result[first + i] = first + *by[i];
+            if (by[i]) result[indices[i]] = indices[*by[i]];
         }
         first = last;
     }
@@ -107,7 +113,7 @@ ScatterPlot pareto_plot(const SceneSweep& sweep, const std::vector<SweepBackend>
                                      tooltip(point, metric, by[i], sweep),
                                      by[i] ? number_of(i) : "",
                                      static_cast<std::size_t>(point.setting.axis),
-                                     by[i].has_value(),
+                                     by[i].has_value() || !has_the_image_of_the_baseline(point.setting),
                                      !point.failures.empty()});
         }
     }

@@ -8,7 +8,8 @@
 
 namespace tandem::bench {
 
-/// For every point of a sweep the index of the point of the same backend that dominates it in RMSE.
+/// For every point of a sweep the index of the point of the same backend that dominates it in a metric. Points of
+/// other images than the baseline's (has_the_image_of_the_baseline()) neither dominate nor are dominated.
 [[nodiscard]] std::vector<std::optional<std::size_t>> dominating_points(const SceneSweep& sweep, Metric metric);
 
 /// Error against time, all backends on the same axes.

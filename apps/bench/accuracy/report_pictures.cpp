@@ -26,8 +26,9 @@ int samples_within(const SweepOptions& options, const SweepPoint& fastest, doubl
 }
 
 /// A picture and the map of its FLIP, whose mean and the RMSE are in the caption.
-ComparedPicture compared(const SceneSweep& sweep, const FloatImage& image, const std::string& caption) {
-    const FlipDifference difference = flip(sweep.reference.reference.mean(), image, {.display = sweep.display()});
+ComparedPicture compared(const SceneSweep& sweep, const Reference& reference, const FloatImage& image,
+                         const std::string& caption) {
+    const FlipDifference difference = flip(reference.mean(), image, {.display = sweep.display()});
     return {small_picture(image, most_width, caption, sweep.display()),
             small_picture(
                 flip_map(difference), most_width,
@@ -55,15 +56,17 @@ PictureComparison equal_time_pictures(const SweepOptions& options, const SceneSw
                 render_setting(options, *backend.backend, sweep.denoiser.get(), scene_of(sweep.scene.scene, setting),
                                setting, samples, options.seed + 1);
             const FloatImage image = film_to_image(frame.film);
-            ErrorMeter meter(sweep.reference.reference);
+            const Reference& reference = sweep.reference_of(setting);
+            ErrorMeter meter(reference);
             const double rmse = std::sqrt(std::max(meter.add(image).squared, 0.0));
             comparison.pictures.push_back(
-                compared(sweep, image,
+                compared(sweep, reference, image,
                          fmt::format("{}, {}, {} spp, {}, RMSE {}", backend.name, setting.name, samples,
                                      format_seconds(frame.stats.seconds.render), format_number(rmse))));
         }
     }
-    comparison.pictures.push_back(compared(sweep, sweep.reference.reference.first(), "Reference"));
+    comparison.pictures.push_back(
+        compared(sweep, sweep.reference.reference, sweep.reference.reference.first(), "Reference"));
     return comparison;
 }
 

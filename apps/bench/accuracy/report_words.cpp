@@ -66,6 +66,11 @@ std::string setting_sentence(const SceneSweep& sweep, const std::string& backend
     const ErrorEstimate& first = ladder[ladder.size() > 1 ? ladder.size() - 2 : 0]->error(Metric::rmse);
     const bool stays = ladder.size() > 1 && point.error(Metric::rmse).value > 0.8 * first.value &&
                        !overlap(point.error(Metric::rmse).interval, baseline.error(Metric::rmse).interval);
+    if (!has_the_image_of_the_baseline(setting)) {
+        text += fmt::format(
+            ", each from references with its own filter; the RMSE of its converged image from that of {} is {}",
+            baseline.setting.name, in_words(sweep.difference_of(setting)));
+    }
     if (setting.axis == Axis::sampler) {
         const auto ours = convergence(sweep, backend, setting);
         const auto theirs = convergence(sweep, backend, sweep.plan.settings.front());
@@ -83,6 +88,7 @@ std::string choice_sentence(const SceneSweep& sweep, const std::string& backend)
     std::vector<const SweepPoint*> points;
     for (const SweepPoint& point : sweep.points) {
         if (point.row.backend != backend || !point.failures.empty()) continue;
+        if (!has_the_image_of_the_baseline(point.setting)) continue;
         points.push_back(&point);
         priced.push_back(point.priced(Metric::rmse));
     }
@@ -169,7 +175,8 @@ std::string meaning_of_words() {
     return "A setting is a way to render the scene: strict, the default, has the same bits on every backend; fast "
            "approximates; precise computes in double; the others are strict with one thing changed. spp is the number "
            "of samples per pixel. RMSE is the root of the mean square error against the reference, in units of "
-           "radiance: white is 1. Each point of a plot is a setting with a number of samples on a backend (cpu, or "
+           "radiance: white is 1. The reference of a filter is drawn with that filter. Each point of a plot is a "
+           "setting with a number of samples on a backend (cpu, or "
            "cuda for the GPU): further left is faster, further down is closer to the reference, and the dotted line "
            "joins the points that no other beats. Point at a mark to see its name and its numbers. Numbers in "
            "parentheses are 95 % intervals.";
@@ -178,8 +185,8 @@ std::string meaning_of_words() {
 std::string not_varied(const SweepOptions& options) {
     return fmt::format(
         "The size of the image ({} x {} pixels), the frame (0), the camera, the clamp (there is none) and "
-        "the sums of samples (double). The picture filter, which is a box of one pixel: Tandem has no other. Threads "
-        "({}), instruction set and clocks. Axes other than samples vary one at a time.",
+        "the sums of samples (double). Threads ({}), instruction set and clocks. Axes other than samples vary one at a "
+        "time.",
         options.size.width, options.size.height,
         options.threads == 0 ? std::string("one per core") : fmt::format("{}", options.threads));
 }

@@ -11,6 +11,7 @@
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/render/pixel_filter_names.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/sampler_names.h"
 
@@ -18,8 +19,8 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr std::array axis_names = {"baseline",     "tier",       "effects",  "depth",
-                                   "tessellation", "rasterised", "denoised", "sampler"};
+constexpr std::array axis_names = {"baseline",   "tier",     "effects", "depth", "tessellation",
+                                   "rasterised", "denoised", "sampler", "filter"};
 constexpr std::array<PathLimits, 3> varied_limits = {PathLimits{0, 0, 0}, PathLimits{2, 4, 1}, unlimited};
 
 void add_samplers(Setting base, SettingPlan& plan) {
@@ -30,6 +31,19 @@ void add_samplers(Setting base, SettingPlan& plan) {
         base.sampler = info.sampler;
         plan.settings.push_back(base);
     }
+}
+
+void add_filters(Setting base, SettingPlan& plan) {
+    base.axis = Axis::filter;
+    for (const PixelFilterInfo& info : pixel_filter_infos()) {
+        if (info.filter == base.filter) continue;
+        base.name = info.name;
+        base.filter = info.filter;
+        plan.settings.push_back(base);
+    }
+    plan.biases.emplace_back(
+        "A filter is a choice of the image, not of its accuracy: another filter has another converged image. So the "
+        "error of a filter is measured against references with the same filter, and is noise alone.");
 }
 
 void add_effects(const std::vector<EffectNeed>& needs, Setting base, SettingPlan& plan) {
@@ -117,13 +131,15 @@ VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> t
     if (tiers.empty()) throw InputError("accuracy needs a tier: fast, strict or precise");
     VariedAxes axes{
         .tiers = std::move(tiers), .samplers = false, .effects = false, .depth = false, .tessellation = false};
-    axes.rasterised = axes.denoised = false;
+    axes.filters = axes.rasterised = axes.denoised = false;
     bool varies_tier = false;
     for (const std::string& name : names) {
         if (name == "tier") {
             varies_tier = true;
         } else if (name == "sampler") {
             axes.samplers = true;
+        } else if (name == "filter") {
+            axes.filters = true;
         } else if (name == "effects") {
             axes.effects = true;
         } else if (name == "depth") {
@@ -136,8 +152,8 @@ VariedAxes parse_axes(const std::vector<std::string>& names, std::vector<Tier> t
             axes.denoised = true;
         } else if (name != "samples") {
             throw InputError(
-                fmt::format("no axis \"{}\"; there are samples, sampler, tier, effects, depth, tessellation, "
-                            "rasterised and denoised",
+                fmt::format("no axis \"{}\"; there are samples, sampler, filter, tier, effects, depth, "
+                            "tessellation, rasterised and denoised",
                             name));
         }
     }
@@ -158,6 +174,7 @@ SettingPlan plan_settings(const Scene& scene, const VariedAxes& axes) {
     const std::vector<EffectNeed> needs = derive_effects(scene, prepared);
     if (axes.tiers.size() == 1) plan.skipped.emplace_back("Tier: not asked for.");
     axes.samplers ? add_samplers(base, plan) : void(plan.skipped.emplace_back("Sampler: not asked for."));
+    axes.filters ? add_filters(base, plan) : void(plan.skipped.emplace_back("Filter: not asked for."));
     axes.effects ? add_effects(needs, base, plan) : void(plan.skipped.emplace_back("Effects: not asked for."));
     axes.depth ? add_depths(needs, base, plan) : void(plan.skipped.emplace_back("Depth: not asked for."));
     axes.tessellation ? add_tessellations(scene, axes.levels, base, plan)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <future>
 #include <map>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "pictures.h"
 #include "rasterised_frame.h"
 #include "tandem/accuracy/image_errors.h"
+#include "tandem/accuracy/reference_difference.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/images/compare.h"
@@ -32,6 +34,7 @@ constexpr std::size_t most_pending_bytes = std::size_t{256} << 20;  // of images
 struct Measured {
     const SweepBackend* backend = nullptr;
     const Scene* scene = nullptr;
+    const Reference* reference = nullptr;
     std::optional<ErrorMeter> meter;
     std::array<std::vector<double>, metrics.size()> errors;  ///< one per seed; squared for Metric::rmse
     std::size_t broken = 0;                                  ///< pixels of all seeds
@@ -40,7 +43,7 @@ struct Measured {
 /// Computes the errors of images on all cores, while nothing is timed.
 class PendingImages {
   public:
-    PendingImages(const Reference& reference, const Display& display) : reference_(reference), display_(display) {}
+    explicit PendingImages(const Display& display) : display_(display) {}
 
     void add(Measured& measured, FloatImage image) {
         bytes_ += image.pixels.size() * sizeof(Vec3f);
@@ -67,13 +70,12 @@ class PendingImages {
   private:
     void measure(Measured& measured, const FloatImage& image) const {
         const ImageErrors errors = measured.meter->add(image);
-        const double seen = flip(reference_.mean(), image, {.display = display_}).mean;
+        const double seen = flip(measured.reference->mean(), image, {.display = display_}).mean;
         const std::array values = {errors.squared, errors.relative, errors.trimmed, seen};
         for (std::size_t i = 0; i < metrics.size(); ++i) measured.errors[i].push_back(values[i]);
         measured.broken += errors.broken;
     }
 
-    const Reference& reference_;
     const Display& display_;
     std::vector<std::pair<Measured*, FloatImage>> images_;
     std::size_t bytes_ = 0;
@@ -159,6 +161,26 @@ PricedError SweepPoint::priced(Metric metric) const {
     return {time.median, time.interval.value_or(Interval{time.least, time.most}), error(metric)};
 }
 
+namespace {
+
+const FilterReference& filter_reference(const SceneSweep& sweep, const Setting& setting) {
+    const auto found = std::find_if(sweep.filters.begin(), sweep.filters.end(),
+                                    [&](const FilterReference& one) { return one.filter == setting.filter; });
+    assert(found != sweep.filters.end());
+    return *found;
+}
+
+}  // namespace
+
+const Reference& SceneSweep::reference_of(const Setting& setting) const {
+    return has_the_image_of_the_baseline(setting) ? reference.reference
+                                                  : filter_reference(*this, setting).described.reference;
+}
+
+const ErrorEstimate& SceneSweep::difference_of(const Setting& setting) const {
+    return filter_reference(*this, setting).difference;
+}
+
 std::vector<const SweepPoint*> SceneSweep::ladder(const std::string& backend, const Setting& setting) const {
     std::vector<const SweepPoint*> found;
     for (const SweepPoint& point : points) {
@@ -179,6 +201,7 @@ RenderJob job_of(const SweepOptions& options, const Setting& setting, int sample
     job.seed = seed;
     job.tier = setting.tier;
     job.sampler = setting.sampler;
+    job.filter = setting.filter;
     job.limits = setting.limits;
     return job;
 }
@@ -189,10 +212,14 @@ VariedAxes varied_axes(const SweepOptions& options) {
     return axes;
 }
 
-ReferenceOptions reference_options(const SweepOptions& options) {
+ReferenceOptions reference_options(const SweepOptions& options, PixelFilter filter) {
     const int most = *std::max_element(options.samples.begin(), options.samples.end());
-    return {options.size, options.reference_samples > 0 ? options.reference_samples : 32 * most, options.seed,
-            options.reference_folder, options.rebuild_references};
+    return {options.size,
+            options.reference_samples > 0 ? options.reference_samples : 32 * most,
+            options.seed,
+            options.reference_folder,
+            options.rebuild_references,
+            filter};
 }
 
 Backend& reference_backend(const std::vector<SweepBackend>& backends) {
@@ -230,6 +257,14 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
             flip(reference.first(), reference.second(), {.display = sweep.display()}).mean;
     }
 
+    for (const Setting& setting : sweep.plan.settings) {
+        if (has_the_image_of_the_baseline(setting)) continue;
+        DescribedReference other =
+            make_reference(sweep.scene, reference_backend(backends), reference_options(options, setting.filter));
+        const ErrorEstimate difference = difference_of(other.reference, reference);
+        sweep.filters.push_back({setting.filter, std::move(other), difference});
+    }
+
     std::map<int, Scene> twins;  // by level
     for (const Setting& setting : sweep.plan.settings) {
         if (setting.level) twins.emplace(*setting.level, scene_of(sweep.scene.scene, setting));
@@ -241,13 +276,14 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
             if (!runs_on(setting, backend.name)) continue;
             for (const int samples : options.samples) {
                 sweep.points.push_back(make_point(options, name, backend, setting, samples));
-                measured.push_back({&backend, &scene, std::nullopt, {}, 0});
-                measured.back().meter.emplace(reference);
+                const Reference& own = sweep.reference_of(setting);
+                measured.push_back({&backend, &scene, &own, std::nullopt, {}, 0});
+                measured.back().meter.emplace(own);
             }
         }
     }
     render_first_frames(options, sweep, measured);
-    PendingImages pending(reference, sweep.display());
+    PendingImages pending(sweep.display());
     for (int round = 0; round < options.seeds; ++round) {
         for (const std::size_t i : interleaved_order(sweep.points.size(), static_cast<std::size_t>(round))) {
             SweepPoint& point = sweep.points[i];

@@ -21,7 +21,7 @@ struct SweepOptions {
     std::vector<std::string> scenes;  ///< as load_accuracy_scene() takes them; empty means the paper's
     std::vector<std::string> backends = {"cpu", "cuda"};
     std::vector<std::string> tiers = {"fast", "strict", "precise"};
-    std::vector<std::string> axes = {"samples", "sampler",      "tier",       "effects",
+    std::vector<std::string> axes = {"samples", "sampler",      "filter",     "tier",    "effects",
                                      "depth",   "tessellation", "rasterised", "denoised"};
     std::string denoiser;                       ///< its library; empty: where the system's loader looks
     std::vector<int> levels = {1, 3, 5};        ///< of tessellation
@@ -60,6 +60,13 @@ struct SweepBackend {
     std::unique_ptr<Backend> backend;
 };
 
+/// What the images of another filter than the baseline's are compared with.
+struct FilterReference {
+    PixelFilter filter;
+    DescribedReference described;
+    ErrorEstimate difference;  ///< the RMSE of its converged image from that of the baseline
+};
+
 struct SceneSweep {
     AccuracyScene scene;
     SettingPlan plan;
@@ -67,9 +74,14 @@ struct SceneSweep {
     std::array<double, metrics.size()> floors{};  ///< of the references' noise, by Metric; 0 where it has none
     std::vector<SweepPoint> points;               ///< by backend, then by setting, then by samples
     std::shared_ptr<const Denoiser> denoiser{};   ///< null if no setting is denoised
+    std::vector<FilterReference> filters{};       ///< of the settings of Axis::filter
 
     [[nodiscard]] const Display& display() const { return scene.scene.display; }
     [[nodiscard]] double floor(Metric metric) const { return floors[static_cast<std::size_t>(metric)]; }
+    /// What the images of a setting are compared with.
+    [[nodiscard]] const Reference& reference_of(const Setting& setting) const;
+    /// How far the converged image of a setting of Axis::filter is from that of the baseline.
+    [[nodiscard]] const ErrorEstimate& difference_of(const Setting& setting) const;
     /// The points of a setting on a backend, by samples.
     [[nodiscard]] std::vector<const SweepPoint*> ladder(const std::string& backend, const Setting& setting) const;
 };
@@ -97,6 +109,7 @@ struct SceneSweep {
 /// Throws as parse_axes() does.
 [[nodiscard]] VariedAxes varied_axes(const SweepOptions& options);
 
-[[nodiscard]] ReferenceOptions reference_options(const SweepOptions& options);
+/// Of the references with a filter.
+[[nodiscard]] ReferenceOptions reference_options(const SweepOptions& options, PixelFilter filter = PixelFilter::box);
 
 }  // namespace tandem::bench

@@ -31,7 +31,7 @@ SceneView view(const PreparedScene& scene) {
     };
 }
 
-CameraView camera_view(const PreparedCamera& camera, int width, int height) {
+CameraView camera_view(const PreparedCamera& camera, int width, int height, double reach) {
     const DefaultFpEnvironment guard;
     // one pixel on the plane at distance 1, or in metres for an orthographic camera
     const double pixel = 2 * camera.half_height / height;
@@ -53,8 +53,8 @@ CameraView camera_view(const PreparedCamera& camera, int width, int height) {
         view.blades = camera.lens.blades;
     }
     // rays are affine in the film position: if the corner rays are traceable, all are
-    for (const double x : {0.0, double(width)}) {
-        for (const double y : {0.0, double(height)}) {
+    for (const double x : {-reach, width + reach}) {
+        for (const double y : {-reach, height + reach}) {
             if (is_traceable(camera_ray<float>(view, x, y, 0.0F, 0.0F))) continue;
             throw InputError(
                 camera.orthographic

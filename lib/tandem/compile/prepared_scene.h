@@ -81,8 +81,9 @@ struct PreparedScene {
 [[nodiscard]] SceneView view(const PreparedScene& scene);
 
 /// The camera for a film of width x height square pixels. All its rays are traceable and their directions have at least
-/// length 1. Throws InputError if an orthographic camera shows points beyond coordinate_limit.
-[[nodiscard]] CameraView camera_view(const PreparedCamera& camera, int width, int height);
+/// length 1, up to `reach` pixels outside the film. Throws InputError if an orthographic camera shows points beyond
+/// coordinate_limit.
+[[nodiscard]] CameraView camera_view(const PreparedCamera& camera, int width, int height, double reach = 0);
 
 /// SHA-256, in hexadecimal, of everything above that determines the image: equal hashes mean equal images. It leaves
 /// out node_of and the numbers of dropped things, which only serve messages; copies, which follow from the rest; and

@@ -1,4 +1,4 @@
-/// The samples of a pixel, where a CertainView makes most of them cheap.
+/// The samples of a pixel with the filter box, where a CertainView makes most of them cheap.
 ///
 /// In strict and precise the bits are those of render_pixel(). In the tier fast they are not: there the light of a hit
 /// is computed in float, and that of the background from the mean height of the rays.

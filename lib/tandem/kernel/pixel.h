@@ -3,6 +3,7 @@
 
 #include "tandem/kernel/path.h"
 #include "tandem/kernel/sampler/dimensions.h"
+#include "tandem/kernel/sampler/pixel_filter.h"
 
 namespace tandem {
 
@@ -11,6 +12,7 @@ struct PixelJob {
     CameraView camera;
     PhiloxKeys keys;  ///< of the seed
     JobSampler sampler{};
+    PixelFilter filter = PixelFilter::box;
     std::uint32_t frame;
     std::uint32_t first_sample, samples;
     std::uint32_t width;  ///< pixels of a row of the window; the pixels (x, y) of kernels are counted in the window
@@ -59,7 +61,9 @@ TANDEM_HD PixelRays<Real> rays_of_pixel(const PixelJob& job, const UInt<Real>& x
 template <class Effects, class Real>
 TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const PixelRays<Real>& rays, const SampleId<Real>& id) {
     const auto random = id.block(Dimension::film);
-    const Ray<Real> ray = rays.at(to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    const Vec2<Real> offset =
+        sample_filter<Real>(job.filter, to_unit_interval<Real>(random.word[0]), to_unit_interval<Real>(random.word[1]));
+    const Ray<Real> ray = rays.at(offset.x, offset.y);
     if (!Effects::has(Effect::lens) || !job.camera.has_lens) return ray;
     const auto at = id.block(Dimension::lens);
     return through_lens(job.camera, ray, to_unit_interval<Real>(at.word[0]), to_unit_interval<Real>(at.word[1]));

@@ -33,14 +33,15 @@ TANDEM_HD_INLINE double length_of(const Vec3d& a) { return square_root(dot(a, a)
 /// Pixels of a film: `width` by `height` from (x, y) on.
 struct PixelTile {
     std::uint32_t x, y, width, height;
+    double reach = 0;  ///< how far outside them their samples may lie: reach_of() of the filter
 };
 
 /// `has_lens`: whether rays start on the camera's lens, if it has one.
 TANDEM_HD_INLINE RayBundle bundle_of_tile(const CameraView& camera, const PixelTile& tile, bool has_lens) {
     using namespace culling_detail;
-    const double width = tile.width, height = tile.height;
+    const double width = tile.width + 2 * tile.reach, height = tile.height + 2 * tile.reach;
     const auto middle = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
-        return start + dx * (tile.x + 0.5 * width) + dy * (tile.y + 0.5 * height);
+        return start + dx * (tile.x + 0.5 * tile.width) + dy * (tile.y + 0.5 * tile.height);
     };
     const auto spread = [&](const Vec3d& start, const Vec3d& dx, const Vec3d& dy) {
         const double across = norm1(dx), down = norm1(dy);

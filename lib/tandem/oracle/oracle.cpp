@@ -139,8 +139,9 @@ class OracleBackend final : public Backend {
         for (std::uint32_t sample = 0; sample < job.samples; ++sample) {
             const SampleId<float> id = sample_of<float>(job, x, y, job.first_sample + sample);
             const auto random = id.block(Dimension::film);
-            Ray<T> ray = camera_ray<T>(job.camera, x + job.left, y + job.top, to_unit_interval<T>(random.word[0]),
-                                       to_unit_interval<T>(random.word[1]));
+            const Vec2<T> offset =
+                sample_filter<T>(job.filter, to_unit_interval<T>(random.word[0]), to_unit_interval<T>(random.word[1]));
+            Ray<T> ray = camera_ray<T>(job.camera, x + job.left, y + job.top, offset.x, offset.y);
             if (job.camera.has_lens) {
                 const auto at = id.block(Dimension::lens);
                 ray =

@@ -27,9 +27,10 @@ struct ColourRange {
 
 }  // namespace
 
-Backdrop::Backdrop(const PreparedScene& scene, int width, int height)
+Backdrop::Backdrop(const PreparedScene& scene, int width, int height, PixelFilter filter)
     : camera_(camera_view(scene.camera, width, height)),
       environment_(scene.environment),
+      reach_(static_cast<float>(reach_of(filter))),
       is_gradient_(!has_environment(view(scene))) {}
 
 FloatImage Backdrop::foreground(const Film& film) const {
@@ -42,9 +43,10 @@ FloatImage Backdrop::foreground(const Film& film) const {
             const auto behind = [&](float across, float down) {
                 return background(environment_, camera_ray<float>(camera_, x, y, across, down).direction);
             };
-            const Vec3f corner = behind(0, 0);
+            const float low = -reach_, high = 1 + reach_;
+            const Vec3f corner = behind(low, low);
             ColourRange range{corner, corner};
-            for (const Vec3f& other : {behind(1, 0), behind(0, 1), behind(1, 1)}) range.add(other);
+            for (const Vec3f& other : {behind(high, low), behind(low, high), behind(high, high)}) range.add(other);
             if (range.has(image.pixels[i])) image.pixels[i] = {0, 0, 0};
         }
     }

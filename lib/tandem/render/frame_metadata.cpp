@@ -6,6 +6,7 @@
 
 #include "tandem/base/version.h"
 #include "tandem/film/plane_names.h"
+#include "tandem/render/pixel_filter_names.h"
 #include "tandem/render/sampler_names.h"
 
 namespace tandem {
@@ -20,6 +21,7 @@ ImageMetadata describe(const RenderJob& job, std::string scene_hash, std::string
     metadata.seed = job.seed;
     metadata.limits = to_string(job.limits);
     metadata.sampler = to_string(job.sampler);
+    metadata.filter = to_string(job.filter);
     metadata.tier = to_string(job.tier);
     metadata.backend = std::move(backend);
     metadata.version = version();
@@ -37,6 +39,7 @@ RenderJob job_of(const ImageMetadata& metadata) {
     job.tier = parse_tier(metadata.tier);
     job.limits = parse_limits(metadata.limits);
     if (!metadata.sampler.empty()) job.sampler = parse_sampler(metadata.sampler);
+    if (!metadata.filter.empty()) job.filter = parse_pixel_filter(metadata.filter);
     job.window = FilmWindow{0, 0, 1, 1};  // a film may be larger than what is rendered of it at once
     check(job);
     job.window.reset();
@@ -56,6 +59,7 @@ std::string difference_of_films(const ImageMetadata& there, const ImageMetadata&
     compare("seed", there.seed, here.seed);
     compare("limits", there.limits, here.limits);
     compare("sampler", there.sampler, here.sampler);
+    compare("filter", there.filter, here.filter);
     compare("tier", there.tier, here.tier);
     compare("planes", there.planes, here.planes);
     compare("target", there.target, here.target);

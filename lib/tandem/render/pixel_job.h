@@ -9,9 +9,10 @@ namespace tandem {
 
 [[nodiscard]] inline PixelJob make_pixel_job(const PreparedCamera& camera, const RenderJob& job) {
     const FilmWindow window = window_of(job);
-    return {.camera = camera_view(camera, job.width, job.height),
+    return {.camera = camera_view(camera, job.width, job.height, reach_of(job.filter)),
             .keys = philox_keys(job.seed),
             .sampler = make_job_sampler(job.sampler, job.seed, job.frame),
+            .filter = job.filter,
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),

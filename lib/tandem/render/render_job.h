@@ -7,6 +7,7 @@
 
 #include "tandem/film/film_planes.h"
 #include "tandem/kernel/path_limits.h"
+#include "tandem/kernel/sampler/pixel_filter.h"
 #include "tandem/kernel/sampler/sampler_kind.h"
 #include "tandem/render/tier.h"
 
@@ -27,6 +28,7 @@ struct RenderJob {
     Tier tier = Tier::strict;  ///< must be the tier that the scene was loaded for
     PathLimits limits{};
     Sampler sampler = Sampler::random;  ///< samplers other than random have no variance plane
+    PixelFilter filter = PixelFilter::box;
     int first_sample = 0;  ///< films of samples [0, a) and [a, b) add up to one of b samples, except for rounding
     PlaneMask planes{};    ///< the planes of the film beside the colour
     /// The pixels to render, if not all. The film that comes back has the window's size, and its pixels have the bits

@@ -1,6 +1,6 @@
 #include "tandem/render/sampler_names.h"
 
-#include "tandem/base/error.h"
+#include "tandem/base/find_name.h"
 
 namespace tandem {
 
@@ -15,13 +15,6 @@ const std::vector<SamplerInfo>& sampler_infos() {
 
 std::string to_string(Sampler sampler) { return sampler_infos()[static_cast<std::size_t>(sampler)].name; }
 
-Sampler parse_sampler(std::string_view name) {
-    std::string known;
-    for (const SamplerInfo& info : sampler_infos()) {
-        if (name == info.name) return info.sampler;
-        known += (known.empty() ? "" : ", ") + std::string(info.name);
-    }
-    throw InputError("there is no sampler '" + std::string(name) + "'; the samplers are " + known);
-}
+Sampler parse_sampler(std::string_view name) { return find_name(sampler_infos(), name, "sampler").sampler; }
 
 }  // namespace tandem

@@ -61,7 +61,7 @@ struct ScatterPlot {
     std::string title;
     Axis x;
     Axis y;
-    std::vector<std::string> shapes;  ///< what a shape means; up to eight
+    std::vector<std::string> shapes;  ///< what a shape means; up to nine
     std::vector<ScatterSeries> series;
     std::vector<ReferenceValue> references;
 };

@@ -20,15 +20,17 @@ constexpr double plot_height = 400;
 constexpr double failure_room = 16;  ///< above the axes, for what failed
 
 /// Paths around the origin, about 9 pixels wide: circle, square, triangle, diamond, plus, triangle upside down,
-/// hourglass, bar.
-constexpr std::array shape_paths = {"M-4.5 0A4.5 4.5 0 1 0 4.5 0A4.5 4.5 0 1 0 -4.5 0Z",
-                                    "M-4 -4H4V4H-4Z",
-                                    "M0 -5L4.8 3.6H-4.8Z",
-                                    "M0 -5.5L5.5 0L0 5.5L-5.5 0Z",
-                                    "M-1.6 -5H1.6V-1.6H5V1.6H1.6V5H-1.6V1.6H-5V-1.6H-1.6Z",
-                                    "M-4.8 -3.6H4.8L0 5Z",
-                                    "M-4.5 -4.5H4.5L-4.5 4.5H4.5Z",
-                                    "M-5.5 -2H5.5V2H-5.5Z"};
+/// hourglass, bar, ring.
+constexpr std::array shape_paths = {
+    "M-4.5 0A4.5 4.5 0 1 0 4.5 0A4.5 4.5 0 1 0 -4.5 0Z",
+    "M-4 -4H4V4H-4Z",
+    "M0 -5L4.8 3.6H-4.8Z",
+    "M0 -5.5L5.5 0L0 5.5L-5.5 0Z",
+    "M-1.6 -5H1.6V-1.6H5V1.6H1.6V5H-1.6V1.6H-5V-1.6H-1.6Z",
+    "M-4.8 -3.6H4.8L0 5Z",
+    "M-4.5 -4.5H4.5L-4.5 4.5H4.5Z",
+    "M-5.5 -2H5.5V2H-5.5Z",
+    "M-5 0A5 5 0 1 0 5 0A5 5 0 1 0 -5 0ZM-2.5 0A2.5 2.5 0 1 1 2.5 0A2.5 2.5 0 1 1 -2.5 0Z"};
 constexpr const char* cross = "M-5 -3.5L-3.5 -5L0 -1.5L3.5 -5L5 -3.5L1.5 0L5 3.5L3.5 5L0 1.5L-3.5 5L-5 3.5L-1.5 0Z";
 
 std::string shape_element(double x, double y, const char* path, const std::string& title) {

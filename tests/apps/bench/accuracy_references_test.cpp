@@ -57,18 +57,30 @@ TEST_F(References, AreReadIfTheyAreThere) {
 }
 
 TEST_F(References, OfAnotherRenderAreRefused) {
-    (void)make();
+    const Vec3f kept = make().reference.first().pixels[40];
     const auto refused = [&] { return input_error([&] { (void)make(); }); };
     options.samples = 5;
-    EXPECT_TRUE(contains(refused(), "samples 4, not 5"));
+    EXPECT_TRUE(contains(refused(), "samples is '4' there, but '5' here"));
     EXPECT_TRUE(contains(refused(), "--rebuild-references"));
     options.samples = 4;
     options.seed = 8;
     EXPECT_TRUE(contains(refused(), "seed"));
     options.seed = 7;
+    options.filter = PixelFilter::tent;
+    EXPECT_NE(make().reference.first().pixels[40].x, kept.x) << "beside those of box, in files of their own";
+    const auto tent = read_metadata(reference_path(scene, options, 'b'));
+    ASSERT_TRUE(tent);
+    EXPECT_EQ(tent->filter, "tent");
+    options.filter = PixelFilter::box;
+    EXPECT_EQ(make().reference.first().pixels[40].x, kept.x);
     scene.scene.materials[0].phong.diffuse.x += 0.1F;
     EXPECT_TRUE(contains(refused(), "scene"));
     const std::string path = reference_path(scene, options, 'a');
+    scene = load_accuracy_scene("named:paper", {12, 10});
+    auto older = read_metadata(path);
+    older->version = "0.0.1";
+    write_image(path, read_image(path).image, *older);
+    (void)make();  // of an earlier version
     std::filesystem::remove(path + ".txt");
     EXPECT_TRUE(contains(refused(), "no metadata"));
     write_file(path, "PF\nnonsense", Durability::written);

@@ -97,6 +97,20 @@ TEST(AccuracySettings, VaryTheSampler) {
     EXPECT_EQ(plan.settings[2].axis, Axis::sampler);
 }
 
+TEST(AccuracySettings, VaryTheFilter) {
+    const SettingPlan plan =
+        plan_settings(load_accuracy_scene("named:paper", {4, 4}).scene, parse_axes({"filter"}, {Tier::strict}));
+    ASSERT_EQ(plan.settings.size(), 4U);
+    EXPECT_EQ(plan.settings[0].filter, PixelFilter::box);
+    EXPECT_TRUE(has_the_image_of_the_baseline(plan.settings[0]));
+    EXPECT_EQ(plan.settings[3].name, "blackman_harris");
+    EXPECT_EQ(plan.settings[3].filter, PixelFilter::blackman_harris);
+    EXPECT_EQ(plan.settings[3].axis, Axis::filter);
+    EXPECT_FALSE(has_the_image_of_the_baseline(plan.settings[3]));
+    ASSERT_EQ(plan.biases.size(), 1U);
+    EXPECT_TRUE(contains(plan.biases[0], "A filter is a choice of the image"));
+}
+
 TEST(AccuracySettings, VaryWhatTheSceneHas) {
     const std::vector<Tier> tiers = {Tier::fast, Tier::strict, Tier::precise};
     const VariedAxes all = parse_axes({"samples", "sampler", "tier", "effects", "depth", "tessellation"}, tiers);
@@ -104,7 +118,7 @@ TEST(AccuracySettings, VaryWhatTheSceneHas) {
     EXPECT_EQ(paper.settings.front().name, "strict");
     EXPECT_EQ(paper.settings.front().axis, Axis::baseline);
     EXPECT_EQ(paper.settings.size(), 8U) << "tiers, samplers and tessellations";
-    EXPECT_EQ(paper.skipped.size(), 4U) << "effects and depth, and what was not asked for";
+    EXPECT_EQ(paper.skipped.size(), 5U) << "effects and depth, and what was not asked for";
     const SettingPlan furnace = plan_settings(load_accuracy_scene("closed:furnace/50", {4, 4}).scene, all);
     std::set<Axis> axes;
     for (const Setting& setting : furnace.settings) axes.insert(setting.axis);
@@ -112,7 +126,7 @@ TEST(AccuracySettings, VaryWhatTheSceneHas) {
     EXPECT_FALSE(axes.contains(Axis::tessellation));
     const SettingPlan alone = plan_settings(load_accuracy_scene("named:paper", {4, 4}).scene, parse_axes({}, tiers));
     EXPECT_EQ(alone.settings.size(), 1U);
-    EXPECT_EQ(alone.skipped.size(), 7U);
+    EXPECT_EQ(alone.skipped.size(), 8U);
     EXPECT_TRUE(contains(input_error([&] { (void)parse_axes({"colour"}, tiers); }), "tessellation"));
     EXPECT_TRUE(contains(input_error([&] { (void)parse_axes({}, {}); }), "fast"));
 }

@@ -21,10 +21,11 @@ using test::tandem_render;
 TEST(CommandLine, HelpAndVersion) {
     const Finished help = tandem_render("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* word : {"SCENE",       "--frames",     "--ppm-text", "--force",        "--shutter-instants",
-                             "--exposure",  "--transfer",   "--aov",      "albedo",         "--env",
-                             "named:paper", "--checkpoint", "--resume",   "--target-error", "--time-budget",
-                             "--plan",      "--denoise",    "verify",     "--sampler",      "sobol_blue"}) {
+    for (const char* word :
+         {"SCENE",      "--frames",       "--ppm-text",    "--force",        "--shutter-instants", "--exposure",
+          "--transfer", "--aov",          "albedo",        "--env",          "named:paper",        "--checkpoint",
+          "--resume",   "--target-error", "--time-budget", "--plan",         "--denoise",          "verify",
+          "--sampler",  "sobol_blue",     "--filter",      "blackman_harris"}) {
         EXPECT_NE(help.printed.find(word), std::string::npos) << word;
     }
     const Finished shown = tandem_render("--version");
@@ -53,6 +54,7 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
           Case{"named:paper --frames 0-1" + out, "frame number"},
           Case{"named:paper --tier best" + out, "best"},
           Case{"named:paper --sampler halton" + out, "the samplers are random, sobol, sobol_blue"},
+          Case{"named:paper --filter sinc" + out, "the filters are box, tent, gaussian, blackman_harris"},
           Case{"named:paper --sampler sobol --target-error 0.1" + out, "use --sampler random"},
           Case{"named:paper --sampler sobol --time-budget 9" + out, "use --sampler random"},
           Case{"named:paper --sampler sobol --aov variance -o '" + folder.file("a.pfm") + "'", "variance"},

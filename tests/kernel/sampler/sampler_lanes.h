@@ -9,14 +9,14 @@ namespace tandem::test {
 /// What a block of numbers depends on, for one lane.
 struct SamplerInput {
     std::uint64_t seed;
-    std::uint32_t kind, frame, dimension;  ///< the same in all lanes
+    std::uint32_t kind, frame, dimension, filter;  ///< the same in all lanes
     std::uint32_t x, y, sample, vertex;
 };
 
 struct SamplerRunner {
     int lanes;
-    /// Four numbers for each lane, and its light_choice().
-    void (*run)(const SamplerInput* in, std::uint32_t (*numbers)[8]);
+    /// Four numbers for each lane, its light_choice(), and the bits of its sample_filter().
+    void (*run)(const SamplerInput* in, std::uint32_t (*numbers)[10]);
 };
 
 SamplerRunner sampler_runner_v2();

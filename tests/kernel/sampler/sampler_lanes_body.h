@@ -8,7 +8,7 @@
 namespace tandem::test {
 
 template <class Real>
-void run_sampler(const SamplerInput* in, std::uint32_t (*numbers)[8]) {
+void run_sampler(const SamplerInput* in, std::uint32_t (*numbers)[10]) {
     using Word = UInt<Real>;
     constexpr int lanes = RealTraits<Real>::lanes;
     Word x(0U), y(0U), sample(0U), vertex(0U);
@@ -25,12 +25,17 @@ void run_sampler(const SamplerInput* in, std::uint32_t (*numbers)[8]) {
     job.film_width = 65536;
     const SampleId<Real> id = sample_of<Real>(job, x, y, sample);
     const auto block = id.block(static_cast<Dimension>(in->dimension), vertex);
+    const Vec2<Real> offset =
+        sample_filter<Real>(static_cast<PixelFilter>(in->filter), to_unit_interval<Real>(block.word[0]),
+                            to_unit_interval<Real>(block.word[1]));
     const auto light = light_choice<Real>(id, vertex);
     for (int i = 0; i < lanes; ++i) {
         for (int k = 0; k < 4; ++k) {
             numbers[i][k] = lane(block.word[k], i);
             numbers[i][4 + k] = lane(light.word[k], i);
         }
+        numbers[i][8] = bits_of(lane(offset.x, i));
+        numbers[i][9] = bits_of(lane(offset.y, i));
     }
 }
 

@@ -16,22 +16,23 @@ void compare(const SamplerRunner& packet) {
             Random random(number);
             SamplerInput in[most_lanes];
             const std::uint64_t seed = random.bits();
-            const std::uint32_t frame = random.below(1000), dimension = random.below(9);
+            const std::uint32_t frame = random.below(1000), dimension = random.below(9), filter = random.below(4);
             for (SamplerInput& lane : in) {
                 lane = {seed,
                         static_cast<std::uint32_t>(info.sampler),
                         frame,
                         dimension,
+                        filter,
                         random.below(65536),
                         random.below(65536),
                         random.below(1U << 24),
                         random.below(600)};
             }
-            std::uint32_t ours[most_lanes][8], want[8];
+            std::uint32_t ours[most_lanes][10], want[10];
             packet.run(in, ours);
             for (int i = 0; i < packet.lanes; ++i) {
                 run_sampler<float>(in + i, &want);
-                for (int k = 0; k < 8; ++k) {
+                for (int k = 0; k < 10; ++k) {
                     ASSERT_EQ(ours[i][k], want[k])
                         << info.name << ", case " << number << ", lane " << i << ", word " << k;
                 }

@@ -34,7 +34,7 @@ struct PixelRays {
     Vec3<Real> dx, dy;  ///< the steps of what changes: of the origin if `orthographic`, else of the direction
     bool orthographic;
 
-    /// The ray through an offset in [0, 1)^2 from the corner.
+    /// The ray through an offset from the corner: in [0, 1)^2, or farther with a wide filter (sampler/pixel_filter.h).
     [[nodiscard]] TANDEM_HD_INLINE Ray<Real> at(const Real& offset_x, const Real& offset_y) const {
         const Vec3<Real> step = dx * offset_x + dy * offset_y;
         return orthographic ? Ray<Real>{origin + step, direction} : Ray<Real>{origin, direction + step};
@@ -62,7 +62,7 @@ TANDEM_HD_INLINE PixelRays<Real> rays_of_pixel(const CameraView& camera, const D
             constant<Real>(camera.direction_dx), constant<Real>(camera.direction_dy), false};
 }
 
-/// Ray through film position (pixel + offset); the offset within the pixel is in [0, 1)^2.
+/// Ray through film position (pixel + offset).
 template <class Real>
 TANDEM_HD_INLINE Ray<Real> camera_ray(const CameraView& camera, const Double<Real>& pixel_x,
                                       const Double<Real>& pixel_y, const Real& offset_x, const Real& offset_y) {

@@ -11,7 +11,7 @@ namespace tandem {
 /// Each has a block of four numbers for every vertex of a path. Samplers other than random make them in pairs of
 /// numbers (first_of_pairs()): what is a point should be a pair.
 enum class Dimension : std::uint32_t {
-    film = 0,         ///< numbers 0 and 1: position within the pixel; at vertex 0 only
+    film = 0,         ///< numbers 0 and 1: position in the filter of the pixel; at vertex 0 only
     scatter = 1,      ///< number 0: choice of a lobe; 1: reflection or refraction; 2: Russian roulette
     lens = 2,         ///< numbers 0 and 1: point on the lens; at vertex 0 only
     area_light = 3,   ///< numbers 0 and 3: which light; 1 and 2: the point on it
