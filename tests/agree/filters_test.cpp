@@ -131,7 +131,7 @@ double rmse(const Film& film, const std::vector<Vec3d>& image, int margin) {
 }
 
 TEST(FilteredImages, AreTheSceneConvolvedWithTheFilter) {
-    constexpr int fine = 8, margin = 2;
+    constexpr int fine = 16, margin = 2;
     const auto cpu = make_backend("cpu");
     const auto scene = cpu->load(prepare(at_the_borders_of_tiles()), Tier::strict);
     RenderJob job = test::small_job();
@@ -139,8 +139,8 @@ TEST(FilteredImages, AreTheSceneConvolvedWithTheFilter) {
     RenderJob large = job;
     large.width *= fine;
     large.height *= fine;
-    large.samples = 64;
-    job.samples = 4096;
+    large.samples = 32;
+    job.samples = 16384;
     const Film detailed = cpu->render(scene, large).film;
     std::vector<Film> films;
     for (const PixelFilterInfo& info : pixel_filter_infos()) {
@@ -152,9 +152,9 @@ TEST(FilteredImages, AreTheSceneConvolvedWithTheFilter) {
         for (const PixelFilterInfo& info : pixel_filter_infos()) {
             const double error = rmse(films[static_cast<std::size_t>(info.filter)], image, margin);
             if (info.filter == expected.filter) {
-                EXPECT_LE(error, 5e-4) << info.name;
+                EXPECT_LE(error, 6e-5) << info.name;
             } else {
-                EXPECT_GE(error, 2e-3) << info.name << " for " << expected.name;
+                EXPECT_GE(error, 1.8e-4) << info.name << " for " << expected.name;
             }
         }
     }
@@ -164,9 +164,9 @@ TEST(FilteredImages, AreTheSceneConvolvedWithTheFilter) {
 TEST(FiltersOnTheGpu, DrawWhatTheCpuDraws) {
     if (!why_unavailable("cuda").empty()) GTEST_SKIP() << why_unavailable("cuda");
     for (const Tier tier : {Tier::strict, Tier::precise}) {
-        test::expect_the_gpu_to_draw_what_the_cpu_draws(jobs_with_filters(tier));
-        test::expect_the_gpu_to_draw_what_the_cpu_draws(prepare(at_the_borders_of_tiles()), "borders of tiles",
-                                                        jobs_with_filters(tier));
+        const std::vector<VariedJob> jobs = jobs_with_filters(tier);
+        test::expect_the_gpu_to_draw_what_the_cpu_draws(prepare(at_the_borders_of_tiles()), "borders of tiles", jobs);
+        test::expect_the_gpu_to_draw_what_the_cpu_draws({jobs.back()});  // linking larger kernels takes seconds each
     }
 }
 
