@@ -131,11 +131,11 @@ class Companions {
 
 }  // namespace certain_detail
 
-/// render_pixel() for a valid view, without effects. `slots`: the solids that its rays may hit.
-template <class Effects, class Real = float, class Tracer>
-TANDEM_HD_INLINE PixelSum<Real> render_certain_pixel(const Tracer& tracer, const CertainView& view,
-                                                     const SceneView& scene, const PixelJob& job, std::uint32_t x,
-                                                     std::uint32_t y, std::uint32_t slots) {
+/// render_certain_pixel() for slots that are few_slots or not.
+template <class Effects, class Real, bool among_few, class Tracer>
+TANDEM_HD_INLINE PixelSum<Real> render_among_slots(const Tracer& tracer, const CertainView& view,
+                                                   const SceneView& scene, const PixelJob& job, std::uint32_t x,
+                                                   std::uint32_t y, std::uint32_t slots) {
     using Light = std::conditional_t<is_fast<Real>, Real, double>;
     return with_directions<Real>(job, x, y, [&](const auto& directions) {
         SampleId<Real> id = sample_of<Real>(job, x, y, job.first_sample);
@@ -150,7 +150,7 @@ TANDEM_HD_INLINE PixelSum<Real> render_certain_pixel(const Tracer& tracer, const
                 id.sample = job.first_sample + sample;
                 const Vec3<Real> direction = directions.of(id);
                 const Vec3f plain = to_plain(direction);
-                const CertainHit hit = certain_hit(view, plain, slots);
+                const CertainHit hit = certain_hit<among_few>(view, plain, slots);
                 if (hit.slot == CertainHit::none) {
                     radiance = gradient(scene.environment, height_of(direction));
                 } else {
@@ -167,6 +167,17 @@ TANDEM_HD_INLINE PixelSum<Real> render_certain_pixel(const Tracer& tracer, const
             ++sample;
         }
     });
+}
+
+/// render_pixel() for a valid view, without effects. `slots`: the solids that its rays may hit.
+template <class Effects, class Real = float, class Tracer>
+TANDEM_HD_INLINE PixelSum<Real> render_certain_pixel(const Tracer& tracer, const CertainView& view,
+                                                     const SceneView& scene, const PixelJob& job, std::uint32_t x,
+                                                     std::uint32_t y, std::uint32_t slots) {
+    if ((slots & view.slots & ~CertainView::few_slots) == 0) {
+        return render_among_slots<Effects, Real, true>(tracer, view, scene, job, x, y, slots);
+    }
+    return render_among_slots<Effects, Real, false>(tracer, view, scene, job, x, y, slots);
 }
 
 }  // namespace tandem
