@@ -6,6 +6,7 @@
 #include <set>
 
 #include "loop_backend.h"
+#include "sequence.h"
 #include "tandem/base/error.h"
 
 namespace tandem::bench {
