@@ -9,11 +9,13 @@
 
 #include "cuda/device_scene.h"
 #include "cuda/film_memory.h"
+#include "cuda/level_kernels.h"
 #include "cuda/plane_kernels.h"
 #include "cuda/scene_kernels.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
 #include "tandem/film/plane_names.h"
+#include "tandem/images/tone_curve.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/render/combined_backend.h"
@@ -32,6 +34,7 @@ using namespace cuda;
 struct FrameMemory {
     Buffer<DeviceMemory> film;
     Buffer<DeviceMemory> one_sample;  ///< one sample of each pixel, if squares of samples are added
+    Buffer<DeviceMemory> levels;      ///< of 8 bits, if they are asked for
     Buffer<DeviceMemory> counters;
     Buffer<PinnedMemory> counters_on_host;
     Event render_start, render_end, download_start, download_end;
@@ -39,12 +42,13 @@ struct FrameMemory {
 
 using FilmPool = Pool<Buffer<FilmMemory>>;
 
-/// Film memory from the pool; the film's pointer keeps the lease.
-std::shared_ptr<Vec3d> film_memory(FilmPool& pool, std::size_t bytes) {
+/// Memory from the pool for a film or its levels; the pointer keeps the lease.
+template <class T>
+std::shared_ptr<T> film_memory(FilmPool& pool, std::size_t bytes) {
     auto buffer = pool.lease();
     buffer->reserve(bytes);
-    auto* sums = reinterpret_cast<Vec3d*>(buffer->data());
-    return {std::move(buffer), sums};
+    auto* start = reinterpret_cast<T*>(buffer->data());
+    return {std::move(buffer), start};
 }
 
 DeviceCounters read(const Buffer<PinnedMemory>& buffer) {
@@ -69,33 +73,75 @@ struct FilmPlace {
     bool is_own = true;  ///< the film is that of the result
 };
 
-class CudaFrame final : public PendingFrame {
+/// A frame that the GPU has begun, until all of it is on the host.
+class Begun {
   public:
-    CudaFrame(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, FilmPlace place,
-              RenderStats stats)
-        : scene_(std::move(scene)), memory_(std::move(memory)), place_(std::move(place)), stats_(std::move(stats)) {}
-
+    Begun(std::shared_ptr<ResidentScene> scene, std::shared_ptr<FrameMemory> memory, RenderStats stats)
+        : scene_(std::move(scene)), memory_(std::move(memory)), stats_(std::move(stats)) {}
+    Begun(Begun&&) = default;
+    Begun& operator=(Begun&&) = delete;
     /// Waits for the GPU, which may still be writing, before the memory returns to its pool.
-    ~CudaFrame() override { (void)cudaEventSynchronize(memory_->download_end.get()); }
+    ~Begun() {
+        if (!memory_) return;
+        (void)cudaEventSynchronize(memory_->render_end.get());  // after an error nothing else may be queued
+        (void)cudaEventSynchronize(memory_->download_end.get());
+    }
 
-    RenderResult get() override {
+    [[nodiscard]] FrameMemory& memory() const { return *memory_; }
+    [[nodiscard]] const DeviceScene& scene() const { return dynamic_cast<const DeviceScene&>(*scene_); }
+    [[nodiscard]] RenderStats& stats() { return stats_; }
+
+    /// Waits, and completes the statistics.
+    void wait() {
         memory_->download_end.wait();
         stats_.seconds.render = seconds_between(memory_->render_start, memory_->render_end);
         stats_.seconds.download = seconds_between(memory_->download_start, memory_->download_end);
-        complete_planes(place_.film, place_.window, dynamic_cast<const DeviceScene&>(*scene_).copies());
         const DeviceCounters counters = read(memory_->counters_on_host);
         stats_.counters += to_render_counters(counters);
         if (stats_.effects.has_any(counted_ray_effects)) {
             for (const auto rays : counters.rays) stats_.rays += rays;
         }
-        return {place_.is_own ? std::move(place_.film) : Film(), std::move(stats_)};
     }
 
   private:
     std::shared_ptr<ResidentScene> scene_;  // its memory is being read
     std::shared_ptr<FrameMemory> memory_;
-    FilmPlace place_;
     RenderStats stats_;
+};
+
+class CudaFrame final : public PendingFrame {
+  public:
+    CudaFrame(Begun begun, FilmPlace place) : place_(std::move(place)), begun_(std::move(begun)) {}
+
+    RenderResult get() override {
+        begun_.wait();
+        complete_planes(place_.film, place_.window, begun_.scene().copies());
+        return {place_.is_own ? std::move(place_.film) : Film(), std::move(begun_.stats())};
+    }
+
+  private:
+    FilmPlace place_;
+    Begun begun_;  // the last: it waits for the GPU before the film's memory returns to its pool
+};
+
+class CudaImage final : public PendingImage {
+  public:
+    CudaImage(Begun begun, std::shared_ptr<const std::byte> memory, int width, int height)
+        : memory_(std::move(memory)), width_(width), height_(height), begun_(std::move(begun)) {}
+
+    ImageResult get() override {
+        begun_.wait();
+        const LevelLayout layout{3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)};
+        unsigned long long nan_values = 0;
+        std::memcpy(&nan_values, memory_.get() + layout.nan_values(), sizeof(nan_values));
+        const auto* levels = reinterpret_cast<const std::uint8_t*>(memory_.get());
+        return {{width_, height_, {levels, layout.values}}, std::move(memory_), nan_values, std::move(begun_.stats())};
+    }
+
+  private:
+    std::shared_ptr<const std::byte> memory_;
+    int width_, height_;
+    Begun begun_;  // the last, as above
 };
 
 class CudaBackend final : public Backend {
@@ -155,6 +201,30 @@ class CudaBackend final : public Backend {
         return start(std::move(scene), job, {std::move(film), {0, 0, window.width, window.height}}, compute());
     }
 
+    [[nodiscard]] std::unique_ptr<PendingImage> submit_image(std::shared_ptr<ResidentScene> scene, const RenderJob& job,
+                                                             const Display& display) override {
+        const DefaultFpEnvironment guard;
+        check(job, scene->tier());
+        check_image(job);
+        Begun begun = begin(std::move(scene), job, compute());
+        FrameMemory& memory = begun.memory();
+        const FilmWindow window = window_of(job);
+        const std::size_t pixels = pixels_of(window);
+        const LevelLayout layout{3 * pixels};
+        memory.levels.reserve(layout.bytes());
+        auto on_host = film_memory<std::byte>(*images_, layout.bytes());
+        const LevelRule rule{static_cast<double>(job.samples), exposure_factor(display), entries_of(display.transfer)};
+        begin_download(memory);
+        find_levels(reinterpret_cast<const Vec3d*>(memory.film.data()), pixels, rule, memory.levels.data(),
+                    download_.get());
+        check(cudaMemcpyAsync(on_host.get(), memory.levels.data(), layout.bytes(), cudaMemcpyDeviceToHost,
+                              download_.get()),
+              "downloading an image");
+        end_download(memory);
+        begun.stats().device_bytes += layout.bytes();
+        return std::make_unique<CudaImage>(std::move(begun), std::move(on_host), window.width, window.height);
+    }
+
     /// Frames of parts take turns in two streams: when the last pixels of one leave multiprocessors idle, the next
     /// frame has begun there.
     [[nodiscard]] std::unique_ptr<PendingFrame> submit_to(Film film, int left, int top,
@@ -179,18 +249,44 @@ class CudaBackend final : public Backend {
     [[nodiscard]] Film make_film(int width, int height, int samples, PlaneMask planes) override {
         (void)selected(gpu_);
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        return {width, height, samples, film_memory(*films_, film_bytes(pixels, planes)), planes};
+        return {width, height, samples, film_memory<Vec3d>(*films_, film_bytes(pixels, planes)), planes};
     }
 
   private:
     /// Starts a frame on a stream, and the download of its film to its place.
     [[nodiscard]] std::unique_ptr<PendingFrame> start(std::shared_ptr<ResidentScene> scene, const RenderJob& job,
                                                       FilmPlace place, Stream& compute) {
+        Begun begun = begin(std::move(scene), job, compute);
+        FrameMemory& memory = begun.memory();
+        begin_download(memory);
+        download_film(reinterpret_cast<Vec3d*>(memory.film.data()), pixels_of(window_of(job)), place);
+        end_download(memory);
+        return std::make_unique<CudaFrame>(std::move(begun), std::move(place));
+    }
+
+    static std::size_t pixels_of(const FilmWindow& window) {
+        return static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
+    }
+
+    /// What is queued for the download from now on starts after the frame's kernels.
+    void begin_download(FrameMemory& memory) {
+        download_.wait_for(memory.render_end);
+        memory.download_start.record(download_.get());
+    }
+    void end_download(FrameMemory& memory) {
+        check(cudaMemcpyAsync(memory.counters_on_host.data(), memory.counters.data(), sizeof(DeviceCounters),
+                              cudaMemcpyDeviceToHost, download_.get()),
+              "downloading counters");
+        memory.download_end.record(download_.get());
+    }
+
+    /// Starts the kernels of a frame on a stream.
+    [[nodiscard]] Begun begin(std::shared_ptr<ResidentScene> scene, const RenderJob& job, Stream& compute) {
         (void)selected(gpu_);
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const FilmWindow window = window_of(job);
-        const std::size_t pixels = static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
+        const std::size_t pixels = pixels_of(window);
         const std::size_t bytes = film_bytes(pixels, job.planes);
         const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? pixels * sizeof(Vec3d) : 0;
         constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
@@ -233,15 +329,6 @@ class CudaBackend final : public Backend {
         }
         memory->render_end.record(compute.get());
 
-        // Start the download
-        download_.wait_for(memory->render_end);
-        memory->download_start.record(download_.get());
-        download_film(device_sums, pixels, place);
-        check(cudaMemcpyAsync(memory->counters_on_host.data(), memory->counters.data(), counter_bytes,
-                              cudaMemcpyDeviceToHost, download_.get()),
-              "downloading counters");
-        memory->download_end.record(download_.get());
-
         const KernelFacts facts = kernel_facts(kernel.code.function());
         RenderStats stats;
         if (!effects.has_any(counted_ray_effects)) stats.rays = pixels * pixel_job.samples;
@@ -258,7 +345,19 @@ class CudaBackend final : public Backend {
         stats.variant = fmt::format("sm_{}{}, {}, {}", properties_.major, properties_.minor,
                                     structure_names[static_cast<int>(structure_of(resident.view()))],
                                     linked.kernel != nullptr ? "for the scene" : variants[variant].name);
-        return std::make_unique<CudaFrame>(std::move(scene), std::move(memory), std::move(place), std::move(stats));
+        return {std::move(scene), std::move(memory), std::move(stats)};
+    }
+
+    /// The table of levels, uploaded by the first call; null for linear levels, which need none.
+    const std::uint32_t* entries_of(TransferFunction transfer) {
+        if (transfer == TransferFunction::linear) return nullptr;
+        if (level_entries_.capacity() == 0) {
+            const SrgbLevels::Entries& entries = srgb_level_entries();
+            level_entries_.reserve(sizeof(entries));
+            check(cudaMemcpy(level_entries_.data(), entries.data(), sizeof(entries), cudaMemcpyHostToDevice),
+                  "uploading the levels of sRGB");
+        }
+        return reinterpret_cast<const std::uint32_t*>(level_entries_.data());
     }
 
     /// Starts the download of sums and planes. What is a whole film is one copy.
@@ -382,12 +481,14 @@ class CudaBackend final : public Backend {
     bool culls_pixels_;
     std::optional<SceneKernels> kernels_;
     cudaDeviceProp properties_{};
-    Stream upload_, download_;
+    Stream upload_;
+    Stream download_{Stream::Priority::first};  ///< so that levels are found while the next frame is rendered
     std::array<Stream, 2> computes_;
     std::size_t turn_ = 0;  ///< the stream that submit_to() took last
     std::shared_ptr<Pool<SceneMemory>> scenes_ = std::make_shared<Pool<SceneMemory>>();
     std::shared_ptr<Pool<FrameMemory>> frames_ = std::make_shared<Pool<FrameMemory>>();
-    std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>();
+    std::shared_ptr<FilmPool> films_ = std::make_shared<FilmPool>(), images_ = std::make_shared<FilmPool>();
+    Buffer<DeviceMemory> level_entries_;
     Buffer<DeviceMemory> rays_, sources_, ends_, candidates_, hits_, wide_t_, counters_;
     Buffer<PinnedMemory> counters_on_host_;
     Event trace_start_, trace_end_;

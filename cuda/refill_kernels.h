@@ -21,6 +21,7 @@ inline constexpr std::size_t most_queued_rays = std::size_t{1} << 31;
 /// Resident blocks per multiprocessor of find_candidates().
 template <class Real, class Tracer>
 inline constexpr unsigned int refill_blocks = std::is_same_v<Real, double>                     ? 6
+                                              : Tracer::kinds == PrimitiveKinds::triangle      ? 9
                                               : (Tracer::kinds & ~PrimitiveKinds::bodies) != 0 ? 8
                                                                                                : 10;
 
@@ -71,8 +72,10 @@ class SharedStack {
 inline constexpr int least_walking = 26;
 /// Entries wait until so many threads have one, or hardly any other walks.
 inline constexpr int entry_batch = 6;
+/// Nodes that a thread visits before the warp counts its threads again.
+inline constexpr int steps_per_count = 2;
 /// Rays that a warp takes from the queue at a time.
-inline constexpr std::uint32_t queue_chunk = 128;
+inline constexpr std::uint32_t queue_chunk = 64;
 
 /// Walks with all rays, and keeps the candidates of each in job.candidates.
 template <class Real, Ask ask, class Tracer>
@@ -166,9 +169,12 @@ __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
         // Walk
         const int least = can_refill ? least_walking : 1;
         do {
-            if (!walk.is_done() && !walk.is_at_entry()) {
-                const NodeRay node_ray = {query.origin, inverse_direction};
-                walk.template descend<false>(stack, tracer.bvh, node_ray, 0.0F, limit);
+#pragma unroll
+            for (int step = 0; step < steps_per_count; ++step) {
+                if (!walk.is_done() && !walk.is_at_entry()) {
+                    const NodeRay node_ray = {query.origin, inverse_direction};
+                    walk.template descend<false>(stack, tracer.bvh, node_ray, 0.0F, limit);
+                }
             }
             const int waiting = __popc(__ballot_sync(all, walk.is_at_entry()));
             const int moving = __popc(__ballot_sync(all, !walk.is_done() && !walk.is_at_entry()));

@@ -32,7 +32,15 @@ class Event {
 
 class Stream {
   public:
-    Stream() { check(cudaStreamCreateWithFlags(&handle_, cudaStreamNonBlocking), "creating a stream"); }
+    enum class Priority { usual, first };
+
+    /// `first`: kernels start before those that wait in other streams.
+    explicit Stream(Priority priority = Priority::usual) {
+        int least = 0, greatest = 0;
+        check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "asking for the priorities of streams");
+        const int number = priority == Priority::first ? greatest : least;
+        check(cudaStreamCreateWithPriority(&handle_, cudaStreamNonBlocking, number), "creating a stream");
+    }
     ~Stream() { (void)cudaStreamDestroy(handle_); }
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;

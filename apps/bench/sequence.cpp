@@ -16,13 +16,26 @@
 #include "pictures.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/images/image_io.h"
+#include "tandem/images/png_encoder.h"
 #include "tandem/report/format_number.h"
 
 namespace tandem::bench {
 
 namespace {
 
-/// Threads that process a queue of bounded length. finish() rethrows the first exception of a task.
+/// Work on one file, in parts that different threads may do at the same time.
+struct FileWork {
+    std::size_t parts = 1;
+    std::function<void(std::size_t part)> encode;
+    std::function<void()> finish{};  ///< once, when all parts are done
+    // of the queue:
+    std::size_t next = 0, done = 0;
+    bool failed = false;
+};
+
+/// Threads that process a queue of bounded length. All of them work on the file at its front. finish() rethrows the
+/// first exception.
 class Workers {
   public:
     explicit Workers(int count) : capacity_(static_cast<std::size_t>(count) + 2) {
@@ -33,17 +46,18 @@ class Workers {
     Workers& operator=(const Workers&) = delete;
 
     /// Waits while the queue is full; returns the seconds spent waiting.
-    double add(std::function<void()> task) {
+    double add(FileWork work) {
+        auto added = std::make_shared<FileWork>(std::move(work));
         const Stopwatch watch;
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return queue_.size() < capacity_; });
         const double waited = watch.seconds();
-        queue_.push_back(std::move(task));
+        queue_.push_back(std::move(added));
         changed_.notify_all();
         return waited;
     }
 
-    /// Waits for all tasks; returns the seconds that the threads worked.
+    /// Waits for all files; returns the seconds that the threads worked.
     double finish() {
         stop();
         if (error_) std::rethrow_exception(error_);
@@ -61,32 +75,45 @@ class Workers {
     }
 
     void run() {
+        std::unique_lock lock(mutex_);
         while (true) {
-            std::unique_lock lock(mutex_);
             changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
             if (queue_.empty()) return;
-            std::function<void()> task = std::move(queue_.front());
-            queue_.pop_front();
-            changed_.notify_all();
-            lock.unlock();
-            const Stopwatch watch;
-            std::exception_ptr error;
-            try {
-                task();
-            } catch (...) {
-                error = std::current_exception();
+            std::shared_ptr<FileWork> work = queue_.front();
+            const std::size_t part = work->next++;
+            if (work->next == work->parts) {
+                queue_.pop_front();
+                changed_.notify_all();
             }
-            task = nullptr;  // the film goes back to the backend before the next one is asked for
-            const double seconds = watch.seconds();
+            timed(lock, *work, [&] { work->encode(part); });
+            if (++work->done == work->parts && !work->failed && work->finish) timed(lock, *work, work->finish);
+            // memory of images returns to the backend outside the lock
+            lock.unlock();
+            work.reset();
             lock.lock();
-            busy_ += seconds;
-            if (error && !error_) error_ = error;
         }
+    }
+
+    /// Calls f without the lock.
+    void timed(std::unique_lock<std::mutex>& lock, FileWork& work, const std::function<void()>& f) {
+        lock.unlock();
+        const Stopwatch watch;
+        std::exception_ptr error;
+        try {
+            f();
+        } catch (...) {
+            error = std::current_exception();
+        }
+        const double seconds = watch.seconds();
+        lock.lock();
+        busy_ += seconds;
+        work.failed = work.failed || error;
+        if (error && !error_) error_ = error;
     }
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<std::function<void()>> queue_;
+    std::deque<std::shared_ptr<FileWork>> queue_;
     std::size_t capacity_;
     bool stopping_ = false;
     double busy_ = 0;
@@ -94,10 +121,34 @@ class Workers {
     std::vector<std::jthread> threads_;
 };
 
+/// A frame of which the film or the levels are wanted.
 struct InFlight {
     std::int32_t frame;
-    std::unique_ptr<PendingFrame> pending;
+    std::unique_ptr<PendingFrame> film;
+    std::unique_ptr<PendingImage> image;
 };
+
+/// The file of an image.
+FileWork work_on(ImageResult image, const std::string& folder, SequenceOutput output, const RenderJob& job,
+                 const std::string& backend, const Display& display) {
+    const bool png = output == SequenceOutput::png;
+    const ImageMetadata metadata =
+        as_written(describe_picture(job, backend), image.image.width, image.image.height,
+                   png ? ImageFormat::png : ImageFormat::ppm_text, {.ppm_text = true, .display = display});
+    const std::string path = fmt::format("{}/frame-{:04}.{}", folder, job.frame, png ? "png" : "ppm");
+    FileWork work;
+    if (png) {
+        const auto encoder = std::make_shared<PngEncoder>(image.image, metadata, WriteOptions().png_level);
+        work.parts = encoder->part_count();
+        work.encode = [encoder, pixels = std::move(image.memory)](std::size_t part) { encoder->encode(part); };
+        work.finish = [encoder, path] { write_file(path, encoder->finish(), Durability::written); };
+    } else {
+        work.encode = [image = std::move(image), metadata, path](std::size_t) {
+            write_file(path, encode_ppm_text(image.image, metadata), Durability::written);
+        };
+    }
+    return work;
+}
 
 }  // namespace
 
@@ -109,22 +160,28 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
     times.encoders = options.encoders > 0 ? options.encoders : std::max(1, cores - 1);
     Workers encoders(times.encoders);
     std::deque<InFlight> flying;
+    const bool writes = options.output != SequenceOutput::none;
+    const std::string name = backend.name();
 
     const auto take_oldest = [&] {
         InFlight oldest = std::move(flying.front());
         flying.pop_front();
-        RenderResult result = oldest.pending->get();
-        times.render += result.stats.seconds.render;
-        times.download += result.stats.seconds.download;
-        times.counters += result.stats.counters;
-        if (options.output == SequenceOutput::none) return;
+        ImageResult image;
+        RenderStats stats;
+        if (writes) {
+            image = oldest.image->get();
+            stats = std::move(image.stats);
+        } else {
+            stats = oldest.film->get().stats;
+        }
+        times.render += stats.seconds.render;
+        times.download += stats.seconds.download;
+        times.counters += stats.counters;
+        if (!writes) return;
         RenderJob done = job;
         done.frame = static_cast<std::uint32_t>(oldest.frame);
-        times.blocked += encoders.add([film = std::move(result.film), done, &options, &scene, &backend]() mutable {
-            const bool png = options.output == SequenceOutput::png;
-            write_picture(fmt::format("{}/frame-{:04}.{}", options.folder, done.frame, png ? "png" : "ppm"),
-                          std::move(film), describe_picture(done, backend.name()), scene.display);
-        });
+        times.blocked +=
+            encoders.add(work_on(std::move(image), options.folder, options.output, done, name, scene.display));
     };
 
     const Stopwatch wall;
@@ -135,11 +192,20 @@ SequenceTimes render_sequence(Backend& backend, const Scene& scene, const Render
         RenderJob this_job = job;
         this_job.frame = static_cast<std::uint32_t>(frame);
         times.host += host.seconds();
-        flying.push_back({frame, backend.submit(resident, this_job)});
+        InFlight started{frame, {}, {}};
+        if (writes) {
+            started.image = backend.submit_image(resident, this_job, scene.display);
+        } else {
+            started.film = backend.submit(resident, this_job);
+        }
+        flying.push_back(std::move(started));
+        if (frame == options.frames.first) times.head = wall.seconds();
     }
     while (!flying.empty()) take_oldest();
+    const double arrived = wall.seconds();
     times.encode = encoders.finish();
     times.wall = wall.seconds();
+    times.tail = times.wall - arrived;
     return times;
 }
 
@@ -159,10 +225,12 @@ std::string describe_bottleneck(const SequenceTimes& times) {
         "Rendering takes {} of {} wall-clock time ({}). Other work runs at the same time: encoding and writing files, "
         "{} "
         "on {} threads; copies to the host, {}; preparing and loading scenes, {}; the main thread waited {} for an "
-        "encoder. The bottleneck is {}.",
+        "encoder. The first frame was submitted after {}, and {} passed after the last one was on the host, so {} "
+        "passed between the frames. The bottleneck is {}.",
         format_seconds(times.render), format_seconds(times.wall), format_share(times.render_share()),
         format_seconds(times.encode), times.encoders, format_seconds(times.download), format_seconds(times.host),
-        format_seconds(times.blocked), most.name);
+        format_seconds(times.blocked), format_seconds(times.head), format_seconds(times.tail),
+        format_seconds(std::max(0.0, times.wall - times.render - times.head - times.tail)), most.name);
 }
 
 }  // namespace tandem::bench

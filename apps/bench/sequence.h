@@ -14,8 +14,8 @@ inline constexpr double least_render_share = 0.95;
 
 enum class SequenceOutput {
     none,      ///< films are discarded
-    png,       ///< one file per frame, by the encoding threads
-    ppm_text,  ///< P3, the same way
+    png,       ///< one file per frame, by the encoding threads together, from levels that the backend finds
+    ppm_text,  ///< P3, one thread a file
 };
 
 struct SequenceOptions {
@@ -36,6 +36,8 @@ struct SequenceTimes {
     double host = 0;     ///< prepare and load, on the thread that drives the backend
     double encode = 0;   ///< over all encoding threads
     double blocked = 0;  ///< time in which the driving thread waited for an encoder
+    double head = 0;     ///< part of `wall`: until the first frame was submitted
+    double tail = 0;     ///< part of `wall`: since the last frame was on the host
     RenderCounters counters;
 
     /// Share of the wall-clock time in which the backend rendered.

@@ -7,8 +7,11 @@
 
 #include "support/backend_list.h"
 #include "support/random.h"
+#include "support/thrown_message.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/images/tone_curve.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
@@ -48,6 +51,39 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
         EXPECT_EQ(result.stats.counters, RenderCounters{}) << name;
         EXPECT_EQ(result.stats.rays, result.film.pixel_count() * 5) << name;
     }
+}
+
+TEST_P(FilmBits, GiveTheLevelsOfAnImage) {
+    RenderJob one = job();
+    for (const char* name : {"paper", "mixed/500"}) {
+        const auto scene = load(prepare(named_scene(name), {.frame = 11, .camera = ""}));
+        std::vector<std::unique_ptr<PendingImage>> pending;
+        std::vector<ToneMapped> expected;
+        for (const std::optional<FilmWindow>& window :
+             {std::optional<FilmWindow>(), std::optional<FilmWindow>({3, 5, 61, 33})}) {
+            one.window = window;
+            for (const Display& display : {Display{TransferFunction::srgb, 0},
+                                           {TransferFunction::srgb, 1.3},
+                                           {TransferFunction::linear, 0},
+                                           {TransferFunction::linear, -0.7}}) {
+                pending.push_back(backend_->submit_image(scene, one, display));
+                expected.push_back(tone_map(backend_->render(scene, one).film, display));
+            }
+        }
+        for (std::size_t i = pending.size(); i-- > 0;) {  // fetched in another order
+            const ImageResult result = pending[i]->get();
+            EXPECT_EQ(result.image.width, expected[i].image.width) << name << ", image " << i;
+            EXPECT_EQ(result.image.height, expected[i].image.height) << name << ", image " << i;
+            EXPECT_TRUE(std::ranges::equal(result.image.values, expected[i].image.values)) << name << ", image " << i;
+            EXPECT_EQ(result.nan_values, 0U);
+            EXPECT_EQ(result.stats.counters, RenderCounters{}) << name;
+            EXPECT_EQ(result.stats.rays, pixel_count(result.image) * 5) << name;
+        }
+    }
+    one.planes = FilmPlane::depth;
+    const auto scene = load(prepare(named_scene("paper"), {}));
+    const auto message = test::thrown_message<InputError>([&] { (void)backend_->submit_image(scene, one, Display()); });
+    EXPECT_NE(message.find("depth"), std::string::npos) << message;
 }
 
 TEST_P(FilmBits, AreTheSameForFramesInFlightAndFramesAlone) {

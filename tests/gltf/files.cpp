@@ -120,7 +120,7 @@ TestFile mesh_file() {
 
 TestFile pictured_mesh_file() {
     TestFile file = mesh_file();
-    const Bytes bytes = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    const Bytes bytes = encode_png(ByteImage{2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
     const std::string png(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     file.json["images"] = {{{"uri", "data:image/png;base64," + base64(png)}}};
     file.json["textures"] = {{{"source", 0}}};

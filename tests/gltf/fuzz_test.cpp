@@ -141,7 +141,7 @@ TEST_F(Fuzz, Meshes) { run(test::mesh_file().glb(), ".glb", 3000); }
 
 TEST_F(Fuzz, Textures) {
     test::TestFile file = test::small_file();
-    const Bytes png = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    const Bytes png = encode_png(ByteImage{2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
     const std::string text(reinterpret_cast<const char*>(png.data()), png.size());
     const std::size_t accessor = file.add_bytes("SCALAR", 5121, png.size(), text);
     file.json["images"] = {{{"mimeType", "image/png"}, {"bufferView", file.json["accessors"][accessor]["bufferView"]}}};

@@ -15,7 +15,7 @@ using test::TestFile;
 
 /// A PNG of 2 x 1 pixels: (255, 0, 0) and (0, 188, 255).
 std::string small_png() {
-    const Bytes bytes = encode_png({2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
+    const Bytes bytes = encode_png(ByteImage{2, 1, {255, 0, 0, 0, 188, 255}}, {}, 1);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 const std::vector<std::uint32_t> small_texels = {0xFF0000FFU, 0xFFFFBC00U};

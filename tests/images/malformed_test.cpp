@@ -66,7 +66,7 @@ TEST(MalformedPfm, SaysWhatIsWrong) {
 
 TEST(MalformedPng, AForgedSizeAllocatesNothing) {
     // the header of a 1 x 1 image made to claim 65535 x 16384 pixels; the checksum is mended
-    Bytes bytes = encode_png({1, 1, {1, 2, 3}}, {}, 1);
+    Bytes bytes = encode_png(ByteImage{1, 1, {1, 2, 3}}, {}, 1);
     const std::uint8_t forged[] = {0, 0, 0xFF, 0xFF, 0, 0, 0x40, 0};
     std::memcpy(&bytes[16], forged, sizeof(forged));
     std::uint32_t crc = ~0U;

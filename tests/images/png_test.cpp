@@ -2,12 +2,16 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <atomic>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "images/sample_images.h"
 #include "support/random.h"
+#include "tandem/images/fast_deflate.h"
+#include "tandem/images/png_encoder.h"
 #include "tandem/images/tone_curve.h"
 
 namespace tandem {
@@ -51,9 +55,10 @@ void expect_libpng_reads(const ByteImage& image, int level, const std::string& w
 }
 
 TEST(Png, IsReadByLibpngsSimplifiedInterface) {
-    // 21845 pixels make a row of 64 KiB, the size of a band of rows; noise is longer compressed than it was
-    constexpr std::pair<int, int> sizes[] = {{1, 1},   {2, 1},     {1, 2},     {1, 30001}, {30001, 1},
-                                             {19, 40}, {21845, 2}, {21846, 3}, {1021, 97}};
+    // 21845 pixels make a row of 64 KiB, the size of a band of rows, and 87381 one of 256 KiB, the size of a strip;
+    // noise is longer compressed than it was
+    constexpr std::pair<int, int> sizes[] = {{1, 1},     {2, 1},     {1, 2},     {1, 30001},  {30001, 1}, {19, 40},
+                                             {21845, 2}, {21846, 3}, {21845, 9}, {1021, 400}, {87381, 3}, {87382, 2}};
     for (const auto& [width, height] : sizes) {
         const std::string size = std::to_string(width) + " x " + std::to_string(height);
         for (const int level : {0, 1, 2}) {
@@ -77,6 +82,36 @@ TEST(Png, KeepsPicturesOfRunsAndNoise) {
         image.values.resize(3 * pixel_count(image));
         expect_libpng_reads(image, 1, "Random(" + std::to_string(picture) + ")");
     }
+}
+
+TEST(Png, HasTheSameBytesHoweverManyThreadsEncodeIt) {
+    const ByteImage image = sample_bytes(1000, 901);
+    const ImageMetadata metadata = sample_metadata(1000, 901);
+    for (const int level : {1, 2}) {
+        const Bytes expected = encode_png(image, metadata, level);
+        for (const std::size_t thread_count : {1, 2, 5}) {
+            PngEncoder encoder(image, metadata, level);
+            std::atomic<std::size_t> rest = encoder.part_count();  // from the last part to the first
+            {
+                std::vector<std::jthread> threads;
+                for (std::size_t i = 0; i < thread_count; ++i) {
+                    threads.emplace_back([&] {
+                        for (std::size_t part = rest--; part >= 1 && part <= encoder.part_count(); part = rest--) {
+                            encoder.encode(part - 1);
+                        }
+                    });
+                }
+            }
+            EXPECT_TRUE(encoder.finish() == expected) << thread_count << " threads, level " << level;
+        }
+    }
+}
+
+TEST(Png, HasPartsIfItIsLarge) {
+    EXPECT_EQ(PngEncoder(sample_bytes(20, 20), {}, 1).part_count(), 1U);
+    const ByteImage large = sample_bytes(1000, 900);  // 2.7 MB
+    EXPECT_EQ(PngEncoder(large, {}, 1).part_count(), FastDeflate::is_available() ? 11U : 1U);
+    EXPECT_EQ(PngEncoder(large, {}, 2).part_count(), 1U);
 }
 
 TEST(Png, IsSmallIfItIsSmooth) {
@@ -159,7 +194,7 @@ TEST(Png, WithoutATransferFunctionInItsMetadataIsLinear) {
     ImageMetadata older = sample_metadata(1, 1);
     older.transfer = "";
     older.exposure_stops = 0;
-    const DecodedImage decoded = decode_png(encode_png({1, 1, {51, 0, 255}}, older, 1), "memory");
+    const DecodedImage decoded = decode_png(encode_png(ByteImage{1, 1, {51, 0, 255}}, older, 1), "memory");
     EXPECT_TRUE(same_bits(decoded.image, {1, 1, {{0.2F, 0, 1}}}));
 }
 

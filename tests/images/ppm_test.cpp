@@ -85,7 +85,7 @@ TEST_P(Ppm, TheSmallestImage) {
 INSTANTIATE_TEST_SUITE_P(Formats, Ppm, testing::Values(ImageFormat::ppm_text, ImageFormat::ppm));
 
 TEST(PpmText, IsOnePixelALine) {
-    const Bytes bytes = encode_ppm_text({2, 1, {0, 10, 255, 9, 99, 100}}, {});
+    const Bytes bytes = encode_ppm_text(ByteImage{2, 1, {0, 10, 255, 9, 99, 100}}, {});
     const std::string_view text = text_of(bytes);
     EXPECT_TRUE(text.starts_with("P3\n#")) << text;
     EXPECT_TRUE(text.ends_with("\n2 1\n255\n0 10 255\n9 99 100\n")) << text;

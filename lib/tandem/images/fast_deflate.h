@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// Compresses a stream in zlib's format (RFC 1950), piece by piece, in constant memory.
+/// Compresses pieces of a stream of deflate (RFC 1951), each in constant memory.
 class FastDeflate {
   public:
     /// Whether this build has ISA-L; the other functions need it.
@@ -19,9 +19,18 @@ class FastDeflate {
     FastDeflate(const FastDeflate&) = delete;
     FastDeflate& operator=(const FastDeflate&) = delete;
 
+    /// Begins a piece, which knows nothing of bytes before it.
+    void begin();
+
+    /// What follows the bytes: more of this piece; another piece, which starts at a whole byte; or nothing.
+    enum class Then { more, piece, end };
+
     /// Takes the next bytes, less than 4 GiB, and returns those that are ready, which may be none; they are valid until
-    /// the next call. `is_last`: ends the stream. Throws std::runtime_error with ISA-L's number of the error.
-    [[nodiscard]] std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes, bool is_last);
+    /// the next call. Throws std::runtime_error with ISA-L's number of the error.
+    [[nodiscard]] std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes, Then then);
+
+    /// The checksum Adler-32 (RFC 1950) of bytes behind those with the checksum `before`, which is 1 for none.
+    [[nodiscard]] static std::uint32_t adler32(std::uint32_t before, std::span<const std::uint8_t> bytes);
 
   private:
     struct State;

@@ -17,23 +17,26 @@ struct FastDeflate::State {
 
 bool FastDeflate::is_available() { return true; }
 
-FastDeflate::FastDeflate() : state_(new State) {
+FastDeflate::FastDeflate() : state_(new State) { begin(); }
+
+FastDeflate::~FastDeflate() = default;
+
+void FastDeflate::begin() {
     isal_zstream& stream = state_->stream;
     isal_deflate_init(&stream);
-    stream.gzip_flag = IGZIP_ZLIB;
+    stream.gzip_flag = IGZIP_DEFLATE;
     stream.level = 1;
     stream.level_buf = state_->level_memory.data();
     stream.level_buf_size = static_cast<std::uint32_t>(state_->level_memory.size());
 }
 
-FastDeflate::~FastDeflate() = default;
-
-std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t> bytes, bool is_last) {
+std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t> bytes, Then then) {
     isal_zstream& stream = state_->stream;
     std::vector<std::uint8_t>& ready = state_->ready;
     stream.next_in = const_cast<std::uint8_t*>(bytes.data());  // ISA-L only reads it
     stream.avail_in = static_cast<std::uint32_t>(bytes.size());
-    stream.end_of_stream = is_last ? 1 : 0;
+    stream.end_of_stream = then == Then::end ? 1 : 0;
+    stream.flush = then == Then::piece ? FULL_FLUSH : NO_FLUSH;
     std::size_t size = 0;
     while (true) {
         stream.next_out = ready.data() + size;
@@ -45,6 +48,10 @@ std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t
         if (stream.avail_out > 0) return {ready.data(), size};
         ready.resize(2 * ready.size());
     }
+}
+
+std::uint32_t FastDeflate::adler32(std::uint32_t before, std::span<const std::uint8_t> bytes) {
+    return isal_adler32(before, bytes.data(), bytes.size());
 }
 
 }  // namespace tandem

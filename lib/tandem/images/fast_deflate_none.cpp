@@ -13,6 +13,10 @@ FastDeflate::FastDeflate() { throw std::logic_error("this build of Tandem has no
 
 FastDeflate::~FastDeflate() = default;
 
-std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t>, bool) { return {}; }
+void FastDeflate::begin() {}
+
+std::span<const std::uint8_t> FastDeflate::compress(std::span<const std::uint8_t>, Then) { return {}; }
+
+std::uint32_t FastDeflate::adler32(std::uint32_t before, std::span<const std::uint8_t>) { return before; }
 
 }  // namespace tandem

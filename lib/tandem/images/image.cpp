@@ -11,7 +11,7 @@ std::size_t area(int width, int height) { return static_cast<std::size_t>(width)
 }  // namespace
 
 std::size_t pixel_count(const FloatImage& image) { return area(image.width, image.height); }
-std::size_t pixel_count(const ByteImage& image) { return area(image.width, image.height); }
+std::size_t pixel_count(const ByteImageView& image) { return area(image.width, image.height); }
 
 FloatImage film_to_image(const Film& film) {
     const DefaultFpEnvironment guard;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tandem/film/film.h"
@@ -24,9 +25,21 @@ struct ByteImage {
     std::vector<std::uint8_t> values;  ///< red, green, blue of each pixel: 3 * width * height
 };
 
+/// The values of a ByteImage in memory of somebody else.
+struct ByteImageView {
+    ByteImageView() = default;
+    ByteImageView(int columns, int rows, std::span<const std::uint8_t> levels)
+        : width(columns), height(rows), values(levels) {}
+    ByteImageView(const ByteImage& image) : ByteImageView(image.width, image.height, image.values) {}
+
+    int width = 0;
+    int height = 0;
+    std::span<const std::uint8_t> values;  ///< red, green, blue of each pixel: 3 * width * height
+};
+
 /// width * height.
 [[nodiscard]] std::size_t pixel_count(const FloatImage& image);
-[[nodiscard]] std::size_t pixel_count(const ByteImage& image);
+[[nodiscard]] std::size_t pixel_count(const ByteImageView& image);
 
 /// An image of the means of all pixels (Film::mean()).
 [[nodiscard]] FloatImage film_to_image(const Film& film);

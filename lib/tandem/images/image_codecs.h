@@ -30,9 +30,9 @@ struct DecodedImage {
 };
 
 /// PPM "P3": decimal text, one pixel per line, as in the paper. Metadata are comments.
-[[nodiscard]] Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata);
+[[nodiscard]] Bytes encode_ppm_text(const ByteImageView& image, const ImageMetadata& metadata);
 /// PPM "P6": three bytes per pixel. Metadata are comments.
-[[nodiscard]] Bytes encode_ppm(const ByteImage& image, const ImageMetadata& metadata);
+[[nodiscard]] Bytes encode_ppm(const ByteImageView& image, const ImageMetadata& metadata);
 /// P3 and P6 with a largest value of up to 65535. The display is that of the metadata; without metadata, value /
 /// largest value is linear.
 [[nodiscard]] DecodedImage decode_ppm(std::span<const std::byte> bytes, const std::string& name);
@@ -57,8 +57,8 @@ struct DecodedImage {
 ///   level 3                   17 ms  92 kB    91 ms 768 kB
 ///   level 6                   37 ms  64 kB   270 ms 684 kB
 /// Choosing the filter row by row takes about 20 ms more and saves at most a sixth. ISA-L takes a seventh of the time
-/// of runs only, for files of that size (docs/performance.md).
-[[nodiscard]] Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level);
+/// of runs only, for files of that size (docs/performance.md), and several threads may share it (png_encoder.h).
+[[nodiscard]] Bytes encode_png(const ByteImageView& image, const ImageMetadata& metadata, int level);
 /// Every PNG; grey and palettes become RGB, alpha is dropped. The display is that of the metadata. Without metadata, a
 /// file with the chunk sRGB is sRGB, and in any other value / largest value is linear, whatever its other tags say.
 [[nodiscard]] DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& name);

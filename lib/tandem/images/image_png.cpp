@@ -10,6 +10,7 @@
 #include "tandem/images/decode_checks.h"
 #include "tandem/images/fast_deflate.h"
 #include "tandem/images/image_codecs.h"
+#include "tandem/images/png_encoder.h"
 #include "tandem/images/texel_rows.h"
 #include "tandem/images/texels.h"
 #include "tandem/images/tone_curve.h"
@@ -73,7 +74,7 @@ struct PngWriter : PngFile {
     PngWriter& operator=(const PngWriter&) = delete;
 
     /// What comes before the pixels.
-    bool write_header(const ByteImage& image, const std::vector<png_text>& texts, bool is_srgb) {
+    bool write_header(const ByteImageView& image, const std::vector<png_text>& texts, bool is_srgb) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                      PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -228,42 +229,9 @@ std::vector<png_bytep> rows_of(Byte* values, std::size_t row_bytes, std::size_t 
     return rows;
 }
 
-/// A row as the filter "sub" leaves it, behind the filter's number: each byte less that of the pixel before.
-void filter_row(const std::uint8_t* row, std::size_t bytes, std::uint8_t* to) {
-    constexpr std::size_t pixel = 3;
-    to[0] = PNG_FILTER_VALUE_SUB;
-    std::copy_n(row, pixel, to + 1);
-    for (std::size_t i = pixel; i < bytes; ++i) to[1 + i] = static_cast<std::uint8_t>(row[i] - row[i - pixel]);
-}
-
-/// The pixels, compressed by ISA-L in bands of rows that stay in the cache, and the end of the file.
-bool write_bands(PngWriter& writer, const ByteImage& image) {
-    const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width);
-    const auto height = static_cast<std::size_t>(image.height);
-    const std::size_t most_rows = std::max<std::size_t>(1, (std::size_t{1} << 16) / row_bytes);
-    FastDeflate deflate;
-    std::vector<std::uint8_t> band(most_rows * (1 + row_bytes));
-    for (std::size_t first = 0; first < height; first += most_rows) {
-        const std::size_t rows = std::min(most_rows, height - first);
-        for (std::size_t y = 0; y < rows; ++y) {
-            filter_row(&image.values[(first + y) * row_bytes], row_bytes, &band[y * (1 + row_bytes)]);
-        }
-        const auto ready = deflate.compress(std::span(band).first(rows * (1 + row_bytes)), first + rows == height);
-        if (!ready.empty() && !writer.write_chunk("IDAT", ready)) return false;
-    }
-    return writer.write_chunk("IEND", {});
-}
-
-bool write_pixels(PngWriter& writer, const ByteImage& image, int level) {
-    if (level == 1 && FastDeflate::is_available()) return write_bands(writer, image);
-    const auto rows =
-        rows_of(image.values.data(), 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
-    return writer.write_rows(rows, level);
-}
-
-}  // namespace
-
-Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int level) {
+/// Encodes an image whose pixels `write` passes to libpng; false if that fails.
+template <class Write>
+Bytes encode(const ByteImageView& image, const ImageMetadata& metadata, const Write& write) {
     MetadataText text = to_text(metadata);
     std::vector<png_text> texts;
     for (auto& [key, value] : text) {
@@ -276,10 +244,41 @@ Bytes encode_png(const ByteImage& image, const ImageMetadata& metadata, int leve
     }
     PngWriter writer;
     const bool is_srgb = metadata.transfer == to_string(TransferFunction::srgb);
-    if (!writer.write_header(image, texts, is_srgb) || !write_pixels(writer, image, level)) {
+    if (!writer.write_header(image, texts, is_srgb) || !write(writer)) {
         throw std::runtime_error(std::string("libpng cannot encode the image: ") + writer.error.data());
     }
     return std::move(writer.written);
+}
+
+}  // namespace
+
+PngEncoder::PngEncoder(const ByteImageView& image, ImageMetadata metadata, int level)
+    : image_(image), metadata_(std::move(metadata)), level_(level) {
+    if (level == 1 && FastDeflate::is_available()) strips_.emplace(image);
+}
+
+void PngEncoder::encode(std::size_t part) {
+    if (strips_) return strips_->compress(part);
+    const auto rows = rows_of(image_.values.data(), 3 * static_cast<std::size_t>(image_.width),
+                              static_cast<std::size_t>(image_.height));
+    whole_ = tandem::encode(image_, metadata_, [&](PngWriter& writer) { return writer.write_rows(rows, level_); });
+}
+
+Bytes PngEncoder::finish() {
+    if (!strips_) return std::move(whole_);
+    strips_->finish();
+    return tandem::encode(image_, metadata_, [&](PngWriter& writer) {
+        for (std::size_t strip = 0; strip < strips_->count(); ++strip) {
+            if (!writer.write_chunk("IDAT", strips_->bytes(strip))) return false;
+        }
+        return writer.write_chunk("IEND", {});
+    });
+}
+
+Bytes encode_png(const ByteImageView& image, const ImageMetadata& metadata, int level) {
+    PngEncoder encoder(image, metadata, level);
+    for (std::size_t part = 0; part < encoder.part_count(); ++part) encoder.encode(part);
+    return encoder.finish();
 }
 
 DecodedImage decode_png(std::span<const std::byte> bytes, const std::string& name) {

@@ -32,7 +32,7 @@ struct DecimalTable {
 
 constexpr DecimalTable decimals;
 
-std::string header(const char* magic, const ByteImage& image, const ImageMetadata& metadata) {
+std::string header(const char* magic, const ByteImageView& image, const ImageMetadata& metadata) {
     std::string text = fmt::format("{}\n", magic);
     for (const auto& [key, value] : to_text(metadata)) text += fmt::format("# {}: {}\n", key, value);
     return text + fmt::format("{} {}\n255\n", image.width, image.height);
@@ -78,7 +78,7 @@ void fill(DecodedImage& decoded, std::uint32_t most, const std::string& name, Ne
 
 }  // namespace
 
-Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata) {
+Bytes encode_ppm_text(const ByteImageView& image, const ImageMetadata& metadata) {
     const std::string head = header("P3", image, metadata);
     constexpr std::size_t longest_pixel = 12;
     // every entry of the table writes four characters
@@ -97,7 +97,7 @@ Bytes encode_ppm_text(const ByteImage& image, const ImageMetadata& metadata) {
     return bytes;
 }
 
-Bytes encode_ppm(const ByteImage& image, const ImageMetadata& metadata) {
+Bytes encode_ppm(const ByteImageView& image, const ImageMetadata& metadata) {
     const std::string head = header("P6", image, metadata);
     Bytes bytes(head.size() + image.values.size());
     std::memcpy(bytes.data(), head.data(), head.size());

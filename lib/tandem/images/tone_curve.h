@@ -7,16 +7,17 @@
 
 #include "tandem/images/display.h"
 #include "tandem/images/image.h"
+#include "tandem/math/tone_levels.h"
 
 namespace tandem {
-
-/// Clamps to [0, 1]; a NaN gives 0.
-[[nodiscard]] inline float clamp_to_unit(float linear) { return linear > 0 ? (linear < 1 ? linear : 1.0F) : 0.0F; }
 
 /// The level, from 0 to 255, that is nearest to 255 times the transfer function of the clamped value: correctly rounded
 /// for every float. No border between levels of sRGB is a float; for `linear` one float is a tie, 0.5 (127.5), and it
 /// is rounded up to 128. Infinities are clamped; a NaN gives 0.
 [[nodiscard]] std::uint8_t to_level(float linear, TransferFunction transfer);
+
+/// The table of SrgbLevels, made by the first call.
+[[nodiscard]] const SrgbLevels::Entries& srgb_level_entries();
 
 struct ToneMapped {
     ByteImage image;

@@ -1,7 +1,12 @@
 #include "tandem/render/backend.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "tandem/base/error.h"
+#include "tandem/film/plane_names.h"
+#include "tandem/images/tone_curve.h"
 #include "tandem/render/copy_window.h"
 
 namespace tandem {
@@ -27,7 +32,36 @@ class CopiedFrame final : public PendingFrame {
     int left_, top_;
 };
 
+/// Renders a film, and finds its levels on the host.
+class MappedFrame final : public PendingImage {
+  public:
+    MappedFrame(std::unique_ptr<PendingFrame> inner, const Display& display)
+        : inner_(std::move(inner)), display_(display) {}
+
+    ImageResult get() override {
+        RenderResult result = inner_->get();
+        const auto mapped = std::make_shared<const ToneMapped>(tone_map(result.film, display_));
+        return {mapped->image, mapped, mapped->nan_values, std::move(result.stats)};
+    }
+
+  private:
+    std::unique_ptr<PendingFrame> inner_;
+    Display display_;
+};
+
 }  // namespace
+
+void check_image(const RenderJob& job) {
+    if (job.planes.empty()) return;
+    throw InputError(fmt::format("an image of 8 bits holds only the colour, not the planes {}; render a film",
+                                 to_string(job.planes)));
+}
+
+std::unique_ptr<PendingImage> Backend::submit_image(std::shared_ptr<ResidentScene> scene, const RenderJob& job,
+                                                    const Display& display) {
+    check_image(job);
+    return std::make_unique<MappedFrame>(submit(std::move(scene), job), display);
+}
 
 std::unique_ptr<PendingFrame> Backend::submit_to(Film film, int left, int top, std::shared_ptr<ResidentScene> scene,
                                                  const RenderJob& job) {

@@ -11,6 +11,8 @@
 
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
+#include "tandem/images/display.h"
+#include "tandem/images/image.h"
 #include "tandem/render/gpu_choice.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/specialise.h"
@@ -63,6 +65,25 @@ class PendingFrame {
     [[nodiscard]] virtual RenderResult get() = 0;
 };
 
+/// A frame in levels of 8 bits: what tone_map() makes of its film.
+struct ImageResult {
+    ByteImageView image;
+    std::shared_ptr<const void> memory;  ///< of the values; it returns to the backend when the last pointer goes
+    std::size_t nan_values = 0;          ///< how many values were NaN and became 0
+    RenderStats stats;
+};
+
+/// A frame in levels that is being rendered.
+class PendingImage {
+  public:
+    virtual ~PendingImage() = default;
+    /// Waits for the image. Call once.
+    [[nodiscard]] virtual ImageResult get() = 0;
+};
+
+/// Throws InputError if a job for submit_image() has planes.
+void check_image(const RenderJob& job);
+
 class Backend {
   public:
     virtual ~Backend() = default;
@@ -85,6 +106,11 @@ class Backend {
     /// Starts a frame. A backend may render several at a time; call get() of each in any order.
     [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                                const RenderJob& job) = 0;
+
+    /// Starts a frame of which only the levels are wanted. A GPU finds them itself, and its film stays there. Throws
+    /// InputError if the job has planes. By default tone_map() takes the film of submit().
+    [[nodiscard]] virtual std::unique_ptr<PendingImage> submit_image(std::shared_ptr<ResidentScene> scene,
+                                                                     const RenderJob& job, const Display& display);
 
     [[nodiscard]] RenderResult render(std::shared_ptr<ResidentScene> scene, const RenderJob& job) {
         return submit(std::move(scene), job)->get();

@@ -86,17 +86,21 @@ TANDEM_HD_INLINE void meet(const CertainBox& box, std::uint32_t slot, const Vec3
 }  // namespace certain_detail
 
 /// `slots`: the solids that the ray may hit, as in ConstantMemoryStructure; best the same for all threads of a warp.
+/// `among_few`: they are in few_slots.
+template <bool among_few = false>
 TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& direction, std::uint32_t slots) {
     constexpr std::uint32_t all_spheres = (1U << CertainView::max_spheres) - 1;
+    constexpr std::uint32_t spheres = among_few ? CertainView::few_spheres : CertainView::max_spheres;
+    constexpr std::uint32_t boxes = among_few ? CertainView::few_boxes : CertainView::max_boxes;
     slots &= view.slots;
     certain_detail::Nearest nearest;
     const float d2 = loose_dot(direction, direction);
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
-    for (std::uint32_t i = 0; i < CertainView::max_spheres; ++i) {
+    for (std::uint32_t i = 0; i < spheres; ++i) {
         // the end is looked for now and then alone, because that costs as much as a slot
-        if (i % 4 == 0 && (slots & (all_spheres << i & all_spheres)) == 0) break;
+        if (!among_few && i % 4 == 0 && (slots & (all_spheres << i & all_spheres)) == 0) break;
         if ((slots >> i & 1U) != 0) certain_detail::meet(view.spheres[i], i, direction, d2, nearest);
     }
     if ((slots >> CertainView::max_spheres) != 0) {
@@ -105,9 +109,12 @@ TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& di
 #if TANDEM_ON_DEVICE
 #pragma unroll
 #endif
-        for (std::uint32_t i = 0; i < CertainView::max_boxes; ++i) {
+        for (std::uint32_t i = 0; i < boxes; ++i) {
             const std::uint32_t slot = CertainView::max_spheres + i;
-            if ((slots >> slot & 1U) != 0) certain_detail::meet(view.boxes[i], slot, inverse, d2, nearest);
+            // if there is but one, it is there
+            if (boxes == 1 || (slots >> slot & 1U) != 0) {
+                certain_detail::meet(view.boxes[i], slot, inverse, d2, nearest);
+            }
         }
     }
     return nearest.result();

@@ -50,6 +50,9 @@ struct CertainLight {
 struct CertainView {
     static constexpr std::uint32_t max_spheres = 8, max_boxes = 4, max_lights = 4;
     static constexpr std::uint32_t max_shininess = 1024;
+    /// The first slots, for which there is code that asks for no others.
+    static constexpr std::uint32_t few_spheres = 4, few_boxes = 1;
+    static constexpr std::uint32_t few_slots = ((1U << few_spheres) - 1) | ((1U << few_boxes) - 1) << max_spheres;
 
     CertainSphere spheres[max_spheres];
     CertainBox boxes[max_boxes];
