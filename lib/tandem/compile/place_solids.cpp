@@ -173,8 +173,8 @@ void Solids::list_parts() {
         for (const Geometry& geometry : scene_.nodes[node].geometry) {
             if (std::holds_alternative<MeshShape>(geometry.shape)) continue;
             const bool is_masked_out = !masked_out.empty() && masked_out[geometry.material];
-            parts_.push_back({&geometry, node, solids_, is_masked_out, has_orientation(geometry.material)});
-            solids_ += std::max<std::size_t>(1, geometry.instances.size());
+            parts_.push_back({{&geometry, node, solids_}, is_masked_out, has_orientation(geometry.material)});
+            solids_ += instance_count(geometry);
         }
     }
 }
@@ -245,25 +245,13 @@ bool Solids::has_orientation(std::uint32_t material) const {
 /// be placed.
 template <class Sink>
 void Solids::visit_range(std::size_t begin, std::size_t end, const Sink& sink) const {
-    const auto is_after = [](std::size_t number, const Part& part) { return number < part.first; };
-    auto part = std::upper_bound(parts_.begin(), parts_.end(), begin, is_after) - 1;
-    for (std::size_t number = begin; number < end; ++part) {
-        const Transform& world_from_node = world_from_node_[part->node];
-        const std::vector<Trs>& instances = part->geometry->instances;
-        const std::size_t end_of_part =
-            std::min(end, part->first + std::max<std::size_t>(1, part->geometry->instances.size()));
+    visit_instances(parts_, world_from_node_, begin, end, [&](const Part& part, const Transform& world_from_object) {
         try {
-            for (; number < end_of_part; ++number) {
-                if (instances.empty()) {
-                    visit(*part, world_from_node, sink);
-                } else {
-                    visit(*part, world_from_node * to_transform(instances[number - part->first]), sink);
-                }
-            }
+            visit(part, world_from_object, sink);
         } catch (const InputError& error) {
-            throw SolidError(error, part->geometry);
+            throw SolidError(error, part.geometry);
         }
-    }
+    });
 }
 
 template <class Sink>

@@ -10,7 +10,7 @@
 
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/compile/render_origin.h"
-#include "tandem/scene/scene.h"
+#include "tandem/scene/instances.h"
 
 namespace tandem {
 
@@ -43,10 +43,7 @@ class Solids {
     static constexpr int kinds = 4;
 
     /// The spheres or boxes of a geometry. They are numbered in the order of nodes, geometries and instances.
-    struct Part {
-        const Geometry* geometry;
-        std::size_t node;
-        std::size_t first;     ///< number of its first solid
+    struct Part : InstanceRange {
         bool is_masked_out;    ///< by its material
         bool has_orientation;  ///< a picture, or grooves
     };

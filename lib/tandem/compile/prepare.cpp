@@ -100,7 +100,7 @@ class Preparer {
         std::size_t count = 0, spheres = 0, boxes = 0;
         for (const Node& node : scene_.nodes) {
             for (const Geometry& geometry : node.geometry) {
-                const std::size_t instances = std::max<std::size_t>(1, geometry.instances.size());
+                const std::size_t instances = instance_count(geometry);
                 count += primitives_in(geometry.shape) * instances;
                 if (std::holds_alternative<SphereShape>(geometry.shape)) spheres += instances;
                 if (std::holds_alternative<BoxShape>(geometry.shape)) boxes += instances;
