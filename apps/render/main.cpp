@@ -325,8 +325,9 @@ int render(int argc, char** argv) {
     backend_options.specialise = parse_specialise(words.specialise);
     choose_gpus(backend_options, words.gpus, "tandem-render");
     set_thread_limit(backend_options.threads);
-    const std::unique_ptr<Backend> backend = make_backend_ahead(words.backend, backend_options);
+    const std::unique_ptr<BackendAhead> backend = make_backend_ahead(words.backend, backend_options);
     const OpenedScene opened = open_scene(words.source, aspect_of({width, height}));
+    backend->check_so_far();
     if (!command.quiet) print_import_notes(opened, words.source);
     const Scene& scene = opened.scene;
     sequence.frames = frames_of(words, scene);

@@ -1,5 +1,6 @@
 #include "tandem/backends/backend_ahead.h"
 
+#include <chrono>
 #include <future>
 #include <utility>
 
@@ -9,11 +10,15 @@ namespace tandem {
 
 namespace {
 
-class BackendAhead final : public Backend {
+class Ahead final : public BackendAhead {
   public:
-    BackendAhead(const std::string& name, const BackendOptions& options)
+    Ahead(const std::string& name, const BackendOptions& options)
         : made_(std::async(std::launch::async,
                            [name, options] { return std::shared_ptr<Backend>(make_backend(name, options)); })) {}
+
+    void check_so_far() const override {
+        if (made_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) (void)get();
+    }
 
     [[nodiscard]] std::string name() const override { return get().name(); }
     [[nodiscard]] Capabilities capabilities() const override { return get().capabilities(); }
@@ -47,8 +52,8 @@ class BackendAhead final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_backend_ahead(const std::string& name, const BackendOptions& options) {
-    return std::make_unique<BackendAhead>(name, options);
+std::unique_ptr<BackendAhead> make_backend_ahead(const std::string& name, const BackendOptions& options) {
+    return std::make_unique<Ahead>(name, options);
 }
 
 }  // namespace tandem
