@@ -70,11 +70,13 @@ bool groups_pay(const PreparedScene& scene, Tier tier) {
 
 class CpuScene final : public ResidentScene {
   public:
-    CpuScene(const PreparedScene& scene, Tier tier, RTCDevice device, const TierKernels& kernels)
-        : ResidentScene(tier), scene_(scene.copies.empty() ? scene : without_copies(scene)), copies_(scene.copies) {
+    CpuScene(std::shared_ptr<const PreparedScene> scene, Tier tier, RTCDevice device, const TierKernels& kernels)
+        : ResidentScene(tier),
+          copies_(scene->copies),
+          scene_(copies_.empty() ? std::move(scene) : std::make_shared<PreparedScene>(without_copies(*scene))) {
         const Stopwatch watch;
-        const auto count = static_cast<std::uint32_t>(primitive_count(scene_));
-        view_ = {tandem::view(scene_), {}, nullptr, {}, nullptr};
+        const auto count = static_cast<std::uint32_t>(primitive_count(*scene_));
+        view_ = {tandem::view(*scene_), {}, nullptr, {}, nullptr};
         if (count > loop_limit) build(device, kernels, count);
         times_.build = watch.seconds();
     }
@@ -85,7 +87,7 @@ class CpuScene final : public ResidentScene {
         times.build += group_seconds_;
         return times;
     }
-    [[nodiscard]] const PreparedScene& prepared() const { return scene_; }
+    [[nodiscard]] const PreparedScene& prepared() const { return *scene_; }
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
@@ -94,10 +96,10 @@ class CpuScene final : public ResidentScene {
     /// called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, const TierKernels& kernels,
                                                            tbb::task_arena& arena) {
-        if (!groups_pay(scene_, tier())) return view_;
+        if (!groups_pay(*scene_, tier())) return view_;
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
-            const std::size_t count = primitive_count(scene_);
+            const std::size_t count = primitive_count(*scene_);
             try {
                 require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
                 arena.execute([&] { groups_.emplace(device, kernels, view_); });
@@ -130,11 +132,11 @@ class CpuScene final : public ResidentScene {
         view_.first_id[our_primitives] = 0;
         // Embree counts floats of faces in 32 bits
         const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
-        const bool own_faces = tier() != Tier::fast || scene_.triangles.size() > most || scene_.quads.size() > most;
+        const bool own_faces = tier() != Tier::fast || scene_->triangles.size() > most || scene_->quads.size() > most;
         add_primitives(device, kernels, own_faces ? count : count - quads - triangles);
         if (!own_faces) {
-            add_faces(device, kernels, embree_triangles, scene_.triangles);
-            add_faces(device, kernels, embree_quads, scene_.quads);
+            add_faces(device, kernels, embree_triangles, scene_->triangles);
+            add_faces(device, kernels, embree_quads, scene_->quads);
         }
         rtcCommitScene(embree_.get());
         check_embree(device, "building the acceleration structure");
@@ -190,8 +192,8 @@ class CpuScene final : public ResidentScene {
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
     }
 
-    PreparedScene scene_;
     std::vector<PrimitiveCopy> copies_;  ///< removed from the scene
+    std::shared_ptr<const PreparedScene> scene_;
     CpuSceneView view_;
     EmbreeScene embree_;
     PhaseTimes times_;
@@ -231,9 +233,17 @@ class CpuBackend final : public Backend {
     }
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        // without its copies it is another scene, which CpuScene makes
+        if (!scene.copies.empty()) return load_shared({std::shared_ptr<void>(), &scene}, tier);
+        return load_shared(std::make_shared<PreparedScene>(scene), tier);
+    }
+
+    [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(std::shared_ptr<const PreparedScene> scene,
+                                                             Tier tier) override {
         const DefaultFpEnvironment guard;
         std::shared_ptr<CpuScene> result;
-        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels(tier)); });
+        arena_.execute(
+            [&] { result = std::make_shared<CpuScene>(std::move(scene), tier, device_.get(), set_.kernels(tier)); });
         return result;
     }
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include "tandem/base/memory.h"
+#include "tandem/base/parallel.h"
 #include "tandem/kernel/traversal/collapse.h"
 
 namespace tandem::cuda {
@@ -28,16 +30,40 @@ class Layout {
         bytes_ += (array.size() * sizeof(T) + alignment - 1) / alignment * alignment;
     }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
-    /// Copies the arrays to `staging`, and sets the pointers to their addresses on the GPU.
-    void place(std::byte* staging, std::byte* device) const {
-        for (const Part& part : parts_) {
-            if (part.bytes > 0) std::memcpy(staging + part.offset, part.data, part.bytes);
-            part.point(device + part.offset);
+    /// Sets the pointers to the addresses of the arrays on the GPU.
+    void point(std::byte* device) const {
+        for (const Part& part : parts_) part.point(device + part.offset);
+    }
+    /// Copies the arrays to the GPU, in pieces: one is filled while the one before is under way. So the page-locked
+    /// memory, which takes long to make, is small beside a large scene.
+    void upload(SceneMemory& memory, Stream& stream) const {
+        memory.staging.reserve(bytes_ <= piece_bytes ? bytes_ : 2 * piece_bytes);
+        std::size_t turn = 0;
+        for (std::size_t begin = 0; begin < bytes_; begin += piece_bytes, turn ^= 1) {
+            const std::size_t bytes = std::min(piece_bytes, bytes_ - begin);
+            std::byte* const staging = memory.staging.data() + turn * piece_bytes;
+            memory.piece_copied[turn].wait();  // at once if there was none
+            for_each_chunk(bytes, bytes_at_once, [&](const Chunk& chunk) { fill(staging, begin, chunk); });
+            check(cudaMemcpyAsync(memory.device.data() + begin, staging, bytes, cudaMemcpyHostToDevice, stream.get()),
+                  "uploading the scene");
+            memory.piece_copied[turn].record(stream.get());
         }
     }
 
   private:
-    static constexpr std::size_t alignment = 256;
+    static constexpr std::size_t alignment = 256, piece_bytes = std::size_t{1} << 24, bytes_at_once = 1U << 20;
+
+    /// Copies what the parts have of a range of `staging`, whose first byte is byte `begin` of all.
+    void fill(std::byte* staging, std::size_t begin, const Chunk& range) const {
+        for (const Part& part : parts_) {
+            const std::size_t from = std::max(part.offset, begin + range.begin);
+            const std::size_t to = std::min(part.offset + part.bytes, begin + range.end);
+            if (from >= to) continue;
+            std::memcpy(staging + (from - begin), static_cast<const std::byte*>(part.data) + (from - part.offset),
+                        to - from);
+        }
+    }
+
     struct Part {
         std::size_t offset;
         const void* data;
@@ -109,8 +135,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     bytes_ = layout.bytes();
     require_room(*memory_, bytes_, primitive_count(scene));
     memory_->device.reserve(bytes_);
-    memory_->staging.reserve(bytes_);
-    layout.place(memory_->staging.data(), memory_->device.data());
+    layout.point(memory_->device.data());
 
     if (fits_constant_memory(host)) {
         view_.few = make_constant_memory_tracer(host, view_.scene);
@@ -118,11 +143,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     }
 
     memory_->upload_start.record(stream.get());
-    if (bytes_ > 0) {
-        check(cudaMemcpyAsync(memory_->device.data(), memory_->staging.data(), bytes_, cudaMemcpyHostToDevice,
-                              stream.get()),
-              "uploading the scene");
-    }
+    layout.upload(*memory_, stream);
     memory_->upload_end.record(stream.get());
     if (primitive_count(scene) > loop_limit) {
         const auto count = static_cast<std::uint32_t>(primitive_count(scene));

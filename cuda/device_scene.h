@@ -11,11 +11,13 @@
 
 namespace tandem::cuda {
 
-/// Memory for one scene: on the GPU, its arrays and its BVH; and page-locked staging memory on the host.
+/// Memory for one scene: on the GPU, its arrays and its BVH; and page-locked staging memory on the host, for two pieces
+/// of a large one.
 struct SceneMemory {
     Buffer<DeviceMemory> device;
     BuildMemory bvh;
     Buffer<PinnedMemory> staging;
+    Event piece_copied[2];
     Event upload_start;
     Event upload_end;
     Event build_end;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "baseline/naive_renderer.h"
+#include "first_picture.h"
 #include "frame_timing.h"
 #include "gpu_scale.h"
 #include "output.h"
@@ -140,6 +141,23 @@ class TargetRun {
         result.measured = count / build.median;
         result.shown = format_count(result.measured) + " spheres/s, build " + format_summary(build);
         result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    /// Seconds from the start of tandem-render until its picture is written.
+    void gpu_first_picture(TargetResult& result) {
+        const std::string program = renderer_beside();
+        if (program.empty()) {
+            result.why_not = "not run: there is no tandem-render beside this program";
+            return;
+        }
+        BenchmarkRow row =
+            time_first_picture({program, ten_million_spheres, "cuda", options_.folder, options_.repetitions});
+        row.label = result.id;
+        const Summary start = summarize(row.seconds);
+        add_rows({std::move(row)});
+        result.measured = start.median;
+        result.shown = format_summary(start);
+        result.verdict = result.measured <= result.required ? Verdict::met : Verdict::missed;
     }
 
     /// The least efficiency of several GPUs among two scenes.
@@ -357,6 +375,11 @@ std::vector<Target> all_targets(int cores) {
                              1, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));
     targets.push_back(target("gpu-build", "Ten million spheres, GPU (H200), build: at least 1 G spheres/s", 1e9, 1,
                              [](TargetRun& run, TargetResult& result) { run.gpu_build(result); }));
+    targets.push_back(target(
+        "gpu-first-picture",
+        "Ten million spheres, GPU: at most 2 s from the start of tandem-render until its picture is written and it has "
+        "ended, with kernels in the cache",
+        2, 1, [](TargetRun& run, TargetResult& result) { run.gpu_first_picture(result); }));
     targets.push_back(target(
         "gpu-share", "Paper's animation on the GPU with PNG files: at least 95 % of the wall-clock time is kernel time",
         least_render_share, 1, [](TargetRun& run, TargetResult& result) { run.render_share(result); }));

@@ -17,8 +17,9 @@
 #include "render/render_command.h"
 #include "render/scene_source.h"
 #include "render/verify_main.h"
-#include "tandem/backends/make_backend.h"
+#include "tandem/backends/backend_ahead.h"
 #include "tandem/base/error.h"
+#include "tandem/base/parallel.h"
 #include "tandem/base/version.h"
 #include "tandem/effects/names.h"
 #include "tandem/film/plane_names.h"
@@ -239,7 +240,8 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
            "if not given")
         ->type_name("all|N|LIST");
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
-    app.add_option("--threads", backend.threads, "threads of the CPU backends; 0 is one per core")
+    app.add_option("--threads", backend.threads,
+                   "threads of the CPU backends and of what prepares scenes; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
@@ -330,15 +332,17 @@ int render(int argc, char** argv) {
     command.scene = words.source.scene;
     sequence.camera = words.source.camera;
     sequence.scene_source = to_json(words.source);
+    backend_options.specialise = parse_specialise(words.specialise);
+    choose_gpus(backend_options, words.gpus, "tandem-render");
+    set_thread_limit(backend_options.threads);
+    const std::unique_ptr<BackendAhead> backend = make_backend_ahead(words.backend, backend_options);
     const OpenedScene opened = open_scene(words.source, aspect_of({width, height}));
+    backend->check_so_far();
     if (!command.quiet) print_import_notes(opened, words.source);
     const Scene& scene = opened.scene;
     sequence.frames = frames_of(words, scene);
     if (!words.plan) check_output(sequence);
     if (!command.quiet && !words.plan) print_ignored_display_options(sequence);
-    backend_options.specialise = parse_specialise(words.specialise);
-    choose_gpus(backend_options, words.gpus, "tandem-render");
-    const std::unique_ptr<Backend> backend = make_backend(words.backend, backend_options);
     if (words.plan) return run_plan(command, scene, *backend);
     return run_render(command, scene, *backend, interrupted);
 }

@@ -121,9 +121,21 @@ EncodedImage encode_frame(Film film, FrameRecord& record, const FileChoice& choi
     }
 }
 
-/// Hashes, encodes and writes a film in a thread of its own.
-FrameRecord write_frame(Film film, FrameRecord record, FileChoice choice) {
+using SceneHash = std::shared_future<std::string>;
+
+/// The hash of a scene. That of ten million spheres takes a tenth of a second and is computed by another thread, which
+/// keeps the scene meanwhile; others are computed when they are asked for.
+SceneHash start_hash(std::shared_ptr<const PreparedScene> scene) {
+    constexpr std::size_t many = 100'000;
+    const auto policy = primitive_count(*scene) > many ? std::launch::async : std::launch::deferred;
+    const auto hash = [scene = std::move(scene)]() mutable { return scene_hash(*std::exchange(scene, nullptr)); };
+    return std::async(policy, hash).share();
+}
+
+/// Hashes, encodes and writes a film in a thread of its own. `scene`: the hash for its metadata, unless that has it.
+FrameRecord write_frame(Film film, FrameRecord record, SceneHash scene, FileChoice choice) {
     LapWatch watch;
+    if (scene.valid()) record.metadata.scene_hash = scene.get();
     record.metadata.film_sha256 = film_hash(film);
     record.seconds.hash = watch.lap();
     const EncodedImage encoded = encode_frame(std::move(film), record, choice);
@@ -191,6 +203,7 @@ class Sequence {
         std::unique_ptr<PendingFrame> pending;
         EffectMask on_host;                  ///< FramePlan::effects
         std::optional<Backdrop> backdrop{};  ///< if the film decides the exposure
+        SceneHash scene{};                   ///< unless the record has it
     };
 
     void start(std::int32_t frame) {
@@ -200,9 +213,9 @@ class Sequence {
         if (options_.denoiser) job.planes |= denoiser_planes;
         PrepareOptions prepare_options = {.frame = frame, .camera = options_.camera, .effects = effects_};
         LapWatch watch;
-        std::optional<PreparedScene> prepared;
+        std::shared_ptr<const PreparedScene> prepared;
         if (std::exchange(work_is_open_, false)) {
-            prepared = choose_work(prepare_options);
+            prepared = std::make_shared<PreparedScene>(choose_work(prepare_options));
             if (effects_ != options_.effects) prepared.reset();
             prepare_options.effects = effects_;
         }
@@ -219,8 +232,10 @@ class Sequence {
         } else if (is_blurred(plan)) {
             start_blurred(plan, job, std::move(record));
         } else {
-            if (!prepared) prepared = prepare(scene_, plan.instants.front().prepare);
-            start_still(*prepared, plan, job, std::move(record), watch);
+            if (!prepared) {
+                prepared = std::make_shared<PreparedScene>(prepare(scene_, plan.instants.front().prepare));
+            }
+            start_still(std::move(prepared), plan, job, std::move(record), watch);
         }
     }
 
@@ -243,22 +258,24 @@ class Sequence {
         return prepared;
     }
 
-    void start_still(const PreparedScene& prepared, const FramePlan& plan, const RenderJob& job, FrameRecord record,
-                     LapWatch& watch) {
-        record.metadata = metadata_of(job, scene_hash(prepared));
+    void start_still(std::shared_ptr<const PreparedScene> prepared, const FramePlan& plan, const RenderJob& job,
+                     FrameRecord record, LapWatch& watch) {
+        const SceneHash hash = start_hash(prepared);
+        const bool waits_for_hash = resident_ || may_be_finished(record);
+        record.metadata = metadata_of(job, waits_for_hash ? hash.get() : std::string());
         record.seconds.prepare = watch.lap();
-        if (is_finished(record)) return;
+        if (waits_for_hash && is_finished(record)) return;
         while (with_backend_ >= most_with_backend) pass_to_writer();
-        make_resident(prepared, job.tier, record);
+        std::optional<Backdrop> behind = backdrop(*prepared, job);
+        make_resident(std::move(prepared), hash, job.tier, record);
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
-        started_.push_back({std::move(record), std::move(pending), plan.effects, backdrop(prepared, job)});
+        started_.push_back({std::move(record), std::move(pending), plan.effects, std::move(behind), hash});
     }
 
     /// Renders a frame with motion blur at once: two instants at a time, and no other frame.
     void start_blurred(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
-        std::error_code ignored;
-        if (!options_.force && std::filesystem::exists(record.file, ignored)) {
+        if (may_be_finished(record)) {
             record.metadata = metadata_of(job, frame_hash(scene_, plan));
             if (is_finished(record)) return;
         }
@@ -314,6 +331,12 @@ class Sequence {
         while (with_backend_ > 0) pass_to_writer();
     }
 
+    /// Whether there is a file, which may be that of the frame.
+    [[nodiscard]] bool may_be_finished(const FrameRecord& record) const {
+        std::error_code ignored;
+        return !options_.force && std::filesystem::exists(record.file, ignored);
+    }
+
     /// Whether the file exists already, so that the frame need not be rendered.
     bool is_finished(FrameRecord& record) {
         if (options_.force) return false;
@@ -322,7 +345,7 @@ class Sequence {
         record.metadata = std::move(*finished);
         if (exposure_is_open_) close_exposure(record.metadata.exposure_stops);
         record.skipped = true;
-        started_.push_back({std::move(record), nullptr, {}});
+        started_.push_back({std::move(record), nullptr, {}, {}, {}});
         return true;
     }
 
@@ -350,10 +373,11 @@ class Sequence {
     }
 
     /// Loads the scene unless it is loaded already: in a still scene only the random numbers change.
-    void make_resident(const PreparedScene& prepared, Tier tier, FrameRecord& record) {
-        if (resident_ && resident_hash_ == record.metadata.scene_hash) return;
-        resident_ = backend_.load(prepared, tier);
-        resident_hash_ = record.metadata.scene_hash;
+    void make_resident(std::shared_ptr<const PreparedScene> prepared, const SceneHash& hash, Tier tier,
+                       FrameRecord& record) {
+        if (resident_ && resident_hash_.get() == hash.get()) return;
+        resident_ = backend_.load_shared(std::move(prepared), tier);
+        resident_hash_ = hash;
         record.seconds.backend = resident_->load_times();
     }
 
@@ -388,8 +412,8 @@ class Sequence {
         }
         while (writing_.size() >= most_writing_) report_first();
         const FileChoice choice{format_, write_, options_.job.planes, options_.denoiser.get()};
-        writing_.push_back(
-            std::async(std::launch::async, write_frame, std::move(result.film), std::move(record), choice));
+        writing_.push_back(std::async(std::launch::async, write_frame, std::move(result.film), std::move(record),
+                                      std::move(frame.scene), choice));
     }
 
     void report_first() {
@@ -440,7 +464,7 @@ class Sequence {
     std::size_t most_writing_;
 
     std::shared_ptr<ResidentScene> resident_;
-    std::string resident_hash_;
+    SceneHash resident_hash_;
     std::deque<Started> started_;
     std::size_t with_backend_ = 0;
     std::deque<std::future<FrameRecord>> writing_;

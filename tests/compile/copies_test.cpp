@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/thread_limit.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/render/traced_job.h"
 
@@ -77,6 +80,35 @@ TEST(Copies, AreTakenOutAndTheIdsStay) {
         ASSERT_EQ(ids.traced(no_primitive), no_primitive);
         ASSERT_EQ(ids.of_scene(some_primitive), some_primitive);
     }
+}
+
+TEST(Copies, AreFoundAmongManyOnAnyNumberOfThreads) {
+    test::Random random(3);
+    std::vector<Sphere> list;
+    for (std::uint32_t i = 0; i < 200'000; ++i) {
+        // every fourth repeats an earlier one
+        const bool repeats = i > 0 && i % 4 == 3;
+        const auto number = [&] { return random.uniform(-1.0F, 1.0F); };
+        list.push_back(repeats ? list[random.below(i)] : Sphere{{number(), number(), number()}, 1});
+    }
+    const std::vector<std::uint32_t> materials(list.size(), 0);
+    // the first with the same bytes, by a map
+    std::map<std::array<float, 4>, std::uint32_t> first;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> expected;
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        const Vec3f& c = list[i].centre;
+        const auto [known, is_new] = first.try_emplace({c.x, c.y, c.z, list[i].radius}, i);
+        if (!is_new) expected.emplace_back(i, known->second);
+    }
+    EXPECT_GE(expected.size(), 50'000U);
+    for (const int threads : {1, 2, 7}) {
+        const test::ThreadLimit limit(threads);
+        EXPECT_EQ(pairs(find_copies(spheres(list, materials))) == expected, true) << threads;
+    }
+    const test::ThreadLimit limit(7);
+    const auto equal = find_copies(spheres(std::vector<Sphere>(150'000, list[0]), materials));
+    ASSERT_EQ(equal.size(), 149'999U);
+    for (const PrimitiveCopy& copy : equal) ASSERT_EQ(copy.of, 0U);
 }
 
 TEST(Copies, AreNoLightsOfTheirOwn) {

@@ -51,6 +51,26 @@ TEST(RenderOrigin, IsOnASurfaceAlsoFromWithin) {
     EXPECT_NEAR(turned.get().x, 1e6, 16);
 }
 
+TEST(RenderOrigin, IsTheSameFromParts) {
+    const Vec3d camera = {1e5, 0, 0};
+    for (std::uint64_t number = 0; number < 200; ++number) {
+        test::Random random(number);
+        RenderOrigin whole(camera);
+        std::vector<RenderOrigin> parts(5, RenderOrigin(camera));
+        for (std::size_t i = 0; i < 40; ++i) {
+            // several at equal distances, of which the first counts
+            const Vec3d centre = camera + Vec3d{random.coin() ? 7.0 : -7.0, 0, double(random.below(3))};
+            whole.add_sphere(centre, 1);
+            parts[i / 8].add_sphere(centre, 1);
+        }
+        whole.add_point({2e6, 0, 0});
+        parts[4].add_point({2e6, 0, 0});
+        RenderOrigin sum(camera);
+        for (const RenderOrigin& part : parts) sum.add(part);
+        EXPECT_EQ(sum.get(), whole.get()) << number;
+    }
+}
+
 TEST(RenderOrigin, IsTheNearestPointOfATriangle) {
     const Vec3d a = {1e6, 0, 0}, b = {1e6 + 300, 0, 0}, c = {1e6, 300, 0};
     const auto nearest = [&](const Vec3d& camera) {

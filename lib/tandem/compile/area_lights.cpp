@@ -1,5 +1,6 @@
 #include "tandem/compile/area_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -37,6 +38,10 @@ bool halves_overlap(const Body&) {
     return false;
 }
 
+double brightness(const Optics& optics) {
+    return double{optics.emission.x} + double{optics.emission.y} + double{optics.emission.z};
+}
+
 /// This part of the chances is shared equally, and the rest by power, since a weak light may be near and a strong one
 /// hidden.
 constexpr double shared_alike = 1.0 / 8;
@@ -64,21 +69,20 @@ void share_out(std::vector<AreaLight>& lights, const std::vector<double>& powers
 }  // namespace
 
 void find_area_lights(PreparedScene& prepared) {
+    const auto emits = [](const Optics& optics) { return optics.unlit == 0 && brightness(optics) > 0; };
+    if (std::none_of(prepared.optics.begin(), prepared.optics.end(), emits)) return;
     const SceneView scene = view(prepared);
     EmissiveTextures textures(scene);
     std::vector<double> powers;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         const Optics& optics = scene.optics[scene.material_of[id]];
-        if (optics.unlit != 0) continue;
-        const Vec3f& emission = optics.emission;
-        const double brightness = double{emission.x} + double{emission.y} + double{emission.z};
-        if (!(brightness > 0)) continue;
+        if (!emits(optics)) continue;
         double power = 0;
         std::uint32_t kind = 0;
         bool overlaps = false;
         visit_primitive(scene, id, [&](const auto& body) {
             overlaps = halves_overlap(body);
-            power = brightness * area_of(body);
+            power = brightness(optics) * area_of(body);
             kind = kind_of<std::decay_t<decltype(body)>>;
         });
         if (power > 0) power *= textures.brightness(id);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstring>
 
+#include "tandem/base/large_array.h"
+#include "tandem/base/parallel.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/shapes/hit.h"
 
@@ -56,6 +59,45 @@ bool same_bits(const Shape& a, const Shape& b) {
     return words_of(a) == words_of(b);
 }
 
+/// Tells hashes that occur only once from the others, mostly: two bits of a word stand for a hash, and some hashes
+/// share them. Threads may add hashes at the same time.
+class Sieve {
+  public:
+    explicit Sieve(std::size_t hashes) : words_(std::bit_ceil(hashes / 8 + 1)) {
+        make_large(once_, words_, words_);
+        make_large(again_, words_, words_);
+    }
+
+    void prefetch(std::uint64_t hash) const { __builtin_prefetch(&once_[word_of(hash)], 1); }
+    void prefetch_again(std::uint64_t hash) const { __builtin_prefetch(&again_[word_of(hash)]); }
+
+    void add(std::uint64_t hash) {
+        if (!set(once_, hash)) (void)set(again_, hash);
+    }
+
+    /// True for all hashes that were added more than once, and for few others. All must have been added.
+    [[nodiscard]] bool may_repeat(std::uint64_t hash) const {
+        return (again_[word_of(hash)] & bits_of(hash)) == bits_of(hash);
+    }
+
+  private:
+    [[nodiscard]] std::size_t word_of(std::uint64_t hash) const { return (hash >> 32) & (words_ - 1); }
+    static std::uint64_t bits_of(std::uint64_t hash) {
+        return std::uint64_t{1} << (hash & 63) | std::uint64_t{1} << (hash >> 6 & 63);
+    }
+
+    /// Whether any of the bits was not set before. Many threads may read a word, but only one at a time writes to it.
+    [[nodiscard]] bool set(std::vector<std::uint64_t>& words, std::uint64_t hash) const {
+        const std::atomic_ref<std::uint64_t> word(words[word_of(hash)]);
+        const std::uint64_t bits = bits_of(hash);
+        if ((word.load(std::memory_order_relaxed) & bits) == bits) return false;
+        return (word.fetch_or(bits, std::memory_order_relaxed) & bits) != bits;
+    }
+
+    std::size_t words_;
+    std::vector<std::uint64_t> once_, again_;
+};
+
 class Finder {
   public:
     explicit Finder(const PreparedScene& scene) : scene_(scene) {}
@@ -69,7 +111,7 @@ class Finder {
 
   private:
     static constexpr std::uint32_t empty = 0xFFFFFFFFU;
-    static constexpr std::size_t batch = 32;
+    static constexpr std::size_t batch = 32, chunk_size = 1U << 16;
 
     /// A primitive that is not a copy, and a part of its hash, which tells most others apart without reading them.
     struct Entry {
@@ -77,24 +119,56 @@ class Finder {
         std::uint32_t number;
     };
 
-    /// The primitives of one kind, in the order of their ids. A table of millions of entries misses the caches, so the
-    /// hashes of a batch are computed first and their slots are prefetched meanwhile.
+    /// The primitives of one kind. Few of millions are suspects, which are compared in the order of their ids.
     template <class Primitive>
     void search(const std::vector<Primitive>& primitives) {
         const std::uint32_t* material_of = scene_.material_of.data() + first_id_;
-        table_.assign(std::bit_ceil(primitives.size() + primitives.size() / 2 + 1), {0, empty});
-        for (std::size_t first = 0; first < primitives.size(); first += batch) {
-            const std::size_t end = std::min(first + batch, primitives.size());
-            std::uint64_t hashes[batch];
-            for (std::size_t i = first; i < end; ++i) {
-                hashes[i - first] = hash_of(shape_of(primitives[i]), material_of[i]);
-                __builtin_prefetch(&table_[place_of(hashes[i - first])], 1);
-            }
-            for (std::size_t i = first; i < end; ++i) {
-                add(primitives, material_of, static_cast<std::uint32_t>(i), hashes[i - first]);
-            }
-        }
+        const auto hash = [&](std::uint32_t i) { return hash_of(shape_of(primitives[i]), material_of[i]); };
+        const std::vector<std::uint32_t> suspects = find_suspects(primitives.size(), hash);
+        table_.assign(std::bit_ceil(suspects.size() + suspects.size() / 2 + 1), {0, empty});
+        const auto prefetch = [this](std::uint64_t h) { __builtin_prefetch(&table_[place_of(h)], 1); };
+        for_each_hash(
+            0, suspects.size(), [&](std::size_t i) { return hash(suspects[i]); }, prefetch,
+            [&](std::size_t i, std::uint64_t h) { add(primitives, material_of, suspects[i], h); });
         first_id_ += static_cast<std::uint32_t>(primitives.size());
+    }
+
+    /// The numbers below `count` whose hashes may occur more than once.
+    template <class Hash>
+    static std::vector<std::uint32_t> find_suspects(std::size_t count, const Hash& hash) {
+        Sieve sieve(count);
+        const auto hash_at = [&](std::size_t i) { return hash(static_cast<std::uint32_t>(i)); };
+        for_each_chunk(count, chunk_size, [&](const Chunk& chunk) {
+            for_each_hash(
+                chunk.begin, chunk.end, hash_at, [&](std::uint64_t h) { sieve.prefetch(h); },
+                [&](std::size_t, std::uint64_t h) { sieve.add(h); });
+        });
+        std::vector<std::vector<std::uint32_t>> found(chunk_count(count, chunk_size));
+        for_each_chunk(count, chunk_size, [&](const Chunk& chunk) {
+            for_each_hash(
+                chunk.begin, chunk.end, hash_at, [&](std::uint64_t h) { sieve.prefetch_again(h); },
+                [&](std::size_t i, std::uint64_t h) {
+                    if (sieve.may_repeat(h)) found[chunk.number].push_back(static_cast<std::uint32_t>(i));
+                });
+        });
+        std::vector<std::uint32_t> suspects;
+        for (const std::vector<std::uint32_t>& of_chunk : found) {
+            suspects.insert(suspects.end(), of_chunk.begin(), of_chunk.end());
+        }
+        return suspects;
+    }
+
+    /// Calls use(i, hash(i)) for the numbers from `first` to `end`. A table of millions of entries misses the caches,
+    /// so the hashes of a batch are computed first, and prefetch(hash) is called for each.
+    template <class Hash, class Prefetch, class Use>
+    static void for_each_hash(std::size_t first, std::size_t end, const Hash& hash, const Prefetch& prefetch,
+                              const Use& use) {
+        for (std::size_t begin = first; begin < end; begin += batch) {
+            const std::size_t length = std::min(batch, end - begin);
+            std::uint64_t hashes[batch];
+            for (std::size_t i = 0; i < length; ++i) prefetch(hashes[i] = hash(begin + i));
+            for (std::size_t i = 0; i < length; ++i) use(begin + i, hashes[i]);
+        }
     }
 
     [[nodiscard]] std::size_t place_of(std::uint64_t hash) const { return (hash >> 32) & (table_.size() - 1); }

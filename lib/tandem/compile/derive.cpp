@@ -41,6 +41,16 @@ class Needs {
     std::map<Effect, Need> found_;
 };
 
+std::vector<bool> used_materials(const Scene& scene, const PreparedScene& prepared) {
+    std::vector<bool> used(scene.materials.size(), false);
+    // millions of neighbours may have the same
+    const std::vector<std::uint32_t>& material_of = prepared.material_of;
+    for (std::size_t i = 0; i < material_of.size(); ++i) {
+        if (i == 0 || material_of[i] != material_of[i - 1]) used[material_of[i]] = true;
+    }
+    return used;
+}
+
 void add_light(const LightSource& light, const std::string& name, Needs& needs) {
     if (light.casts_shadows) needs.add(Effect::shadows, name + " casts shadows");
     if (light.kind == LightKind::spot) needs.add(Effect::spot_lights, name + " is a spot light");
@@ -143,8 +153,7 @@ void add_material(const Optics& optics, const std::string& name, Needs& needs) {
 std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& prepared) {
     const DefaultFpEnvironment guard;
     Needs needs;
-    std::vector<bool> used(scene.materials.size(), false);
-    for (const std::uint32_t material : prepared.material_of) used[material] = true;
+    const std::vector<bool> used = used_materials(scene, prepared);
     add_motion(scene, prepared, needs);
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, effect, is) \
     if (scene.authored) needs.add(effect, "the environment is " + in_words(*scene.authored));

@@ -100,7 +100,9 @@ void find_media(PreparedScene& prepared) {
     const SceneView scene = view(prepared);
     const std::uint32_t count = primitive_count(scene);
     std::vector<std::uint32_t> glass;
-    for (std::uint32_t id = 0; id < count; ++id) {
+    const bool has_glass = std::any_of(prepared.optics.begin(), prepared.optics.end(),
+                                       [](const Optics& optics) { return optics.transmission > 0; });
+    for (std::uint32_t id = 0; has_glass && id < count; ++id) {
         if (scene.optics[scene.material_of[id]].transmission > 0) glass.push_back(id);
     }
     const std::vector<Body> around = bodies_around(scene, glass, prepared.camera.render_from_camera.translation);

@@ -16,7 +16,9 @@
 #include "tandem/compile/derive.h"
 #include "tandem/compile/environments.h"
 #include "tandem/compile/media.h"
+#include "tandem/compile/node_checks.h"
 #include "tandem/compile/place_mesh.h"
+#include "tandem/compile/place_solids.h"
 #include "tandem/compile/prepare_textures.h"
 #include "tandem/compile/render_origin.h"
 #include "tandem/math/accurate_functions.h"
@@ -29,86 +31,10 @@ namespace tandem {
 
 namespace {
 
-/// Relative deviation up to which a linear map counts as a rotation times a uniform scale. A unit quaternion from a
-/// file gives 1e-16; such a deviation moves a surface far less than the rounding of its centre to float.
-constexpr double similarity_tolerance = 1e-12;
-
-/// The uniform scale of `m`, or 0 if the scale is not uniform.
-double uniform_scale(const Matrix3& m) {
-    const Matrix3 columns = transpose(m);
-    const double length2 = dot(columns.row[0], columns.row[0]);
-    const double tolerance = similarity_tolerance * length2;
-    const bool same = std::abs(dot(columns.row[1], columns.row[1]) - length2) <= tolerance &&
-                      std::abs(dot(columns.row[2], columns.row[2]) - length2) <= tolerance;
-    const bool right_angled = std::abs(dot(columns.row[0], columns.row[1])) <= tolerance &&
-                              std::abs(dot(columns.row[1], columns.row[2])) <= tolerance &&
-                              std::abs(dot(columns.row[2], columns.row[0])) <= tolerance;
-    return same && right_angled ? std::sqrt(length2) : 0;
-}
-
-bool is_diagonal(const Matrix3& m) {
-    return m.row[0].y == 0 && m.row[0].z == 0 && m.row[1].x == 0 && m.row[1].z == 0 && m.row[2].x == 0 &&
-           m.row[2].y == 0;
-}
-
 /// A unit vector, also for lengths whose squares underflow; zero stays zero.
 Vec3d unit_axis(const Vec3d& a) {
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
     return largest > 0 ? normalize(a / largest) : a;
-}
-
-/// Whether a transform shrinks a solid to a line or a point, up to rounding. Animations hide objects in this way.
-bool is_hidden(const Matrix3& m) {
-    double largest = 0;
-    for (const Vec3d& row : m.row) largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
-    if (largest == 0) return true;
-    const Matrix3 columns = transpose(m);
-    const auto area2 = [&](int i, int k) {
-        const Vec3d normal = cross(columns.row[i] / largest, columns.row[k] / largest);
-        return dot(normal, normal);
-    };
-    return std::max({area2(0, 1), area2(1, 2), area2(2, 0)}) <= 1e-30;
-}
-
-/// Whether a solid whose size is not zero in float becomes smaller than any float under its transform.
-bool vanishes_in_float(double size, double transformed) { return narrow(size) > 0 && !(narrow(transformed) > 0); }
-
-/// Whether the map is a scale without mirroring.
-bool is_upright(const Matrix3& m) { return is_diagonal(m) && m.row[0].x >= 0 && m.row[1].y >= 0 && m.row[2].z >= 0; }
-
-/// The unit sphere, or the cube [-1, 1]^3, in world space.
-struct Placed {
-    Transform world_from_unit;
-    Matrix3 unit_from_world;
-};
-
-Placement place(const Placed& body, const Vec3d& origin, bool is_box) {
-    const Matrix3& m = body.world_from_unit.linear;
-    Placement placement;
-    placement.object_from_world = body.unit_from_world;
-    placement.centre = body.world_from_unit.translation - origin;
-    const auto extent = [&](const Vec3d& row) {
-        // support of the solid along a world axis: l1 norm for the cube, l2 for the ball
-        const double support = is_box ? norm1(row) : std::sqrt(dot(row, row));
-        return support * (1 + 1e-15);
-    };
-    placement.half_extent = {extent(m.row[0]), extent(m.row[1]), extent(m.row[2])};
-    const Vec3f centre = narrow(placement.centre);
-    const Vec3d moved = placement.centre - widen(centre);
-    // the farthest point of the solid from its centre, and the rounding of the centre
-    double radius = 0;
-    if (is_box) {
-        const Matrix3 c = transpose(m);
-        for (int corner = 0; corner < 4; ++corner) {
-            const Vec3d p = c.row[0] + c.row[1] * (corner & 1 ? 1.0 : -1.0) + c.row[2] * (corner & 2 ? 1.0 : -1.0);
-            radius = std::max(radius, std::sqrt(dot(p, p)));
-        }
-    } else {
-        // the Frobenius norm bounds the largest singular value
-        radius = std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2]));
-    }
-    placement.bounding_sphere = {centre, round_up((radius + std::sqrt(dot(moved, moved))) * (1 + 1e-15))};
-    return placement;
 }
 
 /// An unlit material: its colour becomes emission, and it reflects no light.
@@ -137,14 +63,15 @@ class Preparer {
         }
         result_.environment = scene_.environment;
         result_.indirect_light = scene_.indirect_light;
-        reserve_solids();
+        check_size();
         result_.camera_node = camera_node(scene_, options_.camera);
         const Camera& camera = *scene_.nodes[result_.camera_node].camera;
         set_camera(camera, result_.camera_node);
         if (!options_.time) result_.shutter = shutter_of(camera);
-        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i);
-        move_to_origin();
-        join_kinds();
+        const Solids solids(scene_, world_from_node_, result_);
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) add_node(i, solids);
+        result_.dropped_primitives += solids.dropped();
+        move_to_origin(solids);
         result_.copies = find_copies(result_);
         find_area_lights_and_media();
         result_.area_light_shadows = settings_.area_light_shadows;
@@ -168,13 +95,12 @@ class Preparer {
     }
 
   private:
-    /// Reserves memory for spheres and boxes, which may become either of two kinds. Untouched memory costs nothing.
     /// Throws InputError if the scene has too many primitives, and EnvironmentError if the memory cannot hold them.
-    void reserve_solids() {
+    void check_size() const {
         std::size_t count = 0, spheres = 0, boxes = 0;
         for (const Node& node : scene_.nodes) {
             for (const Geometry& geometry : node.geometry) {
-                const std::size_t instances = std::max<std::size_t>(1, geometry.instances.size());
+                const std::size_t instances = instance_count(geometry);
                 count += primitives_in(geometry.shape) * instances;
                 if (std::holds_alternative<SphereShape>(geometry.shape)) spheres += instances;
                 if (std::holds_alternative<BoxShape>(geometry.shape)) boxes += instances;
@@ -184,18 +110,10 @@ class Preparer {
             throw InputError(
                 fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
         }
-        // of each kind the smaller primitive, in double and in float; then material and node
-        const std::size_t bytes = spheres * (sizeof(Ball) + sizeof(Sphere)) + boxes * (sizeof(Block) + sizeof(Box)) +
+        // of each kind the smaller primitive; then material and node
+        const std::size_t bytes = spheres * sizeof(Sphere) + boxes * sizeof(Box) +
                                   (count - spheres - boxes) * sizeof(Triangle) + 2 * count * sizeof(std::uint32_t);
         require_memory(bytes, fmt::format("the scene of {} primitives", count));
-        balls_.reserve(spheres);
-        placed_balls_.reserve(spheres);
-        spheres_.reserve(spheres);
-        ellipsoids_.reserve(spheres);
-        blocks_.reserve(boxes);
-        placed_boxes_.reserve(boxes);
-        boxes_.reserve(boxes);
-        parallelepipeds_.reserve(boxes);
     }
 
     /// The optional part `part`, for every material, if any has it.
@@ -238,20 +156,23 @@ class Preparer {
     static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
 
-    void add_node(std::size_t index) {
+    /// Throws what is wrong with the node, so that the first node with something wrong is named.
+    void add_node(std::size_t index, const Solids& solids) {
         const Node& node = scene_.nodes[index];
         const Transform& world_from_node = world_from_node_[index];
         for (const Geometry& geometry : node.geometry) {
-            if (geometry.instances.empty()) add_primitive(geometry, world_from_node, index);
+            solids.check(geometry);
+            if (!std::holds_alternative<MeshShape>(geometry.shape)) continue;
+            if (geometry.instances.empty()) add_mesh(geometry, world_from_node, index);
             for (const Trs& node_from_instance : geometry.instances) {
-                add_primitive(geometry, world_from_node * to_transform(node_from_instance), index);
+                add_mesh(geometry, world_from_node * to_transform(node_from_instance), index);
             }
         }
         if (node.light) add_light(*node.light, world_from_node, index);
     }
 
     void add_light(const LightSource& source, const Transform& world_from_node, std::size_t node) {
-        check_reach(world_from_node.translation, {0, 0, 0}, node);
+        check_reach(scene_, node, world_from_node.translation, {0, 0, 0});
         const Vec3d axis = unit_axis(-transpose(world_from_node.linear).row[2]);
         const bool directed = source.kind != LightKind::point;
         if (!is_lit(source)) return;
@@ -260,7 +181,7 @@ class Preparer {
             return;
         }
         if (directed && axis == Vec3d{0, 0, 0}) {
-            fail(node, "a light with a direction under a transform that removes it");
+            fail_at_node(scene_, node, "a light with a direction under a transform that removes it");
         }
         PunctualLight light{};
         const bool falls_off = source.inverse_square && source.kind != LightKind::directional;
@@ -277,24 +198,6 @@ class Preparer {
         lights_.push_back({world_from_node.translation, light});
     }
 
-    void add_primitive(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
-        if (!result_.textures.is_masked_out.empty() && result_.textures.is_masked_out[geometry.material]) {
-            result_.dropped_primitives += primitives_in(geometry.shape);
-            return;
-        }
-        if (!std::holds_alternative<MeshShape>(geometry.shape) && is_hidden(world_from_object.linear)) {
-            ++result_.dropped_primitives;
-            return;
-        }
-        if (const auto* sphere = std::get_if<SphereShape>(&geometry.shape)) {
-            add_sphere(*sphere, geometry.material, world_from_object, node);
-        } else if (const auto* box = std::get_if<BoxShape>(&geometry.shape)) {
-            add_box(*box, geometry.material, world_from_object, node);
-        } else {
-            add_mesh(std::get<MeshShape>(geometry.shape), geometry.material, world_from_object, node);
-        }
-    }
-
     std::size_t primitives_in(const Shape& shape) const {
         const auto* reference = std::get_if<MeshShape>(&shape);
         if (reference == nullptr) return 1;
@@ -302,122 +205,30 @@ class Preparer {
         return mesh.triangles.size() / 3 + mesh.quads.size() / 4;
     }
 
-    void add_mesh(const MeshShape& shape, std::uint32_t material, const Transform& world_from_object,
-                  std::size_t node) {
-        const Mesh& mesh = scene_.meshes[shape.mesh];
+    void add_mesh(const Geometry& geometry, const Transform& world_from_object, std::size_t node) {
+        if (!result_.textures.is_masked_out.empty() && result_.textures.is_masked_out[geometry.material]) {
+            result_.dropped_primitives += primitives_in(geometry.shape);
+            return;
+        }
+        const Mesh& mesh = scene_.meshes[std::get<MeshShape>(geometry.shape).mesh];
         for (const Vec3f& position : mesh.positions) {
-            check_reach(transform_point(world_from_object, widen(position)), {0, 0, 0}, node);
+            check_reach(scene_, node, transform_point(world_from_object, widen(position)), {0, 0, 0});
         }
-        surfaces_.push_back({&mesh, world_from_object, material, node});
-    }
-
-    void add_sphere(const SphereShape& shape, std::uint32_t material, const Transform& world_from_object,
-                    std::size_t node) {
-        const double scale = uniform_scale(world_from_object.linear);
-        if (scale > 0 && keeps_its_picture(world_from_object, material)) {
-            const double radius = scale * shape.radius;
-            if (vanishes_in_float(shape.radius, radius)) {
-                ++result_.dropped_primitives;
-                return;
-            }
-            if (!(narrow(radius) > 0)) fail(node, "a sphere whose radius vanishes in float under the node's scale");
-            check_reach(world_from_object.translation, {radius, radius, radius}, node);
-            balls_.push_back({world_from_object.translation, radius});
-            spheres_.add(material, node);
-            return;
-        }
-        const double r = shape.radius;
-        add_placement(world_from_object, {r, r, r}, false, material, node);
-    }
-
-    void add_box(const BoxShape& shape, std::uint32_t material, const Transform& world_from_object, std::size_t node) {
-        const Vec3d half = shape.size * 0.5;
-        const Matrix3& m = world_from_object.linear;
-        if (is_diagonal(m) && keeps_its_picture(world_from_object, material)) {
-            const Vec3d extent = {std::abs(m.row[0].x) * half.x, std::abs(m.row[1].y) * half.y,
-                                  std::abs(m.row[2].z) * half.z};
-            if (vanishes_in_float(norm1(half), norm1(extent))) {
-                ++result_.dropped_primitives;
-                return;
-            }
-            check_reach(world_from_object.translation, extent, node);
-            blocks_.push_back({world_from_object.translation, extent});
-            boxes_.add(material, node);
-            return;
-        }
-        add_placement(world_from_object, half, true, material, node);
-    }
-
-    /// Spheres and boxes have the axes of the world; a picture that is turned or mirrored needs its own, and so do the
-    /// grooves of a brushed surface.
-    bool keeps_its_picture(const Transform& world_from_object, std::uint32_t material) const {
-        const bool is_brushed = !result_.anisotropies.empty() && result_.microfacets[material].anisotropy > 0;
-        bool has_picture = has_texture(result_.textures, material);
-#define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
-    has_picture = has_picture || (!result_.names.empty() && result_.names[material].texture != no_texture);
-#include "tandem/kernel/bsdf/lobes.def"
-        return !(is_brushed || has_picture) || is_upright(world_from_object.linear);
-    }
-
-    /// `size`: scale from the unit solid to the shape.
-    void add_placement(const Transform& world_from_object, const Vec3d& size, bool is_box, std::uint32_t material,
-                       std::size_t node) {
-        Transform world_from_unit = world_from_object;
-        for (Vec3d& row : world_from_unit.linear.row) row = row * size;
-        const double volume = std::abs(determinant(world_from_unit.linear));
-        const Matrix3& m = world_from_unit.linear;
-        if (vanishes_in_float(norm1(size), norm1(m.row[0]) + norm1(m.row[1]) + norm1(m.row[2]))) {
-            ++result_.dropped_primitives;
-            return;
-        }
-        const double lengths = std::sqrt(dot(m.row[0], m.row[0]) * dot(m.row[1], m.row[1]) * dot(m.row[2], m.row[2]));
-        // below this the inverse has no digits left; a NaN fails as well
-        if (!(volume > 1e-12 * lengths) || !std::isnormal(volume)) {
-            if (!is_box) fail(node, "a sphere that its transform flattens");
-            fail(node, is_diagonal(m) ? "a mirrored box that is flat and has a texture or is brushed; give it thickness"
-                                      : "a rotated or sheared box that is flat; give it thickness");
-        }
-        check_reach(world_from_unit.translation, {norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}, node);
-        (is_box ? placed_boxes_ : placed_balls_).push_back({world_from_unit, inverse(m)});
-        (is_box ? parallelepipeds_ : ellipsoids_).add(material, node);
-    }
-
-    /// World space.
-    void check_reach(const Vec3d& centre, const Vec3d& half_extent, std::size_t node) const {
-        for (int i = 0; i < 3; ++i) {
-            if (!(std::abs(centre[i]) + half_extent[i] <= double{coordinate_limit})) {
-                fail(node, "coordinates farther than 1e18 from the origin");
-            }
-        }
-    }
-
-    [[noreturn]] void fail(std::size_t node, const std::string& what) const {
-        const std::string& name = scene_.nodes[node].name;
-        throw InputError(fmt::format("node {}{} has {}", node, name.empty() ? "" : " '" + name + "'", what));
+        surfaces_.push_back({&mesh, world_from_object, geometry.material, node});
     }
 
     /// Chooses the origin of render space, moves everything there and rounds it to float.
-    void move_to_origin() {
-        const Vec3d origin = options_.origin ? *options_.origin : precise_origin();
+    void move_to_origin(const Solids& solids) {
+        const Vec3d origin = options_.origin ? *options_.origin : precise_origin(solids);
         result_.origin = origin;
         result_.camera.render_from_camera.translation -= origin;
         for (const Light& light : lights_) {
             result_.lights.push_back(light.light);
             result_.lights.back().position = narrow(light.position - origin);
         }
-        result_.spheres.reserve(balls_.size());
-        for (const Ball& ball : balls_) result_.spheres.push_back({narrow(ball.centre - origin), narrow(ball.radius)});
-        result_.boxes.reserve(blocks_.size());
-        for (const Block& block : blocks_) {
-            const Vec3d centre = block.centre - origin;
-            result_.boxes.push_back({narrow(centre - block.extent), narrow(centre + block.extent)});
-        }
-        result_.ellipsoids.reserve(placed_balls_.size());
-        for (const Placed& body : placed_balls_) result_.ellipsoids.push_back({place(body, origin, false)});
-        result_.parallelepipeds.reserve(placed_boxes_.size());
-        for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
         const std::vector<CornerSlots> slots = corner_slots(scene_);
-        reserve_faces(slots);
+        const std::size_t faces = reserve_faces(slots);
+        solids.place(origin, faces, result_);
         for (const PlacedSurface& surface : surfaces_) {
             Transform render_from_object = surface.world_from_object;
             render_from_object.translation -= origin;
@@ -433,10 +244,12 @@ class Preparer {
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);
         }
+        for (const Owners* owners : {&triangles_, &quads_}) append(*owners);
     }
 
-    /// Reserves the arrays, because growing ones take twice the memory, and more while they are copied.
-    void reserve_faces(const std::vector<CornerSlots>& slots) {
+    /// Reserves the arrays, because growing ones take twice the memory, and more while they are copied. Returns the
+    /// number of faces, with degenerate ones.
+    std::size_t reserve_faces(const std::vector<CornerSlots>& slots) {
         std::size_t triangles = 0, quads = 0, normals = 0, texcoords = 0;
         for (const PlacedSurface& surface : surfaces_) {
             const Mesh& mesh = *surface.mesh;
@@ -450,6 +263,7 @@ class Preparer {
         result_.quads.reserve(quads);
         result_.normals.reserve(normals);
         result_.texcoords.reserve(texcoords);
+        return triangles + quads;
     }
 
     /// Turns culling off for faces whose backs cannot be seen: those of a closed mesh with the camera outside.
@@ -475,12 +289,9 @@ class Preparer {
                0;
     }
 
-    Vec3d precise_origin() const {
+    Vec3d precise_origin(const Solids& solids) const {
         RenderOrigin origin(result_.camera.render_from_camera.translation);
-        for (const Ball& ball : balls_) origin.add_sphere(ball.centre, ball.radius);
-        for (const Block& block : blocks_) origin.add_box(block.centre - block.extent, block.centre + block.extent);
-        for (const Placed& body : placed_balls_) origin.add_placed(body.world_from_unit, body.unit_from_world, false);
-        for (const Placed& body : placed_boxes_) origin.add_placed(body.world_from_unit, body.unit_from_world, true);
+        solids.add_to(origin);
         for (const PlacedSurface& surface : surfaces_) origin.add_mesh(*surface.mesh, surface.world_from_object);
         for (const Light& light : lights_) {
             if (light.light.kind != PunctualKind::directional) origin.add_point(light.position);
@@ -488,21 +299,11 @@ class Preparer {
         return origin.get();
     }
 
-    void join_kinds() {
-        const auto join = [this](const Owners& owners) {
-            result_.material_of.insert(result_.material_of.end(), owners.material.begin(), owners.material.end());
-            result_.node_of.insert(result_.node_of.end(), owners.node.begin(), owners.node.end());
-        };
-#define TANDEM_PRIMITIVE(Type, name, names) join(names##_);
-#include "tandem/kernel/view/primitives.def"
-#undef TANDEM_PRIMITIVE
-    }
-
     void set_camera(const Camera& camera, std::size_t node) {
         const Transform& world_from_node = world_from_node_[node];
         const std::optional<Matrix3> axes = camera_axes(world_from_node);
-        if (!axes) fail(node, "a camera under a transform that is not invertible");
-        check_reach(world_from_node.translation, {0, 0, 0}, node);
+        if (!axes) fail_at_node(scene_, node, "a camera under a transform that is not invertible");
+        check_reach(scene_, node, world_from_node.translation, {0, 0, 0});
         // in world space until the origin is chosen
         result_.camera.render_from_camera = {transpose(*axes), world_from_node.translation};
         if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
@@ -514,17 +315,8 @@ class Preparer {
         }
     }
 
-    // World space, double; rounded to float once the render origin is known.
-    struct Ball {
-        Vec3d centre;
-        double radius;
-    };
-    struct Block {
-        Vec3d centre;
-        Vec3d extent;  ///< half of the edges
-    };
     struct Light {
-        Vec3d position;
+        Vec3d position;  ///< world space, until the render origin is known
         PunctualLight light;
     };
 
@@ -532,28 +324,23 @@ class Preparer {
     struct Owners {
         std::vector<std::uint32_t> material;
         std::vector<std::uint32_t> node;
-        void add(std::uint32_t m, std::size_t n, std::size_t count = 1) {
+        void add(std::uint32_t m, std::size_t n, std::size_t count) {
             material.insert(material.end(), count, m);
             node.insert(node.end(), count, static_cast<std::uint32_t>(n));
         }
-        void reserve(std::size_t count) {
-            material.reserve(count);
-            node.reserve(count);
-        }
     };
+    void append(const Owners& owners) {
+        result_.material_of.insert(result_.material_of.end(), owners.material.begin(), owners.material.end());
+        result_.node_of.insert(result_.node_of.end(), owners.node.begin(), owners.node.end());
+    }
 
     const Scene& scene_;
     const PrepareOptions& options_;
     const RenderSettings settings_;
     std::vector<Transform> world_from_node_;
-    std::vector<Ball> balls_;
-    std::vector<Block> blocks_;
-    std::vector<Placed> placed_balls_, placed_boxes_;
     std::vector<PlacedSurface> surfaces_;
     std::vector<Light> lights_;
-#define TANDEM_PRIMITIVE(Type, name, names) Owners names##_;
-#include "tandem/kernel/view/primitives.def"
-#undef TANDEM_PRIMITIVE
+    Owners triangles_, quads_;
     PreparedScene result_;
 };
 

@@ -119,6 +119,12 @@ void RenderOrigin::add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v
 
 void RenderOrigin::add_point(const Vec3d& point) { reach_ = std::max(reach_, largest(point)); }
 
+void RenderOrigin::add(const RenderOrigin& other) {
+    add_extent(other.lower_, other.upper_);
+    add_candidate(other.nearest_, other.distance_);
+    reach_ = std::max(reach_, other.reach_);
+}
+
 Vec3d RenderOrigin::get() const {
     const double extent = largest(upper_ - lower_);
     if (!(distance_ < __builtin_huge_val())) return {0, 0, 0};

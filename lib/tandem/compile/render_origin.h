@@ -27,6 +27,9 @@ class RenderOrigin {
     void add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2);
     /// A point without a surface: the position of a light.
     void add_point(const Vec3d& point);
+    /// All that was added to another one with the same camera, after what is here: of two points at the same distance
+    /// the first counts.
+    void add(const RenderOrigin& other);
 
     /// {0, 0, 0} if there is no surface, or if coordinates relative to another origin would exceed coordinate_limit.
     [[nodiscard]] Vec3d get() const;

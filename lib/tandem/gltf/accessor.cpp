@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "tandem/base/large_array.h"
+#include "tandem/base/parallel.h"
 #include "tandem/gltf/structure.h"
 
 namespace tandem::gltf {
@@ -18,6 +20,8 @@ namespace {
 
 /// Limit of elements of an accessor without a buffer view: they cost the file nothing, but memory here.
 constexpr std::size_t most_zeros = std::size_t{1} << 24;
+
+constexpr std::size_t elements_at_once = 1U << 16;
 
 /// glTF 2.0, 3.6.2.2.
 enum ComponentType : std::uint64_t {
@@ -129,12 +133,14 @@ class Reader {
         const Json* sparse = find(json_, "sparse");
         const bool reads_all = need_.elements == nullptr || sparse != nullptr;
         const std::size_t count = reads_all ? count_ : need_.elements->size();
-        values_.resize(count * width_);
+        make_large(values_, count * width_, count * width_);
         if (viewed != nullptr) {
             const View from = view(json_, component_ * width_);
-            for (std::size_t i = 0; i < count; ++i) {
-                read_element(from.bytes + (reads_all ? i : (*need_.elements)[i]) * from.stride, i);
-            }
+            for_each_chunk(count, elements_at_once, [&](const Chunk& chunk) {
+                for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+                    read_element(from.bytes + (reads_all ? i : (*need_.elements)[i]) * from.stride, i);
+                }
+            });
         }
         if (sparse != nullptr) {
             replace(*sparse);
@@ -208,10 +214,12 @@ class Reader {
     }
 
     void check_finite() const {
-        const auto bad = std::find_if_not(values_.begin(), values_.end(), [](float v) { return std::isfinite(v); });
-        if (bad == values_.end()) return;
-        fail(fmt::format("element {} has a number that is not finite; export the file again",
-                         static_cast<std::size_t>(bad - values_.begin()) / width_));
+        for_each_chunk(values_.size(), elements_at_once, [&](const Chunk& chunk) {
+            for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+                if (std::isfinite(values_[i])) continue;
+                fail(fmt::format("element {} has a number that is not finite; export the file again", i / width_));
+            }
+        });
     }
 
     const Source& source_;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "tandem/base/large_array.h"
+#include "tandem/base/parallel.h"
 #include "tandem/gltf/accessor.h"
 #include "tandem/gltf/materials.h"
 #include "tandem/gltf/triangles.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr const char* implicit_geometry = "EXT_implicit_geometry";
 constexpr const char* implicit_shapes = "KHR_implicit_shapes";
+constexpr std::size_t instances_at_once = 1U << 16;
 
 SphereShape sphere_from(const Json& sphere) { return {sphere.value("radius", 0.5)}; }
 
@@ -62,24 +65,24 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         if (primitives[i].is_string() || left_out_.contains({mesh_index, i})) continue;
         try {
-            if (auto geometry = read_primitive(mesh_index, i, instances)) {
-                result.push_back(std::move(*geometry));
-            }
+            if (auto geometry = read_primitive(mesh_index, i)) result.push_back(std::move(*geometry));
         } catch (const Flaw& flaw) {
             flaws_.leave_out("primitive", flaw);
             left_out_.insert({mesh_index, i});
         }
     }
+    // there may be millions: only several primitives need copies
+    for (std::size_t i = 0; i + 1 < result.size(); ++i) result[i].instances = instances;
+    if (!result.empty()) result.back().instances = std::move(instances);
     return result;
 }
 
-std::optional<Geometry> GeometryReader::read_primitive(std::size_t mesh, std::size_t index,
-                                                       const std::vector<Trs>& instances) {
+std::optional<Geometry> GeometryReader::read_primitive(std::size_t mesh, std::size_t index) {
     const std::string path = fmt::format("meshes[{}].primitives[{}]", mesh, index);
     const auto shape = read_shape(mesh, index, path);
     if (!shape) return std::nullopt;
     const Json& primitive = source_.document.json["meshes"][mesh]["primitives"][index];
-    Geometry geometry{*shape, material_of(primitive, path), instances};
+    Geometry geometry{*shape, material_of(primitive, path), {}};
     note_sides(geometry, path);
     return geometry;
 }
@@ -222,18 +225,25 @@ std::vector<Trs> GeometryReader::read_instances(const Json& instancing, const st
         source_.document.fail(path + ".attributes", "has neither TRANSLATION nor ROTATION nor SCALE; add one");
     }
     report_.add(Treatment::rendered, instancing_name, path, "every instance of the mesh");
-    std::vector<Trs> instances(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (translation.width != 0) instances[i].translation = translation.vec3(i);
-        if (rotation.width != 0) {
-            instances[i].rotation = {rotation.at(i, 0), rotation.at(i, 1), rotation.at(i, 2), rotation.at(i, 3)};
-            if (is_none(instances[i].rotation)) {
-                instances[i].rotation = {};
-                flaws_.replace("rotation of an instance", path + ".attributes.ROTATION",
-                               "is (0, 0, 0, 0), which is not a rotation; Tandem uses (0, 0, 0, 1)");
+    std::vector<Trs> instances;
+    make_large(instances, count, count);
+    std::vector<std::size_t> without_rotation(chunk_count(count, instances_at_once), 0);
+    for_each_chunk(count, instances_at_once, [&](const Chunk& chunk) {
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+            if (translation.width != 0) instances[i].translation = translation.vec3(i);
+            if (rotation.width != 0) {
+                const Quaternion q = {rotation.at(i, 0), rotation.at(i, 1), rotation.at(i, 2), rotation.at(i, 3)};
+                if (!is_none(q)) instances[i].rotation = q;
+                if (is_none(q)) ++without_rotation[chunk.number];
             }
+            if (scale.width != 0) instances[i].scale = scale.vec3(i);
         }
-        if (scale.width != 0) instances[i].scale = scale.vec3(i);
+    });
+    for (const std::size_t number : without_rotation) {
+        for (std::size_t i = 0; i < number; ++i) {
+            flaws_.replace("rotation of an instance", path + ".attributes.ROTATION",
+                           "is (0, 0, 0, 0), which is not a rotation; Tandem uses (0, 0, 0, 1)");
+        }
     }
     return instances;
 }

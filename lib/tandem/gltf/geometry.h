@@ -46,7 +46,7 @@ class GeometryReader {
     void note_unused_shapes();
 
   private:
-    std::optional<Geometry> read_primitive(std::size_t mesh, std::size_t index, const std::vector<Trs>& instances);
+    std::optional<Geometry> read_primitive(std::size_t mesh, std::size_t index);
     /// The geometry of primitive `index` of a mesh of the file.
     std::optional<Shape> read_shape(std::size_t mesh, std::size_t index, const std::string& path);
     std::optional<Shape> read_mesh(std::size_t mesh, std::size_t index, const std::string& path);

@@ -95,6 +95,12 @@ class Backend {
     /// before it builds anything, if the memory cannot hold the scene.
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
+    /// The same. A backend that reads scenes in the host's memory keeps this one instead of a copy.
+    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load_shared(std::shared_ptr<const PreparedScene> scene,
+                                                                     Tier tier) {
+        return load(*scene, tier);
+    }
+
     /// Finds the nearest hits of rays in front of their origins (t > 0), or whether shadow rays are blocked
     /// (trace_job.h). Rays are in render space; render_from_world() (compile/prepared_scene.h) converts points. Rays
     /// that are not traceable (math/ray.h) miss and are counted. Returns the seconds that tracing took, without copies.

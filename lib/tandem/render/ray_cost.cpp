@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 
+#include "tandem/base/parallel.h"
 #include "tandem/kernel/shapes/box.h"
 #include "tandem/math/fp_environment.h"
 
@@ -33,18 +35,22 @@ double bounds_per_ray(const PreparedScene& scene, int width, int height) {
     const std::uint64_t looked_at = std::min(count, most_looked_at);
     if (looked_at == 0) return 0;
     const auto rays = rays_over(camera_view(scene.camera, width, height), width, height);
-    std::uint64_t crossings = 0;
-    for (std::uint64_t i = 0; i < looked_at; ++i) {
-        // one of each range of ids, but not always the first: ids may follow a pattern
-        const std::uint64_t first = i * count / looked_at;
-        const std::uint64_t length = (i + 1) * count / looked_at - first;
-        const Aabb box = primitive_bounds(scene_view, static_cast<std::uint32_t>(first + i * 40503 % length));
-        for (const Ray<double>& ray : rays) {
-            const auto crossing = cross_box(Box{box.lower, box.upper}, ray);
-            crossings += crossing.crosses && crossing.t_far >= 0;
+    std::atomic<std::uint64_t> crossings = 0;
+    for_each_chunk(looked_at, 1U << 13, [&](const Chunk& chunk) {
+        std::uint64_t of_chunk = 0;
+        for (std::uint64_t i = chunk.begin; i < chunk.end; ++i) {
+            // one of each range of ids, but not always the first: ids may follow a pattern
+            const std::uint64_t first = i * count / looked_at;
+            const std::uint64_t length = (i + 1) * count / looked_at - first;
+            const Aabb box = primitive_bounds(scene_view, static_cast<std::uint32_t>(first + i * 40503 % length));
+            for (const Ray<double>& ray : rays) {
+                const auto crossing = cross_box(Box{box.lower, box.upper}, ray);
+                of_chunk += crossing.crosses && crossing.t_far >= 0;
+            }
         }
-    }
-    const double share = static_cast<double>(crossings) / static_cast<double>(looked_at * rays.size());
+        crossings += of_chunk;
+    });
+    const double share = static_cast<double>(crossings.load()) / static_cast<double>(looked_at * rays.size());
     return share * static_cast<double>(count);
 }
 

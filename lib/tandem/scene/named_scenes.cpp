@@ -9,7 +9,9 @@
 #include <optional>
 
 #include "tandem/base/error.h"
+#include "tandem/base/large_array.h"
 #include "tandem/base/memory.h"
+#include "tandem/base/parallel.h"
 #include "tandem/kernel/sampler/philox.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
@@ -161,6 +163,11 @@ void add_instances(Scene& scene, std::string name, Shape shape, std::uint32_t ma
     scene.nodes.push_back(std::move(node));
 }
 
+/// How many of `count` objects a part gets, if the parts take turns.
+std::size_t objects_of(std::size_t part, std::size_t count, std::size_t parts) {
+    return part < count ? (count - part - 1) / parts + 1 : 0;
+}
+
 /// The kinds of placements in a scene of many objects.
 struct Placements {
     bool spheres, boxes, ellipsoids, parallelepipeds;
@@ -174,24 +181,32 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
     if (wanted.boxes) kinds.push_back(1);
     if (wanted.ellipsoids) kinds.push_back(2);
     if (wanted.parallelepipeds) kinds.push_back(3);
-    std::vector<std::vector<Trs>> groups(4 * scene.materials.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        ObjectNumbers numbers(seed, i);
-        const int kind = kinds[i % kinds.size()];
-        Trs trs;
-        trs.translation = numbers.in_cube();
-        if (kind != 0) trs.scale = numbers.size(radius);
-        if (kind == 2 || kind == 3) trs.rotation = numbers.rotation();
-        groups[static_cast<std::size_t>(kind) * 8 + (i / kinds.size()) % 8].push_back(trs);
-    }
+    const auto colours = static_cast<std::uint32_t>(scene.materials.size());
+    std::vector<std::vector<Trs>> groups(kinds.size() * colours);
+    run_parallel(groups.size(), [&](std::size_t part) {
+        // kinds take turns, and then colours
+        const std::size_t turn = part % kinds.size(), colour = part / kinds.size();
+        const int kind = kinds[turn];
+        std::vector<Trs>& group = groups[turn * colours + colour];
+        reserve_large(group, objects_of(part, count, groups.size()));
+        for (std::size_t i = part; i < count; i += groups.size()) {
+            ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
+            Trs trs;
+            trs.translation = numbers.in_cube();
+            if (kind != 0) trs.scale = numbers.size(radius);
+            if (kind == 2 || kind == 3) trs.rotation = numbers.rotation();
+            group.push_back(trs);
+        }
+    });
     static constexpr const char* kind_names[] = {"spheres", "boxes", "ellipsoids", "parallelepipeds"};
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const std::size_t kind = g / 8;
+        const int kind = kinds[g / colours];
+        const auto colour = static_cast<std::uint32_t>(g % colours);
         Shape shape = BoxShape{{2, 2, 2}};
         if (kind == 0) shape = SphereShape{radius};
         if (kind == 2) shape = SphereShape{1};
-        add_instances(scene, fmt::format("{}, colour {}", kind_names[kind], g % 8), shape,
-                      static_cast<std::uint32_t>(g % 8), std::move(groups[g]));
+        add_instances(scene, fmt::format("{}, colour {}", kind_names[kind], colour), shape, colour,
+                      std::move(groups[g]));
     }
     return scene;
 }
@@ -202,18 +217,23 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
     Scene scene = crowd(name);
     const double radius = 0.6 / accurate_cbrt(static_cast<double>(count));
     scene.meshes.resize(scene.materials.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-        ObjectNumbers numbers(seed, i);
-        const Vec3d centre = numbers.in_cube();
-        const Vec3d a = numbers.in_cube() * radius, b = numbers.in_cube() * radius, c = numbers.in_cube() * radius;
-        Mesh& mesh = scene.meshes[i % scene.meshes.size()];
+    run_parallel(scene.meshes.size(), [&](std::size_t part) {
+        Mesh& mesh = scene.meshes[part];
         auto& indices = corners == 3 ? mesh.triangles : mesh.quads;
-        const Vec3d places[] = {a, b, corners == 3 ? c : -a, -b};
-        for (std::uint32_t k = 0; k < corners; ++k) {
-            indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-            mesh.positions.push_back(narrow(centre + places[k]));
+        const std::size_t vertices = corners * objects_of(part, count, scene.meshes.size());
+        reserve_large(mesh.positions, vertices);
+        reserve_large(indices, vertices);
+        for (std::size_t i = part; i < count; i += scene.meshes.size()) {
+            ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
+            const Vec3d centre = numbers.in_cube();
+            const Vec3d a = numbers.in_cube() * radius, b = numbers.in_cube() * radius, c = numbers.in_cube() * radius;
+            const Vec3d places[] = {a, b, corners == 3 ? c : -a, -b};
+            for (std::uint32_t k = 0; k < corners; ++k) {
+                indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+                mesh.positions.push_back(narrow(centre + places[k]));
+            }
         }
-    }
+    });
     for (std::uint32_t m = 0; m < scene.meshes.size(); ++m) {
         if (scene.meshes[m].positions.empty()) continue;
         scene.meshes[m].name = fmt::format("faces, colour {}", m);
@@ -240,8 +260,9 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
 
 /// What a primitive of such a scene takes at least, here and in prepare().
 std::size_t least_bytes(std::string_view kind) {
-    if (kind == "triangles" || kind == "quads") return 128;
-    return sizeof(Trs) + (kind == "spheres" ? 80 : 300);  // turned boxes and ellipsoids have matrices
+    if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
+    if (kind == "quads") return 4 * 16 + 72;
+    return sizeof(Trs) + (kind == "spheres" ? 24 : kind == "mixed" ? 90 : 152);  // turned boxes have matrices
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

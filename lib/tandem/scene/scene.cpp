@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tandem/base/parallel.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/ray.h"
 #include "tandem/scene/light_cone.h"
@@ -20,7 +21,7 @@ std::string node_label(const Scene& scene, std::size_t index) {
     return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", name);
 }
 
-bool is_number(double a) { return std::isfinite(a) && std::abs(a) <= coordinate_limit; }
+bool is_number(double a) { return std::abs(a) <= coordinate_limit; }  // which a NaN is not
 bool is_number(const Vec3d& a) { return is_number(a.x) && is_number(a.y) && is_number(a.z); }
 bool is_number(const Quaternion& q) { return is_number(q.x) && is_number(q.y) && is_number(q.z) && is_number(q.w); }
 /// Whether all three numbers are in [0, 1].
@@ -29,6 +30,10 @@ bool is_share(const Vec3f& a) {
     return good(a.x) && good(a.y) && good(a.z);
 }
 bool is_zero(const Quaternion& q) { return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0; }
+
+bool is_good(const Trs& trs) {
+    return is_number(trs.translation) && is_number(trs.scale) && is_number(trs.rotation) && !is_zero(trs.rotation);
+}
 
 /// Collects the problems, one sentence each.
 class Problems {
@@ -40,6 +45,7 @@ class Problems {
     }
 
     void check_trs(const Trs& trs, const std::string& where) {
+        if (is_good(trs)) return;
         require(is_number(trs.translation), where, "has a translation that is not finite or beyond 1e18");
         require(is_number(trs.scale), where, "has a scale that is not finite or beyond 1e18");
         require(is_number(trs.rotation), where, "has a rotation that is not finite");
@@ -257,8 +263,21 @@ class Problems {
             require(std::get<MeshShape>(geometry.shape).mesh < scene_.meshes.size(), where,
                     "shows a mesh that does not exist");
         }
-        for (std::size_t i = 0; i < geometry.instances.size(); ++i) {
-            check_trs(geometry.instances[i], fmt::format("{}, instance {},", where, i));
+        check_instances(geometry.instances, where);
+    }
+
+    /// Good ones, of which there may be millions, cost no names.
+    void check_instances(const std::vector<Trs>& instances, const std::string& where) {
+        std::vector<std::vector<std::size_t>> bad(chunk_count(instances.size(), instances_at_once));
+        for_each_chunk(instances.size(), instances_at_once, [&](const Chunk& chunk) {
+            for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+                if (!is_good(instances[i])) bad[chunk.number].push_back(i);
+            }
+        });
+        for (const std::vector<std::size_t>& numbers : bad) {
+            for (const std::size_t i : numbers) {
+                check_trs(instances[i], fmt::format("{}, instance {},", where, i));
+            }
         }
     }
 
@@ -286,6 +305,8 @@ class Problems {
                     "has an orthographic camera whose ymag is not above 0 and up to 1e18");
         }
     }
+
+    static constexpr std::size_t instances_at_once = 1U << 16;
 
     const Scene& scene_;
     std::vector<std::string> found_;

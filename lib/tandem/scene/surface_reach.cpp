@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tandem/base/parallel.h"
 #include "tandem/scene/animation.h"
 
 namespace tandem {
 
 namespace {
+
+constexpr std::size_t shapes_at_once = 4096;
 
 std::vector<Vec3f> used_corners(const Mesh& mesh) {
     std::vector<bool> used(mesh.positions.size(), false);
@@ -43,26 +46,47 @@ bool leaves_no_area(const Matrix3& map) {
 }
 
 SurfaceReach::SurfaceReach(const Scene& scene, double time)
-    : scene_(&scene), world_from_node_(world_from_nodes(scene, time)), corners_(scene.meshes.size()) {
-    for_each_shape(scene, world_from_node_, [&](const Geometry& geometry, const Transform&) {
-        if (const auto* reference = std::get_if<MeshShape>(&geometry.shape)) {
-            std::vector<Vec3f>& corners = corners_[reference->mesh];
-            if (corners.empty()) corners = used_corners(scene.meshes[reference->mesh]);
-            if (corners.empty()) return;
+    : world_from_node_(world_from_nodes(scene, time)), corners_(scene.meshes.size()) {
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+        for (const Geometry& geometry : scene.nodes[node].geometry) {
+            if (const auto* reference = std::get_if<MeshShape>(&geometry.shape)) {
+                std::vector<Vec3f>& corners = corners_[reference->mesh];
+                if (corners.empty()) corners = used_corners(scene.meshes[reference->mesh]);
+                if (corners.empty()) continue;
+            }
+            shapes_.push_back({&geometry, node, count_});
+            count_ += instance_count(geometry);
         }
-        is_empty_ = false;
-    });
+    }
+    // the first ones decide, as a rule
+    for (std::size_t begin = 0; is_empty_ && begin < count_; begin += shapes_at_once) {
+        visit_instances(shapes_, world_from_node_, begin, std::min(begin + shapes_at_once, count_),
+                        [&](const InstanceRange&, const Transform& world_from_shape) {
+                            is_empty_ = is_empty_ && leaves_no_area(world_from_shape.linear);
+                        });
+    }
 }
 
 std::vector<double> SurfaceReach::along(std::span<const Vec3d> directions) const {
-    std::vector<double> most(directions.size(), -__builtin_huge_val());
-    for_each_shape(*scene_, world_from_node_, [&](const Geometry& geometry, const Transform& world_from_shape) {
-        const Matrix3 columns = transpose(world_from_shape.linear);
-        for (std::size_t i = 0; i < directions.size(); ++i) {
-            const double start = dot(directions[i], world_from_shape.translation);
-            most[i] = std::max(most[i], start + reach_of(geometry.shape, corners_, columns * directions[i]));
-        }
+    std::vector<std::vector<double>> most_of(chunk_count(count_, shapes_at_once),
+                                             std::vector<double>(directions.size(), -__builtin_huge_val()));
+    for_each_chunk(count_, shapes_at_once, [&](const Chunk& chunk) {
+        std::vector<double>& most = most_of[chunk.number];
+        visit_instances(shapes_, world_from_node_, chunk.begin, chunk.end,
+                        [&](const InstanceRange& shape, const Transform& world_from_shape) {
+                            if (leaves_no_area(world_from_shape.linear)) return;
+                            const Matrix3 columns = transpose(world_from_shape.linear);
+                            for (std::size_t i = 0; i < directions.size(); ++i) {
+                                const double start = dot(directions[i], world_from_shape.translation);
+                                const double reach = reach_of(shape.geometry->shape, corners_, columns * directions[i]);
+                                most[i] = std::max(most[i], start + reach);
+                            }
+                        });
     });
+    std::vector<double> most(directions.size(), -__builtin_huge_val());
+    for (const std::vector<double>& of_chunk : most_of) {
+        for (std::size_t i = 0; i < most.size(); ++i) most[i] = std::max(most[i], of_chunk[i]);
+    }
     return most;
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "tandem/scene/scene.h"
+#include "tandem/scene/instances.h"
 
 namespace tandem {
 
@@ -35,12 +35,14 @@ class SurfaceReach {
     [[nodiscard]] bool is_empty() const { return is_empty_; }
 
     /// For each direction, of any length, its largest dot product with a point of a surface, in world space: the
-    /// support function of the convex hull. -infinity if there is no surface. Linear in the number of vertices.
+    /// support function of the convex hull. -infinity if there is no surface. Linear in the number of vertices; on
+    /// several threads.
     [[nodiscard]] std::vector<double> along(std::span<const Vec3d> directions) const;
 
   private:
-    const Scene* scene_;
     std::vector<Transform> world_from_node_;
+    std::vector<InstanceRange> shapes_;
+    std::size_t count_ = 0;                    ///< of shapes
     std::vector<std::vector<Vec3f>> corners_;  ///< by mesh: its vertices that faces use
     bool is_empty_ = true;
 };
