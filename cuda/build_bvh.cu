@@ -48,7 +48,8 @@ class Builder {
         for (int i = 0; i < effort_.passes; ++i) improve();
         plan_nodes();
         write_tree();
-        check(cudaStreamSynchronize(stream_), doing);
+        built_.root_area = whole_;
+        built_.cost = widen(fetch(tree_.of + root_).cost[0]);
         return built_;
     }
 
@@ -103,23 +104,13 @@ class Builder {
     /// A value from GPU memory.
     template <class T>
     T fetch(const T* from) {
-        check(cudaMemcpyAsync(memory_.word.data(), from, sizeof(T), cudaMemcpyDeviceToHost, stream_), doing);
-        check(cudaStreamSynchronize(stream_), doing);
         T value;
-        std::memcpy(&value, memory_.word.data(), sizeof(T));
+        fetch_bytes(&value, from, sizeof(T), memory_.word, doing, stream_);
         return value;
     }
 
     void find_bounds() {
-        check(cudaMemsetAsync(device_bounds_->lower, 0xFF, sizeof(device_bounds_->lower), stream_), doing);
-        check(cudaMemsetAsync(device_bounds_->upper, 0, sizeof(device_bounds_->upper), stream_), doing);
-        const std::uint32_t threads = count_ < most_bound_threads ? count_ : most_bound_threads;
-        run_kernel(bounds_kernel, threads, scene_, count_, device_bounds_);
-        const auto ordered = fetch(device_bounds_);
-        const auto vector = [](const std::uint32_t* bits) {
-            return Vec3f{from_ordered_bits(bits[0]), from_ordered_bits(bits[1]), from_ordered_bits(bits[2])};
-        };
-        bounds_ = {vector(ordered.lower), vector(ordered.upper)};
+        bounds_ = scene_bounds(scene_, device_bounds_, memory_.word, doing, stream_);
         built_.view.frame = make_structure_frame(bounds_);
         whole_ = wide_half_area(pad(bounds_, built_.view.frame.margin));
     }
@@ -257,6 +248,7 @@ class Builder {
         check(cudaMemcpyAsync(plans_, &root, sizeof(root), cudaMemcpyHostToDevice, stream_), doing);
         std::uint32_t begin = 0, end = 1, entries = 0;
         while (begin < end) {
+            built_.level_starts.push_back(begin);
             run_kernel(find_children_kernel, end - begin + 1, tree_, plans_ + begin, end - begin, sums_);
             scan(end - begin);
             const Counts total = fetch(summed() + (end - begin));
@@ -267,6 +259,7 @@ class Builder {
             ++built_.levels;
         }
         built_.node_count = end;
+        built_.level_starts.push_back(end);
     }
 
     void write_tree() {
@@ -290,9 +283,8 @@ class Builder {
                                reinterpret_cast<RoughPlacement*>(base + rough),
                                by_entry};
         run_kernel(nodes_kernel, built_.node_count, scene_, tree_, plans_, built_.node_count, to);
-        launch(doing, spare_entries_kernel, 1, spare_entries, stream_, to, count_);
-        if (placements > 0 && !by_entry)
-            run_kernel(placements_kernel, static_cast<std::uint32_t>(placements), scene_, to.placements);
+        write_rest(scene_, to, doing, stream_);
+        built_.arrays = to;
         built_.view.nodes = to.nodes;
         built_.view.entry_spheres = to.spheres;
         built_.view.entry_ids = to.ids;
@@ -303,7 +295,6 @@ class Builder {
 
     static constexpr const char* doing = "building a BVH";
     static constexpr int code_bits = 63;
-    static constexpr std::uint32_t most_bound_threads = 1U << 18;
     static constexpr std::uint32_t long_round = 1U << 19;  ///< clusters
     static constexpr int rounds_per_look = 4;
 

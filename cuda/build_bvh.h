@@ -1,20 +1,43 @@
 /// Builds the BVH of a scene on the GPU.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "cuda/memory.h"
 #include "tandem/kernel/traversal/bvh_walk.h"
 
 namespace tandem::cuda {
 
+/// The parts of a tree in GPU memory.
+struct TreeArrays {
+    BvhNode* nodes;
+    Sphere* spheres;
+    std::uint32_t* ids;
+    EntryTriangle* triangles;  ///< null unless all primitives are triangles
+    RoughPlacement* placements;
+    bool placed_by_entry;
+};
+
 /// A BVH in GPU memory, as kernels read it.
 struct BuiltBvh {
     BvhView view;
     std::uint32_t node_count = 0;
     std::uint32_t levels = 0;  ///< of nodes; at most max_bvh_depth
+    std::vector<std::uint32_t>
+        level_starts;     ///< the first node of each level, then node_count; children are a level below
+    TreeArrays arrays{};  ///< the same memory as `view`, to be written
+    /// By the surface area heuristic with the weights of kernel/traversal/collapse.h, relative to the area of the root;
+    /// and half of that area, square metres.
+    double cost = 0, root_area = 0;
 };
+
+/// Whether a node has a child of that number; those that are there come first.
+TANDEM_HD_INLINE bool has_child(const BvhNode& node, int child) {
+    return (node.lower_x >> (8 * child) & 255U) <= (node.upper_x >> (8 * child) & 255U);
+}
 
 /// The work that a build spends on the quality of the tree.
 struct BuildEffort {

@@ -3,44 +3,9 @@
 #pragma once
 
 #include "cuda/build_tree.h"
-#include "tandem/kernel/view/scene_view.h"
+#include "cuda/scene_bounds.h"
 
 namespace tandem::cuda {
-
-inline constexpr unsigned int build_block = 256;  ///< threads
-
-// Floats as integers of the same order, for atomic minima and maxima.
-__host__ __device__ inline std::uint32_t ordered_bits(float a) {
-    const std::uint32_t bits = bits_of(a);
-    return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
-}
-__host__ __device__ inline float from_ordered_bits(std::uint32_t bits) {
-    return float_of((bits & 0x80000000U) != 0 ? bits & 0x7FFFFFFFU : ~bits);
-}
-
-/// The bounds of all primitives, as ordered bits.
-struct OrderedBounds {
-    std::uint32_t lower[3], upper[3];
-};
-
-static __global__ void bounds_kernel(SceneView scene, std::uint32_t count, OrderedBounds* bounds) {
-    Aabb box;
-    for (std::uint32_t id = thread_number(); id < count; id += gridDim.x * blockDim.x) {
-        box = merge(box, primitive_bounds(scene, id));
-    }
-    const float lower[] = {box.lower.x, box.lower.y, box.lower.z}, upper[] = {box.upper.x, box.upper.y, box.upper.z};
-    for (int axis = 0; axis < 3; ++axis) {
-        std::uint32_t least = ordered_bits(lower[axis]), most = ordered_bits(upper[axis]);
-        for (int distance = 16; distance > 0; distance /= 2) {
-            least = min(least, __shfl_xor_sync(~0U, least, distance));
-            most = max(most, __shfl_xor_sync(~0U, most, distance));
-        }
-        if (threadIdx.x % 32 == 0) {
-            atomicMin(&bounds->lower[axis], least);
-            atomicMax(&bounds->upper[axis], most);
-        }
-    }
-}
 
 /// The low 21 bits of x, two zeros between each and the next.
 __device__ inline std::uint64_t spread(std::uint64_t x) {

@@ -148,7 +148,10 @@ class CudaBackend final : public Backend {
   public:
     /// On GPU number `gpu`.
     CudaBackend(const BackendOptions& options, int gpu)
-        : gpu_(selected(gpu)), specialise_(options.specialise), culls_pixels_(options.culls_pixels) {
+        : gpu_(selected(gpu)),
+          specialise_(options.specialise),
+          culls_pixels_(options.culls_pixels),
+          refits_(options.refits_hierarchies) {
         check(cudaGetDeviceProperties(&properties_, gpu_), "reading the properties of the GPU");
         kernels_.emplace(properties_.major * 10 + properties_.minor);
     }
@@ -177,8 +180,8 @@ class CudaBackend final : public Backend {
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         const DefaultFpEnvironment guard;
         (void)selected(gpu_);
-        if (scene.copies.empty()) return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_);
-        auto result = std::make_shared<DeviceScene>(without_copies(scene), tier, scenes_->lease(), upload_);
+        if (scene.copies.empty()) return std::make_shared<DeviceScene>(scene, tier, scenes_->lease(), upload_, refits_);
+        auto result = std::make_shared<DeviceScene>(without_copies(scene), tier, scenes_->lease(), upload_, refits_);
         result->set_copies(scene.copies);
         return result;
     }
@@ -479,6 +482,7 @@ class CudaBackend final : public Backend {
     int gpu_;  ///< CUDA's number; chosen before the members below are made there
     Specialise specialise_;
     bool culls_pixels_;
+    bool refits_;
     std::optional<SceneKernels> kernels_;
     cudaDeviceProp properties_{};
     Stream upload_;

@@ -115,7 +115,8 @@ void require_room(const SceneMemory& memory, std::size_t bytes, std::size_t prim
 
 }  // namespace
 
-DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream)
+DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream,
+                         bool refits)
     : ResidentScene(tier),
       memory_(std::move(memory)),
       camera_(scene.camera),
@@ -146,8 +147,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     layout.upload(*memory_, stream);
     memory_->upload_end.record(stream.get());
     if (primitive_count(scene) > loop_limit) {
-        const auto count = static_cast<std::uint32_t>(primitive_count(scene));
-        const BuiltBvh built = build_bvh(view_.scene, memory_->bvh, stream.get(), effort_for(count));
+        const BuiltBvh built = memory_->lasting_bvh.of(view_.scene, memory_->bvh, stream.get(), refits);
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;
         view_.diverges = rays_diverge(host, built.view.frame.bounds);

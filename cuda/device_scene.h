@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "cuda/build_bvh.h"
 #include "cuda/kernels.h"
 #include "cuda/memory.h"
+#include "cuda/refit_bvh.h"
 #include "cuda/stream.h"
 #include "tandem/render/backend.h"
 
@@ -16,6 +16,7 @@ namespace tandem::cuda {
 struct SceneMemory {
     Buffer<DeviceMemory> device;
     BuildMemory bvh;
+    LastingBvh lasting_bvh;  ///< in `bvh`
     Buffer<PinnedMemory> staging;
     Event piece_copied[2];
     Event upload_start;
@@ -25,8 +26,10 @@ struct SceneMemory {
 
 class DeviceScene final : public ResidentScene {
   public:
-    /// Starts the upload on `stream`. For a scene of many primitives, then builds a BVH.
-    DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream);
+    /// Starts the upload on `stream`. For a scene of many primitives, then builds a BVH, or `refits` the one that is in
+    /// the memory.
+    DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<SceneMemory> memory, Stream& stream,
+                bool refits = true);
 
     /// Waits for upload and build, to measure their times.
     [[nodiscard]] PhaseTimes load_times() const override;

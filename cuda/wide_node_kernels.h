@@ -1,9 +1,7 @@
-/// The kernels that turn a binary tree into nodes of four children, and write the entries. Included by build_bvh.cu.
+/// The kernels that turn a binary tree into nodes of four children. Included by build_bvh.cu.
 #pragma once
 
-#include "cuda/build_tree.h"
-#include "tandem/kernel/traversal/hit_interval.h"
-#include "tandem/kernel/traversal/make_node.h"
+#include "cuda/entry_kernels.h"
 
 namespace tandem::cuda {
 
@@ -43,24 +41,6 @@ static __global__ void place_children_kernel(BuildTree tree, WidePlan* nodes, st
     }
 }
 
-/// The parts of a tree in memory.
-struct TreeArrays {
-    BvhNode* nodes;
-    Sphere* spheres;
-    std::uint32_t* ids;
-    EntryTriangle* triangles;  ///< null unless all primitives are triangles
-    RoughPlacement* placements;
-    bool placed_by_entry;
-};
-
-__device__ inline void write_entry(const SceneView& scene, const TreeArrays& to, std::uint32_t entry,
-                                   std::uint32_t id) {
-    to.ids[entry] = id;
-    if (to.triangles != nullptr) to.triangles[entry] = entry_triangle(scene.triangles[id], id);
-    if (to.placed_by_entry) to.placements[entry] = rough_placement(scene.parallelepipeds[id]);
-    visit_primitive(scene, id, [&](const auto& primitive) { to.spheres[entry] = sphere_around(primitive); });
-}
-
 static __global__ void nodes_kernel(SceneView scene, BuildTree tree, const WidePlan* plans, std::uint32_t count,
                                     TreeArrays to) {
     const std::uint32_t i = thread_number();
@@ -79,24 +59,6 @@ static __global__ void nodes_kernel(SceneView scene, BuildTree tree, const WideP
         boxes[all++] = leaf.box;
     }
     to.nodes[i] = make_node(boxes, all, inner, plan.first_inner, plan.first_entry);
-}
-
-/// Entries that children which are not there may name: those of the last primitive once more.
-static __global__ void spare_entries_kernel(TreeArrays to, std::uint32_t count) {
-    const std::uint32_t entry = count + threadIdx.x;
-    to.ids[entry] = to.ids[count - 1];
-    to.spheres[entry] = to.spheres[count - 1];
-    if (to.triangles != nullptr) to.triangles[entry] = to.triangles[count - 1];
-    if (to.placed_by_entry) to.placements[entry] = to.placements[count - 1];
-}
-
-static __global__ void placements_kernel(SceneView scene, RoughPlacement* placements) {
-    const std::uint32_t i = thread_number();
-    if (i < scene.ellipsoid_count) {
-        placements[i] = rough_placement(scene.ellipsoids[i]);
-    } else if (i < scene.ellipsoid_count + scene.parallelepiped_count) {
-        placements[i] = rough_placement(scene.parallelepipeds[i - scene.ellipsoid_count]);
-    }
 }
 
 }  // namespace tandem::cuda

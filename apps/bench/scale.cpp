@@ -44,7 +44,7 @@ std::vector<ScaleContender> make_contenders(const ScaleOptions& options, const B
         if (name == "cuda") {
             for (const int gpus : numbers_of_gpus(options.gpus, source)) {
                 add(options.gpus == std::vector<int>{1} ? "" : ", " + gpus_in_words(gpus), 0, gpus,
-                    {.gpus = {.count = gpus}});
+                    {.refits_hierarchies = false, .gpus = {.count = gpus}});
             }
             continue;
         }

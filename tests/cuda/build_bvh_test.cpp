@@ -8,52 +8,13 @@
 #include <cstdio>
 #include <cstring>
 
-#include "cuda/cuda_backend.h"
-#include "cuda/device_scene.h"
+#include "cuda/bvh_on_gpu.h"
 #include "support/random.h"
-#include "tandem/compile/build_bvh.h"
-#include "tandem/compile/prepare.h"
-#include "tandem/kernel/traversal/collapse.h"
-#include "tandem/kernel/traversal/make_node.h"
-#include "tandem/scene/named_scenes.h"
 
 namespace tandem::cuda {
 namespace {
 
 using test::Random;
-
-template <class T>
-std::vector<T> download(const T* from, std::size_t count) {
-    std::vector<T> values(from == nullptr ? 0 : count);
-    if (values.empty()) return values;
-    check(cudaMemcpy(values.data(), from, count * sizeof(T), cudaMemcpyDeviceToHost), "downloading a BVH");
-    return values;
-}
-
-Bvh download(const BuiltBvh& built, const SceneView& scene) {
-    const std::size_t entries = primitive_count(scene) + spare_entries;
-    return {download(built.view.nodes, built.node_count), download(built.view.entry_spheres, entries),
-            download(built.view.entry_ids, entries),
-            download(built.view.placements,
-                     placed_by_entry(scene) ? entries : scene.ellipsoid_count + scene.parallelepiped_count),
-            download(built.view.entry_triangles, entries)};
-}
-
-PreparedScene with_material(PreparedScene scene) {
-    scene.material_of.assign(scene.spheres.size() + scene.boxes.size() + scene.triangles.size() + scene.quads.size(),
-                             0);
-    scene.materials.emplace_back();
-    scene.optics.emplace_back();
-    return scene;
-}
-
-PreparedScene of_spheres(std::vector<Sphere> spheres) {
-    PreparedScene scene;
-    scene.spheres = std::move(spheres);
-    return with_material(std::move(scene));
-}
-
-PreparedScene named(const char* name) { return prepare(named_scene(name)); }
 
 /// A scene, and its arrays on the GPU.
 class OnGpu {
@@ -91,12 +52,7 @@ class OnGpu {
     BuiltBvh built_{};
 };
 
-class BuildBvhOn : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        if (!why_cuda_unavailable().empty()) GTEST_SKIP() << why_cuda_unavailable();
-    }
-};
+class BuildBvhOn : public NeedsGpu {};
 
 TEST_F(BuildBvhOn, TheGpuHoldsScenesOfAnySize) {
     Random random(1);
@@ -167,44 +123,14 @@ TEST_F(BuildBvhOn, TheGpuGivesTheSameBytesEveryTime) {
     }
 }
 
-/// The cost of a tree by the surface area heuristic, with the weights of collapse.h, from the bounds of what it holds.
-class Cost {
-  public:
-    Cost(const Bvh& bvh, const SceneView& scene) : bvh_(bvh), scene_(scene) {
-        const Aabb all = add_node(0);
-        sum_ /= wide_half_area(all);
-    }
-    [[nodiscard]] double value() const { return sum_; }
-
-  private:
-    Aabb add_node(std::int32_t index) {
-        const BvhNode& node = bvh_.nodes[static_cast<std::size_t>(index)];
-        Aabb all;
-        for (int child = 0; child < bvh_width; ++child) {
-            const bool is_there = (node.lower_x >> (8 * child) & 255U) <= (node.upper_x >> (8 * child) & 255U);
-            if (!is_there) continue;
-            const std::int32_t code = child_of(node, child);
-            const Aabb box =
-                code >= 0 ? add_node(code) : primitive_bounds(scene_, bvh_.entry_ids[static_cast<std::size_t>(~code)]);
-            if (code < 0) sum_ += 0.6 * wide_half_area(box);
-            all = merge(all, box);
-        }
-        sum_ += wide_half_area(all);
-        return all;
-    }
-
-    const Bvh& bvh_;
-    const SceneView& scene_;
-    double sum_ = 0;
-};
-
 TEST_F(BuildBvhOn, TheGpuCostsLittleMoreThanTheHosts) {
     for (const char* name : {"spheres/100000", "boxes/100000", "triangles/100000", "icosphere/6", "mixed/100000"}) {
         OnGpu scene(named(name));
         const Bvh ours = scene.build();
         const SceneView host_view = view(scene.scene());
-        const Bvh host = tandem::build_bvh(host_view, scene.built().view.frame.margin);
-        const double ratio = Cost(ours, host_view).value() / Cost(host, host_view).value();
+        const float margin = scene.built().view.frame.margin;
+        const Bvh host = tandem::build_bvh(host_view, margin);
+        const double ratio = Cost(ours, host_view, margin).value() / Cost(host, host_view, margin).value();
         RecordProperty(std::string("cost over the host's, ") + name, std::to_string(ratio));
         std::printf("%s: cost %.4f of the host's tree, %u levels\n", name, ratio, scene.built().levels);
         EXPECT_LT(ratio, 1.05) << name;

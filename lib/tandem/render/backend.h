@@ -144,6 +144,9 @@ struct BackendOptions {
     /// CUDA: whether a pixel tests only the primitives that it may show (kernel/pixel_culling.h). False to measure what
     /// that saves; no bit depends on it.
     bool culls_pixels = true;
+    /// CUDA: whether load() may move the hierarchy of an earlier scene to the primitives of this one, if these are as
+    /// many of each kind (cuda/refit_bvh.h). False to measure builds; no bit depends on it.
+    bool refits_hierarchies = true;
     GpuChoice gpus{};  ///< CUDA: which GPUs render
     /// Several GPUs: gets a sentence when one fails and the others go on, from any thread. It must not call the
     /// backend.
