@@ -110,6 +110,7 @@ TEST(Coverage, OfKnownNoise) {
           Case{Noise::skewed, "skewed", {.error = 0.2}}, Case{Noise::fireflies, "fireflies", {.error = 0.2}},
           Case{Noise::glints, "glints", {.error = 0.3}, 1.1}, Case{Noise::rim, "rim", {.error = 0.01}},
           Case{Noise::rim, "rim_roughly", {.error = 0.016}},
+          Case{Noise::skewed, "white_flip", {.error = 0.08, .metric = ErrorMetric::flip}, 1.1},
           Case{Noise::skewed, "skewed_relmse", {.error = 0.02, .metric = ErrorMetric::relmse}}}) {
         NoiseBackend backend(one.noise);
         expect_covered(cover(backend, scene, job, one.target, ones), one.name, one.most_error);
