@@ -1,6 +1,7 @@
 #include "coverage.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -8,6 +9,7 @@
 #include <ctime>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "accuracy/accuracy_scenes.h"
@@ -19,6 +21,7 @@
 #include "tandem/base/seconds.h"
 #include "tandem/images/flip.h"
 #include "tandem/render/forecast.h"
+#include "tandem/render/tiled_film.h"
 
 namespace tandem::bench {
 
@@ -41,39 +44,30 @@ struct Trial {
 class CoveredScene {
   public:
     CoveredScene(const CoverageOptions& options, Backend& backend, const std::string& name)
-        : options_(options),
-          backend_(backend),
-          scene_(load_accuracy_scene(name, options.size)),
-          resident_(backend.load(prepare(scene_.scene, {}))),
-          reference_(scene_.truth ? Reference(uniform(*scene_.truth))
-                                  : Reference(render(options.reference_samples, seeds_of_references),
-                                              render(options.reference_samples, seeds_of_references + 1))),
-          meter_(reference_) {
-        target_.metric = parse_metric(options.metric);
-        target_.display = scene_.scene.display;
-        double sum = 0;
-        for (int i = 0; i < pilots; ++i) {
-            const FloatImage image = render(options.equal_samples, seeds_of_references + 2 + static_cast<unsigned>(i));
-            const double error = error_of(image);
-            sum += target_.metric == ErrorMetric::rmse ? error * error : error;
-        }
-        const double mean = sum / pilots;
-        target_.error = target_.metric == ErrorMetric::rmse ? std::sqrt(mean) : mean;
+        : options_(options), backend_(backend), scene_(load_accuracy_scene(name, options.size)) {
+        metric_ = parse_metric(options.metric);
+        resident_ = backend.load(prepare(scene_.scene, {}));
+        Reference rough = scene_.truth ? Reference(uniform(*scene_.truth))
+                                       : Reference(render(options.reference_samples, seeds_of_references),
+                                                   render(options.reference_samples, seeds_of_references + 1));
+        meter_.emplace(reference_.emplace(std::move(rough)));
+        for (const int samples : options.equal_samples) targets_.push_back(target_of(samples));
+        if (!scene_.truth) refine_reference();
         resident_.reset();
     }
 
-    [[nodiscard]] double target() const { return target_.error; }
+    [[nodiscard]] const std::vector<RenderTarget>& targets() const { return targets_; }
     [[nodiscard]] const std::string& name() const { return scene_.name; }
 
-    Trial run(std::uint64_t seed) {
+    Trial run(const RenderTarget& target, std::uint64_t seed) {
         RenderJob job = job_with(options_.most_samples, seed);
         const FramePlan plan = plan_frame(scene_.scene, {}, job);
         const std::function<double()> clock = clock_of();
         const std::atomic<bool> never{false};
         Trial trial;
-        trial.forecast = forecast(backend_, scene_.scene, plan, target_, clock);
+        if (options_.plans) trial.forecast = forecast(backend_, scene_.scene, plan, target, clock);
         const double start = clock();
-        const std::optional<TargetFrame> frame = render_to_target(backend_, scene_.scene, plan, target_, never, clock);
+        const std::optional<TargetFrame> frame = render_to_target(backend_, scene_.scene, plan, target, never, clock);
         trial.seconds = clock() - start;
         trial.stated = frame->error;
         trial.samples = frame->mean_samples;
@@ -83,6 +77,46 @@ class CoveredScene {
     }
 
   private:
+    /// The error of an image with that many samples in every pixel, from a few of them.
+    [[nodiscard]] RenderTarget target_of(int samples) {
+        const bool is_root = metric_ == ErrorMetric::rmse;
+        double sum = 0;
+        for (int i = 0; i < pilots; ++i) {
+            const double error = error_of(render(samples, seeds_of_references + 2 + static_cast<unsigned>(i)));
+            sum += is_root ? error * error : error;
+        }
+        RenderTarget target;
+        target.metric = metric_;
+        target.display = scene_.scene.display;
+        target.error = is_root ? std::sqrt(sum / pilots) : sum / pilots;
+        return target;
+    }
+    /// Replaces the references by ones with `reference_factor` times the samples that a render to the finest target,
+    /// of which no trial knows, gives to each tile: few pixels may carry most of the error, and have most of the
+    /// samples.
+    void refine_reference() {
+        const auto finest = std::min_element(targets_.begin(), targets_.end(),
+                                             [](const auto& a, const auto& b) { return a.error < b.error; });
+        const std::uint64_t seed = seeds_of_references + 2 + pilots;
+        const RenderJob job = job_with(options_.most_samples, seed);
+        const std::atomic<bool> never{false};
+        const TileSamples tiles =
+            parse_tile_samples(render_to_target(backend_, scene_.scene, plan_frame(scene_.scene, {}, job), *finest,
+                                                never, [] { return 0.0; })
+                                   ->tile_samples,
+                               job.width, job.height);
+        FloatImage first = refined(tiles, seed + 1), second = refined(tiles, seed + 2);
+        meter_.emplace(reference_.emplace(std::move(first), std::move(second)));
+    }
+    [[nodiscard]] FloatImage refined(const TileSamples& tiles, std::uint64_t seed) const {
+        TiledFilm film(tiles.grid, {});
+        for (std::size_t i = 0; i < tiles.samples.size(); ++i) {
+            RenderJob job = job_with(options_.reference_factor * tiles.samples[i], seed);
+            job.window = tiles.grid.tile(i);
+            film.add(i, backend_.render(resident_, job).film);
+        }
+        return film_to_image(film.whole());
+    }
     [[nodiscard]] FloatImage uniform(const Vec3f& value) const {
         const auto [width, height] = options_.size;
         return {width, height,
@@ -102,11 +136,11 @@ class CoveredScene {
     }
     /// In the unit of the metric.
     [[nodiscard]] double error_of(const FloatImage& image) {
-        if (target_.metric == ErrorMetric::flip) {
-            return flip(image, reference_.mean(), {.display = target_.display}).mean;
+        if (metric_ == ErrorMetric::flip) {
+            return flip(image, reference_->mean(), {.display = scene_.scene.display}).mean;
         }
-        const ImageErrors errors = meter_.add(image);
-        return target_.metric == ErrorMetric::rmse ? std::sqrt(std::max(errors.squared, 0.0)) : errors.relative;
+        const ImageErrors errors = meter_->add(image);
+        return metric_ == ErrorMetric::rmse ? std::sqrt(std::max(errors.squared, 0.0)) : errors.relative;
     }
     [[nodiscard]] std::function<double()> clock_of() const {
         if (options_.clock == "process") {
@@ -119,9 +153,10 @@ class CoveredScene {
     Backend& backend_;
     AccuracyScene scene_;
     std::shared_ptr<ResidentScene> resident_;  ///< until the target is known
-    Reference reference_;
-    ErrorMeter meter_;
-    RenderTarget target_;
+    std::optional<Reference> reference_;
+    std::optional<ErrorMeter> meter_;
+    ErrorMetric metric_ = ErrorMetric::rmse;
+    std::vector<RenderTarget> targets_;
 };
 
 double mean_of(const std::vector<double>& values) {
@@ -134,58 +169,85 @@ double share_of(const std::vector<Trial>& trials, const std::function<bool(const
 
 bool contains(const ForecastRange& range, double value) { return value >= range.low && value <= range.high; }
 
-BenchmarkRow row_of(const CoveredScene& scene, const CoverageOptions& options, const std::vector<Trial>& trials) {
+/// Adds a value per trial, and returns the values.
+std::vector<double> add_series(BenchmarkRow& row, const std::vector<Trial>& trials, const char* name,
+                               const std::function<double(const Trial&)>& value) {
+    std::vector<double> values;
+    std::transform(trials.begin(), trials.end(), std::back_inserter(values), value);
+    row.series.emplace_back(name, values);
+    return values;
+}
+
+/// The forecasts, and how wide they are: the ratios of their ends to their values, less one, on average.
+void add_plans(BenchmarkRow& row, const std::vector<Trial>& trials) {
+    struct Quantity {
+        const char* name;
+        ForecastRange Forecast::*range;
+        double Trial::*truth;
+    };
+    for (const auto& [name, range, truth] : {Quantity{"samples", &Forecast::samples, &Trial::samples},
+                                             Quantity{"seconds", &Forecast::seconds, &Trial::seconds}}) {
+        const std::string planned = fmt::format("planned_{}", name);
+        const auto of = [&](double ForecastRange::*end, const char* suffix) {
+            return add_series(row, trials, (planned + suffix).c_str(),
+                              [&](const Trial& t) { return t.forecast.*range.*end; });
+        };
+        const auto values = of(&ForecastRange::value, ""), low = of(&ForecastRange::low, "_low"),
+                   high = of(&ForecastRange::high, "_high");
+        double truths = 0;
+        for (const Trial& trial : trials) truths += trial.*truth;
+        const double mean = mean_of(values);
+        row.figures.emplace_back(planned + "_over_" + name, mean * static_cast<double>(trials.size()) / truths);
+        row.figures.emplace_back(planned + "_low", mean_of(low) / mean - 1);
+        row.figures.emplace_back(planned + "_high", mean_of(high) / mean - 1);
+        row.figures.emplace_back(fmt::format("{}_in_plan", name), share_of(trials, [&](const Trial& t) {
+                                     return contains(t.forecast.*range, t.*truth);
+                                 }));
+    }
+}
+
+BenchmarkRow row_of(const CoveredScene& scene, std::size_t which, const CoverageOptions& options,
+                    const std::vector<Trial>& trials) {
+    const double target = scene.targets()[which].error;
     BenchmarkRow row;
-    row.label = fmt::format("{} {}", scene.name(), options.metric);
+    row.label = fmt::format("{} {} {:.3g}", scene.name(), options.metric, target);
     row.scene = scene.name();
     row.backend = options.backend;
     row.tier = "strict";
     row.threads = options.threads;
     const auto series = [&](const char* name, const std::function<double(const Trial&)>& value) {
-        std::vector<double> values;
-        std::transform(trials.begin(), trials.end(), std::back_inserter(values), value);
-        row.series.emplace_back(name, values);
-        return values;
+        return add_series(row, trials, name, value);
     };
     const auto errors = series("error", [](const Trial& t) { return t.error; });
     const auto stated = series("stated", [](const Trial& t) { return t.stated.value; });
     series("stated_low", [](const Trial& t) { return t.stated.low; });
     series("stated_high", [](const Trial& t) { return t.stated.high; });
     const auto samples = series("samples", [](const Trial& t) { return t.samples; });
-    const auto planned = series("planned_samples", [](const Trial& t) { return t.forecast.samples.value; });
-    series("planned_samples_low", [](const Trial& t) { return t.forecast.samples.low; });
-    series("planned_samples_high", [](const Trial& t) { return t.forecast.samples.high; });
-    const auto times = series("planned_seconds", [](const Trial& t) { return t.forecast.seconds.value; });
-    series("planned_seconds_low", [](const Trial& t) { return t.forecast.seconds.low; });
-    series("planned_seconds_high", [](const Trial& t) { return t.forecast.seconds.high; });
     for (std::size_t i = 0; i < trials.size(); ++i) {
         row.seconds.push_back(trials[i].seconds);
         row.rounds.push_back(static_cast<std::int32_t>(i));
     }
     row.figures = {
-        {"target", scene.target()},
+        {"target", target},
         {"trials", static_cast<double>(trials.size())},
         {"reached", share_of(trials, [](const Trial& t) { return t.reached; })},
         {"covered",
          share_of(trials, [](const Trial& t) { return t.error >= t.stated.low && t.error <= t.stated.high; })},
         {"below", share_of(trials, [](const Trial& t) { return t.error < t.stated.low; })},
         {"above", share_of(trials, [](const Trial& t) { return t.error > t.stated.high; })},
-        {"error_over_target", mean_of(errors) / scene.target()},
+        {"error_over_target", mean_of(errors) / target},
         {"stated_over_error", mean_of(stated) / mean_of(errors)},
         {"interval_over_stated", mean_of(row.series[3].second) / mean_of(stated) - 1},
         {"samples", mean_of(samples)},
-        {"equal_samples", static_cast<double>(options.equal_samples)},
-        {"planned_over_samples", mean_of(planned) / mean_of(samples)},
-        {"samples_in_plan", share_of(trials, [](const Trial& t) { return contains(t.forecast.samples, t.samples); })},
-        {"planned_over_seconds", mean_of(times) / mean_of(row.seconds)},
-        {"seconds_in_plan", share_of(trials, [](const Trial& t) { return contains(t.forecast.seconds, t.seconds); })}};
+        {"equal_samples", static_cast<double>(options.equal_samples[which])}};
+    if (options.plans) add_plans(row, trials);
     return row;
 }
 
-double figure(const BenchmarkRow& row, const std::string& name) {
+std::optional<double> figure(const BenchmarkRow& row, const std::string& name) {
     const auto found =
         std::find_if(row.figures.begin(), row.figures.end(), [&](const auto& entry) { return entry.first == name; });
-    return found->second;
+    return found == row.figures.end() ? std::nullopt : std::optional(found->second);
 }
 
 Table table_of(const std::vector<BenchmarkRow>& rows) {
@@ -204,11 +266,13 @@ Table table_of(const std::vector<BenchmarkRow>& rows) {
          {"Samples in plan", true},
          {"Time in plan", true}},
         {}};
-    const auto percent = [](double share) { return fmt::format("{:.1f} %", 100 * share); };
+    const auto percent = [](std::optional<double> share) {
+        return share ? fmt::format("{:.1f} %", 100 * *share) : std::string("not made");
+    };
     for (const BenchmarkRow& row : rows) {
-        table.rows.push_back({row.scene, fmt::format("{:.4g}", figure(row, "target")),
-                              fmt::format("{:.3f}", figure(row, "error_over_target")),
-                              fmt::format("{:.1f}", figure(row, "samples")), percent(figure(row, "covered")),
+        table.rows.push_back({row.scene, fmt::format("{:.4g}", *figure(row, "target")),
+                              fmt::format("{:.3f}", *figure(row, "error_over_target")),
+                              fmt::format("{:.1f}", *figure(row, "samples")), percent(figure(row, "covered")),
                               percent(figure(row, "below")), percent(figure(row, "above")),
                               "+" + percent(figure(row, "interval_over_stated")), percent(figure(row, "reached")),
                               percent(figure(row, "samples_in_plan")), percent(figure(row, "seconds_in_plan"))});
@@ -223,9 +287,10 @@ bool run_coverage(const CoverageOptions& options, const BackendSource& source, R
     report.title = "Renders to a target";
     report.summary = fmt::format(
         "Each scene is rendered {} times, with {} x {} pixels, to the {} that {} samples in every pixel have. The true "
-        "error is measured against two references of {} samples per pixel. Times: {} clock.",
-        options.trials, options.size.width, options.size.height, options.metric, options.equal_samples,
-        options.reference_samples, options.clock);
+        "error is measured against two references, each with {} times the samples, in every tile, of a render to the "
+        "finest of these targets. Times: {} clock.",
+        options.trials, options.size.width, options.size.height, options.metric, fmt::join(options.equal_samples, ", "),
+        options.reference_factor, options.clock);
     BackendOptions backend_options;
     backend_options.threads = options.threads;
     const std::unique_ptr<Backend> backend = source.make(options.backend, backend_options);
@@ -234,11 +299,15 @@ bool run_coverage(const CoverageOptions& options, const BackendSource& source, R
     for (const std::string& name : options.scenes) {
         log_progress("coverage: " + name);
         CoveredScene scene(options, *backend, name);
-        std::vector<Trial> trials;
-        trials.reserve(static_cast<std::size_t>(options.trials));
-        for (int i = 0; i < options.trials; ++i) trials.push_back(scene.run(options.seed + static_cast<unsigned>(i)));
-        report.rows.push_back(row_of(scene, options, trials));
-        covers = covers && figure(report.rows.back(), "covered") >= least_covered;
+        for (std::size_t which = 0; which < scene.targets().size(); ++which) {
+            std::vector<Trial> trials;
+            trials.reserve(static_cast<std::size_t>(options.trials));
+            for (int i = 0; i < options.trials; ++i) {
+                trials.push_back(scene.run(scene.targets()[which], options.seed + static_cast<unsigned>(i)));
+            }
+            report.rows.push_back(row_of(scene, which, options, trials));
+            covers = covers && *figure(report.rows.back(), "covered") >= least_covered;
+        }
     }
     report.blocks.emplace_back(table_of(report.rows));
     report.blocks.emplace_back(

@@ -14,9 +14,12 @@ struct CoverageOptions {
     std::vector<std::string> scenes;  ///< as for the accuracy report
     std::string metric = "rmse";
     FilmSize size{64, 48};
-    int trials = 200;              ///< renders, each with a seed of its own
-    int equal_samples = 64;        ///< the target is the error of an image with as many samples in every pixel
-    int reference_samples = 4096;  ///< per pixel, of each of two references
+    int trials = 200;  ///< renders, each with a seed of its own
+    /// A target for each: the error of an image with as many samples in every pixel.
+    std::vector<int> equal_samples = {64};
+    int reference_samples = 1024;  ///< per pixel, of each of the two references that the targets are from
+    int reference_factor = 32;     ///< the samples of the references of the trials, over those of a trial
+    bool plans = true;             ///< a forecast before each trial
     int most_samples = 65536;      ///< per pixel, of the renders to the target
     std::string backend = "cpu";
     int threads = 0;

@@ -323,13 +323,21 @@ CLI::App* add_coverage(CLI::App& app, Everything& all) {
         ->check(CLI::Range(1, 100'000));
     command
         ->add_option("--equal-samples", coverage.equal_samples,
-                     "The target is the error of an image with as many samples in every pixel")
+                     "A target for each: the error of an image with as many samples in every pixel")
+        ->delimiter(',')
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
     command
-        ->add_option("--reference-samples", coverage.reference_samples, "Samples per pixel of each of two references")
+        ->add_option("--reference-samples", coverage.reference_samples,
+                     "Samples per pixel of each of the two references that give the targets")
         ->capture_default_str()
         ->check(CLI::Range(2, 1 << 24));
+    command
+        ->add_option("--reference-factor", coverage.reference_factor,
+                     "Samples of the references of the trials, over those of a render to the finest target")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1 << 12));
+    command->add_flag("!--no-plans", coverage.plans, "Make no forecast before the trials");
     command->add_option("--most-samples", coverage.most_samples, "Most samples per pixel of a render to the target")
         ->capture_default_str()
         ->check(CLI::Range(16, 1 << 24));

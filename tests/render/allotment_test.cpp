@@ -82,6 +82,23 @@ TEST(Allotment, BeforeItOnlyTilesThatNeedMoreGetSamples) {
     EXPECT_EQ(round.ends, (std::vector<int>{16, 16, 32}));
 }
 
+TEST(LookAround, ATileWithoutNoiseAmongNoisyOnesGetsSamplesToo) {
+    const TileGrid grid{40, 24, 8};  // 5 x 3 tiles
+    std::vector<TileErrors> tiles(grid.count(), tile_of(4, 16));
+    const std::size_t quiet = 7, corner = 14;
+    tiles[quiet] = tile_of(0, 16);
+    tiles[13] = tile_of(4, 64);  // likewise noisy, with more samples
+    const Allotment alone = allot(tiles, {.error = 0.1}, 1 << 20);
+    EXPECT_EQ(alone.ends[quiet], 16);
+    look_around(tiles, grid);
+    EXPECT_NEAR(*tiles[quiet].likely, 0.2 * 8 / 9 * 4 / 16 * 1000, 1e-9);
+    EXPECT_NEAR(*tiles[corner].likely, (0.8 + 0.2) * 4 / 16 * 1000, 1e-9) << "as if all had its samples";
+    const Allotment together = allot(tiles, {.error = 0.1}, 1 << 20);
+    EXPECT_EQ(together.ends[quiet], 32);
+    // what is predicted for the film is of the tiles' own errors, so nothing else gets more
+    for (const std::size_t i : {std::size_t{0}, corner}) EXPECT_EQ(together.ends[i], alone.ends[i]) << i;
+}
+
 TEST(Allotment, EndsWhereNoPartHelps) {
     const std::vector<TileErrors> tiles = {tile_of(0, 24), tile_of(100, 100)};
     EXPECT_EQ(allot(tiles, {.error = 0.01}, 100).ends, (std::vector<int>{24, 100}));

@@ -84,11 +84,11 @@ Coverage cover(Backend& backend, const Scene& scene, RenderJob job, const Render
     return coverage;
 }
 
-void expect_covered(const Coverage& coverage, const char* name) {
+void expect_covered(const Coverage& coverage, const char* name, double most_error = 1) {
     EXPECT_GE(coverage.covered, least_covered) << name << ": of " << trials << " true errors " << coverage.below
                                                << " were below their interval, " << coverage.above << " above";
     EXPECT_GE(coverage.error, 0.85) << name;
-    EXPECT_LE(coverage.error, 1) << name;
+    EXPECT_LE(coverage.error, most_error) << name;
     ::testing::Test::RecordProperty(std::string("covered_") + name, coverage.covered);
 }
 
@@ -103,13 +103,17 @@ TEST(Coverage, OfKnownNoise) {
         Noise noise;
         const char* name;
         RenderTarget target;
+        double most_error = 1;
     };
     for (const Case& one :
          {Case{Noise::uniform, "uniform", {.error = 0.08}}, Case{Noise::edges, "edges", {.error = 0.05}},
           Case{Noise::skewed, "skewed", {.error = 0.2}}, Case{Noise::fireflies, "fireflies", {.error = 0.2}},
+          Case{Noise::glints, "glints", {.error = 0.3}, 1.1}, Case{Noise::rim, "rim", {.error = 0.01}},
+          Case{Noise::rim, "rim_roughly", {.error = 0.016}},
+          Case{Noise::skewed, "white_flip", {.error = 0.08, .metric = ErrorMetric::flip}, 1.1},
           Case{Noise::skewed, "skewed_relmse", {.error = 0.02, .metric = ErrorMetric::relmse}}}) {
         NoiseBackend backend(one.noise);
-        expect_covered(cover(backend, scene, job, one.target, ones), one.name);
+        expect_covered(cover(backend, scene, job, one.target, ones), one.name, one.most_error);
     }
 }
 

@@ -68,7 +68,7 @@ TEST_F(ForecastTest, SaysWhatCannotBeReached) {
     EXPECT_NEAR(expected.least_error.value, least, 0.05 * least);
     EXPECT_LT(expected.least_error.low, least);
     EXPECT_GT(expected.least_error.high, least);
-    EXPECT_EQ(expected.samples.value, (64.0 + 24) / 2);
+    EXPECT_EQ(expected.samples.value, (64.0 * 9 + 24 * 7) / 16) << "with the tiles beside the noise";
 }
 
 TEST_F(ForecastTest, OfAGivenNumberOfSamplesIsOfTimeAlone) {

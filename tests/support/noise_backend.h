@@ -18,6 +18,8 @@ enum class Noise {
     edges,      ///< 0 or 2 in each eighth column, no noise elsewhere
     skewed,     ///< exponential of a normal number, with sigma 1
     fireflies,  ///< 0.9, and 20.9 in one of 200 samples
+    glints,     ///< 0.9, and 200.9 in one of 2000 samples: in 16 samples half of the tiles of 8 x 8 pixels have none
+    rim,        ///< from 0.9 to 1.1, but in three pixels 0, or 5 in one of 5 samples
     none
 };
 
@@ -73,6 +75,11 @@ class NoiseBackend : public Backend {
                 return std::exp(std::sqrt(-2 * std::log(1 - u)) * std::cos(6.283185307179586 * v) - 0.5);
             case Noise::fireflies:
                 return u < 0.005 ? 20.9 : 0.9;
+            case Noise::glints:
+                return u < 0.0005 ? 200.9 : 0.9;
+            case Noise::rim:
+                if (x == 5 && y >= 7 && y < 10) return u < 0.2 ? 5 : 0;
+                return 0.9 + 0.2 * u;
             case Noise::none:
                 return 1;
         }

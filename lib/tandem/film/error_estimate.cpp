@@ -13,23 +13,37 @@ namespace tandem {
 
 namespace {
 
-/// The 97.5 % quantile of Student's distribution, from three terms of its expansion: M. Abramowitz, I. Stegun,
-/// "Handbook of Mathematical Functions", 26.7.5. Within 1 % for 3 degrees of freedom or more; below that too small.
-double student_quantile(double freedom) {
-    constexpr double z = 1.959963984540054, z3 = z * z * z, z5 = z3 * z * z;
-    return z + (z3 + z) / (4 * freedom) + (5 * z5 + 16 * z3 + 3 * z) / (96 * freedom * freedom);
+constexpr double normal_quantile = 1.959963984540054;  // 97.5 %
+
+/// The quantile of the chi-squared distribution over its degrees of freedom, at that quantile of the normal one: E. B.
+/// Wilson, M. M. Hilferty, "The distribution of chi-square", PNAS 17, 1931. Within 2 % above the mean.
+double chi_squared_share(double degrees, double of_normal) {
+    const double c = 2 / (9 * degrees), root = std::max(1 - c + of_normal * std::sqrt(c), 0.0);
+    return root * root * root;
+}
+
+/// How far a sum of errors goes above its mean in one case of forty, in standard deviations. A pixel's squared error is
+/// its variance times a number with the chi-squared distribution of one degree of freedom. A sum of them has the first
+/// three cumulants of a + b X, where X has squares^3 / cubes^2 degrees: J. P. Imhof, "Computing the distribution of
+/// quadratic forms in normal variables", Biometrika 48, 1961.
+double deviations_above(const ErrorSums& errors) {
+    if (!(errors.cubes > 0)) return normal_quantile;
+    const double ratio = errors.squares / errors.cubes;
+    const double degrees = std::max(ratio * ratio * errors.squares, 1.0);
+    return (chi_squared_share(degrees, normal_quantile) - 1) * std::sqrt(degrees / 2);
+}
+
+/// The lower end of the interval, as a share of the mean, for a standard error of k. The normal distribution has more
+/// below it than a sum of squares has, and is held above 0 here; where few pixels carry all, the errors go lower.
+double share_below(const ErrorSums& errors, double k) {
+    const double normal = normal_quantile * k, held = std::max(1 - normal, 1 / ((1 + normal) * (1 + normal)));
+    if (!(errors.cubes > 0)) return held;
+    return std::min(held, chi_squared_share(2 / (k * k), -normal_quantile));
 }
 
 /// Of the mean, as a share of it.
 double standard_error(const ErrorSums& errors) {
     return errors.squares > 0 ? std::sqrt(2 * errors.squares) / errors.sum : 0;
-}
-
-/// How far the interval goes above the mean, as a share of it.
-double spread(const ErrorSums& errors) {
-    if (!(errors.squares > 0)) return 0;
-    const double carriers = errors.sum * errors.sum / errors.squares;
-    return student_quantile(std::max(carriers - 1, 1.0)) * standard_error(errors);
 }
 
 double mean_of(const ErrorSums& errors) { return errors.pixels > 0 ? errors.sum / errors.pixels : 0; }
@@ -79,6 +93,7 @@ ErrorSums squared_errors(const Film& all, const Film& fresh, ErrorMetric metric,
             3;
         errors.sum += pixel;
         errors.squares += pixel * pixel;
+        errors.cubes += pixel * pixel * pixel;
     }
     return errors;
 }
@@ -86,9 +101,11 @@ ErrorSums squared_errors(const Film& all, const Film& fresh, ErrorMetric metric,
 StatedError estimate_error(const ErrorSums& errors, ErrorMetric metric) {
     const DefaultFpEnvironment guard;
     const double mean = mean_of(errors);
-    const double k = spread(errors) + (metric == ErrorMetric::flip ? flip_model_error : 0);
+    const double extra = metric == ErrorMetric::flip ? flip_model_error : 0;
+    const double k = standard_error(errors);
+    const double low = std::max(share_below(errors, k) - extra, 0.0), high = 1 + deviations_above(errors) * k + extra;
     const auto in_unit = [&](double square) { return metric == ErrorMetric::rmse ? std::sqrt(square) : square; };
-    return {in_unit(mean), in_unit(mean * std::max(1 - k, 1 / ((1 + k) * (1 + k)))), in_unit(mean * (1 + k))};
+    return {in_unit(mean), in_unit(mean * low), in_unit(mean * high)};
 }
 
 double cautious_mean(const ErrorSums& errors) { return mean_of(errors) * (1 + standard_error(errors)); }

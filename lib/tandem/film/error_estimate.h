@@ -30,24 +30,28 @@ struct ErrorSums {
     double pixels = 0;
     double sum = 0;
     double squares = 0;  ///< of the errors of pixels: says how few pixels the sum is from
+    double cubes = 0;    ///< likewise: says from how few pixels its spread is; 0: from very many
 
     ErrorSums& operator+=(const ErrorSums& other) {
         pixels += other.pixels;
         sum += other.sum;
         squares += other.squares;
+        cubes += other.cubes;
         return *this;
     }
     ErrorSums& operator-=(const ErrorSums& other) {
         pixels -= other.pixels;
         sum -= other.sum;
         squares -= other.squares;
+        cubes -= other.cubes;
         return *this;
     }
 };
 
 /// The sums if all errors were `factor` times as large.
 [[nodiscard]] inline ErrorSums scaled(const ErrorSums& errors, double factor) {
-    return {errors.pixels, errors.sum * factor, errors.squares * factor * factor};
+    return {errors.pixels, errors.sum * factor, errors.squares * factor * factor,
+            errors.cubes * factor * factor * factor};
 }
 
 /// The expected squared error of each pixel's mean over all samples, from the variance of later samples alone. `all`:
@@ -68,10 +72,11 @@ struct StatedError {
 /// From the errors of pixels. With n' = sum^2 / squares, the number of pixels that carry the error, the mean squared
 /// error of a film and its estimate differ by a relative variance of at most 2 / n': that of the error itself is (2 +
 /// kurtosis / N), that of the estimate from n of N samples (2 / (n - 1) + kurtosis / n), and the expectation of
-/// `squares` is higher than the squared variances by the factor (1 + 2 / (n - 1) + kurtosis / n). So the interval is
-/// the mean times 1 - k to 1 + k, where k = t * sqrt(2 / n') and t is the quantile of Student's distribution for n' - 1
-/// degrees of freedom. A sum of squares with few carriers is skewed and cannot reach 0: its lower end is no less than
-/// 1 / (1 + k)^2.
+/// `squares` is higher than the squared variances by the factor (1 + 2 / (n - 1) + kurtosis / n). So the standard error
+/// of the mean is k = sqrt(2 / n') of it. The interval has 2.5 % of films above it: a sum of squares is skewed, and the
+/// more so the fewer pixels its spread is from, which `cubes` tells. Below it are fewer than 2.5 %, by the normal
+/// distribution: 1 - 1.96 k, but no less than 1 / (1 + 1.96 k)^2 unless few pixels carry all. `cubes` of 0, as of FLIP:
+/// 1 + 1.96 k above.
 [[nodiscard]] StatedError estimate_error(const ErrorSums& errors, ErrorMetric metric);
 
 /// The mean error of pixels, and a standard error more: sqrt(2 / n') of it.

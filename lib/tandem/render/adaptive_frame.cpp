@@ -84,6 +84,7 @@ class Rounds {
                 save();
                 return StoppedBy::interrupt;
             }
+            state_.round.was_last = state_.round.was_last || state_.round.is_last;
             state_.round.begins = state_.film.samples();
             state_.round.ends = std::move(next.ends);
             state_.round.is_last = next.is_last;
@@ -100,6 +101,11 @@ class Rounds {
         const ErrorSums errors = sum_of(fresh_errors());
         frame.frame.result = {state_.film.whole(wanted_), std::move(stats_)};
         frame.error = estimate_error(errors, target_.metric);
+        if (target_.metric != ErrorMetric::flip) {
+            const StatedError all = estimate_error(sum_of(all_errors()), target_.metric);
+            frame.error.low = std::min(frame.error.low, all.low);
+            frame.error.high = std::max(frame.error.high, all.high);
+        }
         frame.stopped_by = reason;
         frame.tile_samples = tile_samples_text(state_.film.grid().edge, state_.film.samples());
         frame.mean_samples = work_so_far() / static_cast<double>(frame.frame.result.film.pixel_count());
@@ -203,7 +209,8 @@ class Rounds {
                 Film judge(tile.width, tile.height, part.film.samples(), FilmPlane::variance);
                 copy_window(judge, 0, 0, part.film, place);
                 const int round = state_.round.begins[index];
-                if (round == 0 || oldest.begin == round) {
+                const bool is_new = round == 0 || (oldest.begin == round && !state_.round.was_last);
+                if (is_new) {
                     state_.round.fresh[index] = std::move(judge);
                 } else {
                     state_.round.fresh[index].add(judge);
@@ -267,14 +274,19 @@ const char* to_string(StoppedBy reason) {
 
 std::vector<TileErrors> tile_errors(const TiledFilm& film, const std::vector<Film>* fresh, const RenderTarget& target) {
     const DefaultFpEnvironment guard;
-    if (target.metric == ErrorMetric::flip) return flip_errors(film, *fresh, target.display);
-    const double mean = mean_value(film);
     std::vector<TileErrors> tiles(film.grid().count());
+    if (target.metric == ErrorMetric::flip) {
+        tiles = flip_errors(film, *fresh, target.display);
+        look_around(tiles, film.grid());
+        return tiles;
+    }
+    const double mean = mean_value(film);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const Film& tile = film.tile(i);
         tiles[i].errors = squared_errors(tile, fresh != nullptr ? (*fresh)[i] : tile, target.metric, mean);
         tiles[i].samples = film.samples(i);
     }
+    look_around(tiles, film.grid());
     return tiles;
 }
 

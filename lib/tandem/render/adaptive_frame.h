@@ -37,9 +37,11 @@ struct Resumption {
 /// Renders square tiles of target_tile_edge() pixels in rounds, which allot() decides. After each round it knows the
 /// errors of all tiles from all samples so far, and decides the next round by them. What a last round shows has decided
 /// nothing: so the error that is reported is estimated from the samples of the last round alone, those that did not
-/// stop it. (Two-stage sampling: C. Stein, "A two-sample test for a linear hypothesis whose power is independent of the
-/// variance", Annals of Mathematical Statistics, 1945.) If that error, at
-/// the lower end of its interval, is above the target, rounds go on.
+/// stop it, or from those since the first such round if it did not end the render. (Two-stage sampling: C. Stein, "A
+/// two-sample test for a linear hypothesis whose power is independent of the variance", Annals of Mathematical
+/// Statistics, 1945.) If that error, at the lower end of its interval, is above the target, rounds go on. The interval
+/// also has that of the error from all samples, which have decided something, but are more: they show what the film
+/// itself has caught. (Not for flip, which is always estimated from all.)
 ///
 /// Decisions depend on the film alone, so in the exact tiers every backend draws the same bits. The time limit is the
 /// exception: a round does not start if, by the time of the rounds before, it would end too late; the first always

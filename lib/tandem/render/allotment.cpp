@@ -25,6 +25,16 @@ struct Step {
     bool operator<(const Step& other) const { return power != other.power ? power < other.power : order > other.order; }
 };
 
+/// What the samples of a tile leave of its errors if it had `samples`.
+double share_left(const TileErrors& tile, int samples) {
+    const double share = static_cast<double>(tile.samples) / samples;
+    return tile.exponent == 1 ? share : power<float>(share, tile.exponent);
+}
+
+double likely_sum(const TileErrors& tile, int samples) {
+    return tile.likely.value_or(tile.errors.sum) * share_left(tile, samples);
+}
+
 class Greedy {
   public:
     Greedy(std::span<const TileErrors> tiles, int most) : tiles_(tiles), most_(most), ends_(tiles.size()) {
@@ -61,7 +71,7 @@ class Greedy {
         const TileErrors& tile = tiles_[i];
         const int end = next_part_end(ends_[i], most_);
         if (end == ends_[i]) return;
-        const double gain = predicted(tile, ends_[i]).sum - predicted(tile, end).sum;
+        const double gain = likely_sum(tile, ends_[i]) - likely_sum(tile, end);
         if (!(gain > 0)) return;
         const double per_sample = gain / (tile.errors.pixels * (end - ends_[i]));
         steps_.push({std::ilogb(per_sample), std::uint64_t{i} * 0x9E3779B97F4A7C15U, i});
@@ -86,9 +96,28 @@ int next_part_end(int samples, int most) {
     return static_cast<int>(std::min<std::int64_t>(end, most));
 }
 
-ErrorSums predicted(const TileErrors& tile, int samples) {
-    const double share = static_cast<double>(tile.samples) / samples;
-    return scaled(tile.errors, tile.exponent == 1 ? share : power<float>(share, tile.exponent));
+ErrorSums predicted(const TileErrors& tile, int samples) { return scaled(tile.errors, share_left(tile, samples)); }
+
+void look_around(std::vector<TileErrors>& tiles, const TileGrid& grid) {
+    const DefaultFpEnvironment guard;
+    constexpr double share_of_neighbours = 0.2;
+    const auto at = [&](int column, int row) -> TileErrors& {
+        return tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                     static_cast<std::size_t>(column)];
+    };
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (int column = 0; column < grid.columns(); ++column) {
+            TileErrors& tile = at(column, row);
+            ErrorSums around;
+            for (int v = std::max(row - 1, 0); v <= std::min(row + 1, grid.rows() - 1); ++v) {
+                for (int u = std::max(column - 1, 0); u <= std::min(column + 1, grid.columns() - 1); ++u) {
+                    around += predicted(at(u, v), tile.samples);
+                }
+            }
+            const double mean = around.sum / around.pixels * tile.errors.pixels;
+            tile.likely = (1 - share_of_neighbours) * tile.errors.sum + share_of_neighbours * mean;
+        }
+    }
 }
 
 Allotment allot(std::span<const TileErrors> tiles, const RenderTarget& target, int most) {

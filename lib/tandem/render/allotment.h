@@ -1,10 +1,12 @@
 /// How many samples each tile gets, so that the whole film reaches an error with few samples.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "tandem/render/render_target.h"
+#include "tandem/render/tile_grid.h"
 
 namespace tandem {
 
@@ -22,7 +24,14 @@ struct TileErrors {
     ErrorSums errors;     ///< with `samples`
     double exponent = 1;  ///< the errors fall with the number of samples to the power -exponent
     int samples = 0;      ///< per pixel
+    /// errors.sum as the tiles around suggest it too; what parts gain is judged by it, if it is there.
+    std::optional<double> likely{};
 };
+
+/// Sets `likely` of every tile of a grid: a fifth of it is the mean of the tile and its neighbours, each as if it had
+/// the samples of the tile. Bright samples that are rare are found in some tiles and not in others that have as many of
+/// them. By its own samples alone a tile without one would get no more, and would keep an error that nothing shows.
+void look_around(std::vector<TileErrors>& tiles, const TileGrid& grid);
 
 struct Allotment {
     std::vector<int> ends;  ///< by tile: its samples after the round; unchanged if it is not in the round

@@ -19,7 +19,7 @@ namespace tandem {
 
 namespace {
 
-constexpr std::string_view magic = "Tandem checkpoint 2\n";
+constexpr std::string_view magic = "Tandem checkpoint 3\n";
 constexpr std::string_view any_magic = "Tandem checkpoint ";
 constexpr std::size_t hash_characters = 64;
 constexpr const char* edge_key = "tile_edge";
@@ -29,6 +29,7 @@ constexpr const char* fresh_key = "round_samples";
 constexpr const char* begins_key = "round_begins";
 constexpr const char* ends_key = "round_ends";
 constexpr const char* last_key = "round_is_last";
+constexpr const char* was_last_key = "round_was_last";
 constexpr const char* seconds_key = "seconds_of_rendering";
 
 std::string hash_of(std::span<const std::byte> bytes) {
@@ -62,7 +63,8 @@ std::string header_of(const Checkpoint& checkpoint) {
     if (const auto& round = checkpoint.round) {
         text +=
             line(fresh_key, samples_of(round->fresh)) + line(begins_key, round->begins) + line(ends_key, round->ends);
-        text += fmt::format("{}: {}\n{}: {}\n", last_key, round->is_last ? 1 : 0, seconds_key, round->seconds);
+        text += fmt::format("{}: {}\n{}: {}\n{}: {}\n", last_key, round->is_last ? 1 : 0, was_last_key,
+                            round->was_last ? 1 : 0, seconds_key, round->seconds);
     }
     return text + "\n";
 }
@@ -114,8 +116,11 @@ Film take_film(std::string_view& rest, const FilmWindow& window, int samples, Pl
 }
 
 Round take_round(const MetadataText& header, const TileGrid& grid, std::string_view& rest) {
-    Round round{std::vector<Film>(grid.count()), samples_in(header, begins_key, grid.count()),
-                samples_in(header, ends_key, grid.count()), number_in<int>(header, last_key) != 0,
+    Round round{std::vector<Film>(grid.count()),
+                samples_in(header, begins_key, grid.count()),
+                samples_in(header, ends_key, grid.count()),
+                number_in<int>(header, last_key) != 0,
+                number_in<int>(header, was_last_key) != 0,
                 number_in<double>(header, seconds_key)};
     const std::vector<int> samples = samples_in(header, fresh_key, grid.count());
     for (std::size_t i = 0; i < grid.count(); ++i) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include "tandem/film/variance.h"
 #include "tandem/images/flip.h"
@@ -91,6 +92,48 @@ std::vector<Vec3d> without_noise(const Pixels& pixels) {
     return result;
 }
 
+/// The sums of f(index) over the window of every pixel.
+template <class F>
+std::vector<Vec3d> window_sums(const Pixels& pixels, int radius, F f) {
+    std::vector<Vec3d> rows(pixels.means.size()), sums(pixels.means.size());
+    for_each_pixel(pixels, [&](int x, int y, std::size_t i) {
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, pixels.width - 1); ++u) {
+            rows[i] = rows[i] + f(pixels.index(u, y));
+        }
+    });
+    for_each_pixel(pixels, [&](int x, int y, std::size_t i) {
+        for (int v = std::max(y - radius, 0); v <= std::min(y + radius, pixels.height - 1); ++v) {
+            sums[i] = sums[i] + rows[pixels.index(x, v)];
+        }
+    });
+    return sums;
+}
+
+/// Where all values of a wide window spread as little as their noise does, within three standard errors of a variance:
+/// replaces the truth of a channel by their mean, and the variance of its noise by the mean variance.
+void smooth_widely(const Pixels& pixels, int radius, std::vector<Vec3d>& truth, std::vector<Vec3d>& variances) {
+    const auto sums = window_sums(pixels, radius, [&](std::size_t i) { return pixels.means[i]; });
+    const auto squares = window_sums(pixels, radius, [&](std::size_t i) { return pixels.means[i] * pixels.means[i]; });
+    const auto noise = window_sums(pixels, radius, [&](std::size_t i) { return pixels.variances[i]; });
+    const auto length = [&](int at, int size) {
+        return std::min(at + radius, size - 1) - std::max(at - radius, 0) + 1;
+    };
+    for_each_pixel(pixels, [&](int x, int y, std::size_t i) {
+        const double count = static_cast<double>(length(x, pixels.width)) * length(y, pixels.height);
+        const double most = 1 + 3 * std::sqrt(2 / count);
+        const auto smooth_channel = [&](double sum, double square, double of_noise, double& value, double& variance) {
+            const double spread = (square - sum * sum / count) / std::max(count - 1, 1.0);
+            if (!(spread <= most * of_noise / count)) return;
+            value = sum / count;
+            variance = of_noise / count;
+        };
+        const Vec3d &s = sums[i], &s2 = squares[i], &n = noise[i];
+        smooth_channel(s.x, s2.x, n.x, truth[i].x, variances[i].x);
+        smooth_channel(s.y, s2.y, n.y, truth[i].y, variances[i].y);
+        smooth_channel(s.z, s2.z, n.z, truth[i].z, variances[i].z);
+    });
+}
+
 /// Noise for every pixel, with its variance.
 std::vector<Vec3d> some_noise(const Pixels& pixels, std::uint64_t seed) {
     std::mt19937_64 random(seed);
@@ -165,7 +208,9 @@ std::vector<TileErrors> flip_errors(const TiledFilm& all, const std::vector<Film
     for (auto* values : {&pixels.means, &pixels.variances, &pixels.contrasts}) values->resize(count);
     for (std::size_t i = 0; i < grid.count(); ++i) add_tile(pixels, grid.tile(i), all.tile(i), fresh[i]);
 
-    const std::vector<Vec3d> truth = without_noise(pixels);
+    std::vector<Vec3d> truth = without_noise(pixels), variances_of_noise = pixels.variances;
+    for (const int radius : {4, 8}) smooth_widely(pixels, radius, truth, variances_of_noise);
+    pixels.variances = std::move(variances_of_noise);
     const std::vector<Vec3d> first = some_noise(pixels, 1), second = some_noise(pixels, 2);
     const std::array films = {image_of(pixels, truth, &first, 1), image_of(pixels, truth, &second, 1),
                               image_of(pixels, truth, &first, std::sqrt(0.5))};

@@ -19,10 +19,13 @@ namespace tandem {
 /// - The estimate of the truth is the film, smoothed where its values spread no more than their noise does: in a window
 ///   of 5 x 5 pixels with the mean m and the variance s^2 of values and the mean v of the variances of their noise, the
 ///   value x becomes m + max(0, 1 - v / s^2) (x - m). (J.-S. Lee, "Digital Image Enhancement and Noise Filtering by Use
-///   of Local Statistics", IEEE PAMI 2 (2), 1980.) Noise in both images would hide differences of edges and points.
+///   of Local Statistics", IEEE PAMI 2 (2), 1980.) Noise in both images would hide differences of edges and points. In
+///   windows of 9 x 9 and then of 17 x 17 pixels whose s^2 is not significantly above v, the value becomes m, and the
+///   variance of the pixel's noise v. What little noise a smooth region kept would be clipped beside white as the
+///   film's is, and few samples know their own variance badly.
 /// - The noise of a pixel is a random combination of the differences between the means of fresh and of other samples,
 ///   of the pixel and its eight neighbours: so the channels are correlated as in the film. Each channel is scaled to
-///   the variance of the pixel's mean.
+///   the variance of the pixel's mean, or to v.
 /// Two such films give the estimate. Their differences in blocks of 16 x 16 pixels, which are about independent, give
 /// its variance and that of the film at hand; `squares` is such that estimate_error() has the interval of both. A third
 /// film, with the first one's noise at twice as many samples, gives the exponent.

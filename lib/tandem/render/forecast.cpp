@@ -60,9 +60,11 @@ struct Outcome {
 };
 
 /// The outcome if the errors were `factor` times those of the probe.
-Outcome outcome_of(std::vector<TileErrors> tiles, const RenderTarget& target, int most, double factor) {
+Outcome outcome_of(std::vector<TileErrors> tiles, const TileGrid& grid, const RenderTarget& target, int most,
+                   double factor) {
     for (TileErrors& tile : tiles) tile.errors = scaled(tile.errors, factor);
     for (int rounds = 2;; ++rounds) {
+        look_around(tiles, grid);
         Allotment next = allot(tiles, target, most);
         if (next.is_last) return {std::move(next.ends), rounds};
         for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -148,8 +150,8 @@ Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, c
         const StatedError stated = estimate_error(now, target.metric);
         const double spread =
             now.sum > 0 ? mean_of_target(stated.high, target.metric) / mean_of_target(stated.value, target.metric) : 1;
-        outcomes = {outcome_of(tiles, target, most, 1), outcome_of(tiles, target, most, 1 / spread),
-                    outcome_of(tiles, target, most, spread)};
+        outcomes = {outcome_of(tiles, grid, target, most, 1), outcome_of(tiles, grid, target, most, 1 / spread),
+                    outcome_of(tiles, grid, target, most, spread)};
         ErrorSums least;
         for (const TileErrors& tile : tiles) least += predicted(tile, most);
         const StatedError error = estimate_error(least, target.metric);

@@ -8,11 +8,13 @@
 namespace tandem {
 
 struct Round {
-    std::vector<Film> fresh;  ///< by tile: the samples of its last round so far, with the plane variance alone; those
-                              ///< of the first round's last part, so that there are others
+    std::vector<Film> fresh;  ///< by tile: the samples that judge it, with the plane variance alone: those of its last
+                              ///< round so far, and after `was_last` all since that one; of the first round those of
+                              ///< its last part, so that there are others
     std::vector<int> begins;  ///< by tile: the samples that it had before the round in progress
     std::vector<int> ends;    ///< and those that it has after it
     bool is_last = false;     ///< the round in progress
+    bool was_last = false;    ///< a round before it
     double seconds = 0;       ///< of rendering, of all rounds so far
 };
 
