@@ -140,8 +140,8 @@ TEST_F(SceneKernel, HasNoCodeForSamplersThatTheJobHasNot) {
 }
 
 TEST_F(SceneKernel, HasNoCodeForFiltersThatTheJobHasNot) {
-    // the last coefficients of kernel/sampler/pixel_filter.h
-    const std::uint32_t gaussian = bits_of(14.0505F), window = bits_of(-30.9285F);
+    // coefficients of kernel/sampler/pixel_filter.h
+    const std::uint32_t gaussian = bits_of(14.0505F), window = bits_of(60.1484F);
     const auto with = [](EffectMask effects, PixelFilter filter) { return facts(effects, 1, Sampler::random, filter); };
     for (const EffectMask effects : {EffectMask(), Effect::lens | Effect::shadows, EffectMask(Effect::reflection)}) {
         for (const Structure structure : {Structure::few, Structure::bvh}) {

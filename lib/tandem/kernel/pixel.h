@@ -12,7 +12,6 @@ struct PixelJob {
     CameraView camera;
     PhiloxKeys keys;  ///< of the seed
     JobSampler sampler{};
-    PixelFilter filter = PixelFilter::box;
     std::uint32_t frame;
     std::uint32_t first_sample, samples;
     std::uint32_t width;  ///< pixels of a row of the window; the pixels (x, y) of kernels are counted in the window
@@ -20,6 +19,8 @@ struct PixelJob {
     // the window in the film
     std::uint32_t film_width;
     std::uint32_t left, top;
+    // last, so that nvcc reads the other members together as if there were none
+    PixelFilter filter = PixelFilter::box;
 
     /// The number that keys the random numbers of a pixel: in the film, so the bits of a pixel do not depend on the
     /// window; for sobol_blue on a Morton curve.

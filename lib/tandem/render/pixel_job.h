@@ -12,7 +12,6 @@ namespace tandem {
     return {.camera = camera_view(camera, job.width, job.height, reach_of(job.filter)),
             .keys = philox_keys(job.seed),
             .sampler = make_job_sampler(job.sampler, job.seed, job.frame),
-            .filter = job.filter,
             .frame = job.frame,
             .first_sample = static_cast<std::uint32_t>(job.first_sample),
             .samples = static_cast<std::uint32_t>(job.samples),
@@ -20,7 +19,8 @@ namespace tandem {
             .limits = job.limits,
             .film_width = static_cast<std::uint32_t>(job.width),
             .left = static_cast<std::uint32_t>(window.left),
-            .top = static_cast<std::uint32_t>(window.top)};
+            .top = static_cast<std::uint32_t>(window.top),
+            .filter = job.filter};
 }
 
 /// The job for the planes of first hits: only the first sample if no plane is a mean.
