@@ -133,7 +133,7 @@ SceneHash start_hash(std::shared_ptr<const PreparedScene> scene) {
 }
 
 /// Hashes, encodes and writes a film in a thread of its own. `scene`: the hash for its metadata, unless that has it.
-FrameRecord write_frame(Film film, FrameRecord record, SceneHash scene, FileChoice choice) {
+FrameRecord write_frame(Film film, FrameRecord record, const SceneHash& scene, FileChoice choice) {
     LapWatch watch;
     record.metadata.film_sha256 = film_hash(film);
     if (scene.valid()) record.metadata.scene_hash = scene.get();
@@ -266,12 +266,12 @@ class Sequence {
         record.seconds.prepare = watch.lap();
         if (waits_for_hash && is_finished(record)) return;
         while (with_backend_ >= most_with_backend) pass_to_writer();
-        std::optional<Backdrop> behind = backdrop(*prepared, job);
+        const std::optional<Backdrop> behind = backdrop(*prepared, job);
         make_resident(prepared, hash, job.tier, record);
         prepared.reset();  // the hash, or the backend, may still need it
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
-        started_.push_back({std::move(record), std::move(pending), plan.effects, std::move(behind), hash});
+        started_.push_back({std::move(record), std::move(pending), plan.effects, behind, hash});
     }
 
     /// Renders a frame with motion blur at once: two instants at a time, and no other frame.
