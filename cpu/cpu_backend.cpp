@@ -70,10 +70,10 @@ bool groups_pay(const PreparedScene& scene, Tier tier) {
 
 class CpuScene final : public ResidentScene {
   public:
-    CpuScene(std::shared_ptr<const PreparedScene> scene, Tier tier, RTCDevice device, const TierKernels& kernels)
+    CpuScene(const std::shared_ptr<const PreparedScene>& scene, Tier tier, RTCDevice device, const TierKernels& kernels)
         : ResidentScene(tier),
           copies_(scene->copies),
-          scene_(copies_.empty() ? std::move(scene) : std::make_shared<PreparedScene>(without_copies(*scene))) {
+          scene_(copies_.empty() ? scene : std::make_shared<PreparedScene>(without_copies(*scene))) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(*scene_));
         view_ = {tandem::view(*scene_), {}, nullptr, {}, nullptr};
@@ -234,16 +234,17 @@ class CpuBackend final : public Backend {
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         // without its copies it is another scene, which CpuScene makes
-        if (!scene.copies.empty()) return load_shared({std::shared_ptr<void>(), &scene}, tier);
+        if (!scene.copies.empty()) {
+            return load_shared(std::shared_ptr<const PreparedScene>(std::shared_ptr<void>(), &scene), tier);
+        }
         return load_shared(std::make_shared<PreparedScene>(scene), tier);
     }
 
-    [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(std::shared_ptr<const PreparedScene> scene,
+    [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(const std::shared_ptr<const PreparedScene>& scene,
                                                              Tier tier) override {
         const DefaultFpEnvironment guard;
         std::shared_ptr<CpuScene> result;
-        arena_.execute(
-            [&] { result = std::make_shared<CpuScene>(std::move(scene), tier, device_.get(), set_.kernels(tier)); });
+        arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels(tier)); });
         return result;
     }
 

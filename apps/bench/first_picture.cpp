@@ -21,6 +21,7 @@ namespace {
 /// Runs a program to its end, with no output but its errors.
 void run_program(std::vector<std::string> words) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     pid_t child = 0;

@@ -133,10 +133,10 @@ SceneHash start_hash(std::shared_ptr<const PreparedScene> scene) {
 }
 
 /// Hashes, encodes and writes a film in a thread of its own. `scene`: the hash for its metadata, unless that has it.
-FrameRecord write_frame(Film film, FrameRecord record, SceneHash scene, FileChoice choice) {
+FrameRecord write_frame(Film film, FrameRecord record, const SceneHash& scene, FileChoice choice) {
     LapWatch watch;
-    if (scene.valid()) record.metadata.scene_hash = scene.get();
     record.metadata.film_sha256 = film_hash(film);
+    if (scene.valid()) record.metadata.scene_hash = scene.get();
     record.seconds.hash = watch.lap();
     const EncodedImage encoded = encode_frame(std::move(film), record, choice);
     record.nan_values = encoded.nan_values;
@@ -266,11 +266,12 @@ class Sequence {
         record.seconds.prepare = watch.lap();
         if (waits_for_hash && is_finished(record)) return;
         while (with_backend_ >= most_with_backend) pass_to_writer();
-        std::optional<Backdrop> behind = backdrop(*prepared, job);
-        make_resident(std::move(prepared), hash, job.tier, record);
+        const std::optional<Backdrop> behind = backdrop(*prepared, job);
+        make_resident(prepared, hash, job.tier, record);
+        prepared.reset();  // the hash, or the backend, may still need it
         ++with_backend_;
         auto pending = backend_.submit(resident_, job);
-        started_.push_back({std::move(record), std::move(pending), plan.effects, std::move(behind), hash});
+        started_.push_back({std::move(record), std::move(pending), plan.effects, behind, hash});
     }
 
     /// Renders a frame with motion blur at once: two instants at a time, and no other frame.
@@ -373,10 +374,10 @@ class Sequence {
     }
 
     /// Loads the scene unless it is loaded already: in a still scene only the random numbers change.
-    void make_resident(std::shared_ptr<const PreparedScene> prepared, const SceneHash& hash, Tier tier,
+    void make_resident(const std::shared_ptr<const PreparedScene>& prepared, const SceneHash& hash, Tier tier,
                        FrameRecord& record) {
         if (resident_ && resident_hash_.get() == hash.get()) return;
-        resident_ = backend_.load_shared(std::move(prepared), tier);
+        resident_ = backend_.load_shared(prepared, tier);
         resident_hash_ = hash;
         record.seconds.backend = resident_->load_times();
     }

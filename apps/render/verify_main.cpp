@@ -8,6 +8,7 @@
 #include "common/run_main.h"
 #include "render/verify_command.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/base/parallel.h"
 
 namespace tandem {
 
@@ -34,7 +35,8 @@ int verify(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--gpus", gpus, "GPUs of the backend cuda: all, how many, or a list of numbers such as 0,1")
         ->type_name("all|N|LIST");
-    app.add_option("--threads", backend_options.threads, "threads of the CPU backends; 0 is one per core")
+    app.add_option("--threads", backend_options.threads,
+                   "threads of the CPU backends and of what prepares scenes; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.add_flag("--quiet", command.quiet, "print only differences and errors");
@@ -46,6 +48,7 @@ int verify(int argc, char** argv) {
     if (all) command.how.tiles = std::numeric_limits<std::size_t>::max();
     if (pick->empty()) command.how.seed = std::random_device{}();
     choose_gpus(backend_options, gpus, "tandem-render");
+    set_thread_limit(backend_options.threads);
     return run_verify(command, *make_backend(backend, backend_options));
 }
 

@@ -25,9 +25,9 @@ class Ahead final : public BackendAhead {
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
         return get().load(scene, tier);
     }
-    [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(std::shared_ptr<const PreparedScene> scene,
+    [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(const std::shared_ptr<const PreparedScene>& scene,
                                                              Tier tier) override {
-        return get().load_shared(std::move(scene), tier);
+        return get().load_shared(scene, tier);
     }
     double trace(ResidentScene& scene, const TraceJob& job) override { return get().trace(scene, job); }
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,

@@ -96,7 +96,7 @@ class Backend {
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier = Tier::strict) = 0;
 
     /// The same. A backend that reads scenes in the host's memory keeps this one instead of a copy.
-    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load_shared(std::shared_ptr<const PreparedScene> scene,
+    [[nodiscard]] virtual std::shared_ptr<ResidentScene> load_shared(const std::shared_ptr<const PreparedScene>& scene,
                                                                      Tier tier) {
         return load(*scene, tier);
     }

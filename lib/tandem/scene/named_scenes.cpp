@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "tandem/base/error.h"
-#include "tandem/base/large_array.h"
 #include "tandem/base/memory.h"
 #include "tandem/base/parallel.h"
 #include "tandem/kernel/sampler/philox.h"
@@ -188,7 +187,7 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
         const std::size_t turn = part % kinds.size(), colour = part / kinds.size();
         const int kind = kinds[turn];
         std::vector<Trs>& group = groups[turn * colours + colour];
-        reserve_large(group, objects_of(part, count, groups.size()));
+        group.reserve(objects_of(part, count, groups.size()));
         for (std::size_t i = part; i < count; i += groups.size()) {
             ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
             Trs trs;
@@ -221,8 +220,8 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
         Mesh& mesh = scene.meshes[part];
         auto& indices = corners == 3 ? mesh.triangles : mesh.quads;
         const std::size_t vertices = corners * objects_of(part, count, scene.meshes.size());
-        reserve_large(mesh.positions, vertices);
-        reserve_large(indices, vertices);
+        mesh.positions.reserve(vertices);
+        indices.reserve(vertices);
         for (std::size_t i = part; i < count; i += scene.meshes.size()) {
             ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
             const Vec3d centre = numbers.in_cube();
