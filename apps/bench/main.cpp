@@ -443,7 +443,9 @@ int run(int count, char** words) {
         if (all.accuracy_choice.list) {
             Report list;
             list.title = "Scenes of the accuracy report";
-            list.summary = "One easy and one hard scene for each axis, chosen before anything was measured.";
+            list.summary =
+                "At least one easy and one hard scene for each axis. Files of ../shared are left out where they are "
+                "not there.";
             list.blocks.emplace_back(scene_table());
             print_report(list);
             return exit_done;

@@ -33,10 +33,13 @@ struct ListedScene {
     const char* why;
 };
 
-/// One easy and one hard scene for each axis that the report varies.
+/// At least one easy and one hard scene for each axis that the report varies.
 [[nodiscard]] const std::vector<ListedScene>& listed_scenes();
 
-/// The scenes of the list, each once.
+/// Real files of other people, which are not part of the repository, may lie beside it.
+[[nodiscard]] bool is_beside_the_repository(const ListedScene& listed);
+
+/// The scenes of the list, each once, but for files beside the repository that are not there.
 [[nodiscard]] std::vector<std::string> listed_scene_names();
 
 /// The scene with every sphere as a mesh of 20 * 4^level triangles whose vertices are on the sphere, with its normals.

@@ -28,6 +28,10 @@ namespace tandem::bench {
 
 namespace {
 
+/// The share of pixels that a tier may have decided otherwise than the baseline: the samples are the same, so only
+/// wrong decisions can change a pixel by 5 %. Beyond it the tier has failed, whatever the mean error is.
+constexpr double most_wrong_pixels = 0.01;
+
 constexpr std::size_t most_pending_bytes = std::size_t{256} << 20;  // of images that wait for their errors
 
 /// A point while it is measured.
@@ -134,6 +138,13 @@ void render_first_frames(const SweepOptions& options, SceneSweep& sweep, const s
         }
         const FilmDifference difference = compare(found->second, first.film);
         point.differing = static_cast<double>(difference.differing_sums) / static_cast<double>(difference.pixels);
+        const double wrong = difference.residual_rate(Tolerance::relative_5_percent);
+        if (point.setting.axis == Axis::tier && wrong > most_wrong_pixels) {
+            point.failures.push_back(
+                fmt::format("{} of the pixels differ by more than 5 % from those of {} with the "
+                            "same samples",
+                            format_share(wrong), sweep.plan.settings.front().name));
+        }
     }
     log_progress(fmt::format("{}: {} rounds of {} images; rendering takes about {}", sweep.scene.name, options.seeds,
                              sweep.points.size(), format_seconds(watch.seconds() * options.seeds)));

@@ -48,7 +48,8 @@ struct SweepPoint {
     BenchmarkRow row;                                  ///< one measurement per seed; the time is that of rendering
     std::array<ErrorEstimate, metrics.size()> errors;  ///< by Metric
     double differing = 0;  ///< the share of pixels whose bits differ from the baseline's on the first backend
-    std::vector<std::string> failures;  ///< in words: pixels that are not finite, counters of what should not happen
+    std::vector<std::string> failures;  ///< in words: pixels that are not finite, wrong decisions of a tier,
+                                        ///< counters of what should not happen
 
     [[nodiscard]] const ErrorEstimate& error(Metric metric) const { return errors[static_cast<std::size_t>(metric)]; }
     [[nodiscard]] PricedError priced(Metric metric) const;

@@ -102,11 +102,10 @@ Scene planet() {
     return scene;
 }
 
-/// The paper's scene from 100 km away, as large in the image as from nearby.
-Scene telescope() {
-    constexpr double distance = 1e5;
+/// The paper's scene from far away, as large in the image as from nearby.
+Scene telescope(std::string name, double distance) {
     Scene scene = paper();
-    scene.name = "hard/telescope";
+    scene.name = std::move(name);
     scene.nodes[0].trs.translation.z += distance;
     scene.nodes[0].camera = PerspectiveCamera{2 * accurate_atan(3 / 1.5 / distance)};
     return scene;
@@ -277,15 +276,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"paper",          "hard/planet",        "hard/telescope", "spheres/N[/SEED]", "boxes/N[/SEED]",
-            "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]", "icosphere/LEVEL"};
+    return {"paper",          "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
+            "boxes/N[/SEED]", "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL"};
 }
 
 Scene named_scene(std::string_view name) {
     const DefaultFpEnvironment guard;
     if (name == "paper") return paper();
     if (name == "hard/planet") return planet();
-    if (name == "hard/telescope") return telescope();
+    if (name == "hard/telescope") return telescope(std::string(name), 1e5);
+    if (name == "hard/far-telescope") return telescope(std::string(name), 1e7);
     const std::vector<std::string_view> parts = split(name, '/');
     if (parts.size() == 2 && parts[0] == "icosphere") {
         if (const auto level = parse_count(parts[1], 10, 0))

@@ -18,6 +18,7 @@ namespace tandem {
 ///   icosphere/LEVEL          a sphere of 20 * 4^LEVEL triangles, LEVEL from 0 to 10, with smooth normals
 ///   hard/planet              a sphere of 6400 km, seen from 1.75 m above it
 ///   hard/telescope           the paper's scene from 100 km away, with a narrow view
+///   hard/far-telescope       the same from 10,000 km, where the error of float is several times that of noise
 /// Throws InputError with the list of names, and EnvironmentError if the memory cannot hold the scene.
 [[nodiscard]] Scene named_scene(std::string_view name);
 

@@ -8,6 +8,7 @@
 #include "accuracy/report_words.h"
 #include "loop_backend.h"
 #include "support/input_error.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/report/csv_writer.h"
 #include "tandem/report/html_writer.h"
@@ -81,6 +82,32 @@ TEST(AccuracySweep, FillsTheReport) {
     EXPECT_EQ(json["rows"][0]["series"]["squared error"].size(), 8U);
     EXPECT_NE(to_csv(report.rows).find("RMSE,RMSE low,RMSE high"), std::string::npos);
     EXPECT_NE(to_html(report).find("class=\"line front"), std::string::npos);
+}
+
+TEST(AccuracySweep, ATierFailsWhereItDecidesPixelsWrongly) {
+    SweepOptions options = small();
+    options.axes = {"tier"};
+    options.tiers = {"strict", "fast", "precise"};
+    options.samples = {16};
+    options.size = {50, 45};
+    options.seeds = 2;
+    std::vector<SweepBackend> backends;
+    backends.push_back({"cpu", make_backend("cpu")});
+    for (const char* name : {"named:hard/far-telescope", "named:paper"}) {
+        const SceneSweep sweep = sweep_scene(options, name, backends);
+        ASSERT_EQ(sweep.points.size(), 3U);
+        for (const SweepPoint& point : sweep.points) {
+            const bool fails = point.setting.tier == Tier::fast && sweep.scene.scene.name != "paper";
+            ASSERT_EQ(point.failures.size(), fails ? 1U : 0U) << name << ": " << point.row.label;
+            if (fails) {
+                EXPECT_TRUE(contains(point.failures[0], "differ by more than 5 % from those of strict"));
+            }
+        }
+        const SweepPoint& strict = sweep.points[0];
+        const SweepPoint& fast = sweep.points[1];
+        const double ratio = fast.error(Metric::rmse).value / strict.error(Metric::rmse).value;
+        EXPECT_EQ(ratio > 2, sweep.scene.scene.name != "paper") << name << ": " << ratio;
+    }
 }
 
 TEST(AccuracySweep, TheAnswerIsAtTheTop) {
