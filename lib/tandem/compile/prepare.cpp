@@ -16,6 +16,7 @@
 #include "tandem/compile/derive.h"
 #include "tandem/compile/environments.h"
 #include "tandem/compile/media.h"
+#include "tandem/compile/place_instances.h"
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/prepare_textures.h"
 #include "tandem/compile/render_origin.h"
@@ -120,7 +121,10 @@ void make_unlit(PhongMaterial& phong, Optics& optics) {
 class Preparer {
   public:
     Preparer(const Scene& scene, const PrepareOptions& options)
-        : scene_(scene), options_(options), settings_(without_effects(options.settings, options.effects.off)) {}
+        : scene_(scene),
+          options_(options),
+          settings_(without_effects(options.settings, options.effects.off)),
+          instances_(scene, instanced_uses(scene, options.instanced_from)) {}
 
     PreparedScene run() {
         result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
@@ -175,6 +179,7 @@ class Preparer {
         for (const Node& node : scene_.nodes) {
             for (const Geometry& geometry : node.geometry) {
                 const std::size_t instances = std::max<std::size_t>(1, geometry.instances.size());
+                if (is_kept_once(geometry)) continue;
                 count += primitives_in(geometry.shape) * instances;
                 if (std::holds_alternative<SphereShape>(geometry.shape)) spheres += instances;
                 if (std::holds_alternative<BoxShape>(geometry.shape)) boxes += instances;
@@ -196,6 +201,11 @@ class Preparer {
         placed_boxes_.reserve(boxes);
         boxes_.reserve(boxes);
         parallelepipeds_.reserve(boxes);
+    }
+
+    bool is_kept_once(const Geometry& geometry) const {
+        const auto* shape = std::get_if<MeshShape>(&geometry.shape);
+        return shape != nullptr && instances_.is_kept({shape->mesh, geometry.material});
     }
 
     /// The optional part `part`, for every material, if any has it.
@@ -225,14 +235,6 @@ class Preparer {
         const TracedIds ids(result_.copies);
         for (AreaLight& light : result_.area_lights) light.primitive = ids.of_scene(light.primitive);
     }
-
-    /// In world space and double until the render origin is known.
-    struct PlacedSurface {
-        const Mesh* mesh;
-        Transform world_from_object;
-        std::uint32_t material;
-        std::size_t node;
-    };
 
     /// Russian roulette starts only at this vertex: on shorter paths it saves less than its noise costs.
     static constexpr std::uint32_t first_roulette = 3;
@@ -305,6 +307,7 @@ class Preparer {
     void add_mesh(const MeshShape& shape, std::uint32_t material, const Transform& world_from_object,
                   std::size_t node) {
         const Mesh& mesh = scene_.meshes[shape.mesh];
+        if (instances_.take({shape.mesh, material}, {&mesh, world_from_object, material, node})) return;
         for (const Vec3f& position : mesh.positions) {
             check_reach(transform_point(world_from_object, widen(position)), {0, 0, 0}, node);
         }
@@ -417,6 +420,9 @@ class Preparer {
         result_.parallelepipeds.reserve(placed_boxes_.size());
         for (const Placed& body : placed_boxes_) result_.parallelepipeds.push_back({place(body, origin, true)});
         const std::vector<CornerSlots> slots = corner_slots(scene_);
+        const std::vector<PlacedSurface> written_out =
+            instances_.take_back(origin, [this](const Aabb& box) { return sees_outside_of(box); });
+        surfaces_.insert(surfaces_.end(), written_out.begin(), written_out.end());
         reserve_faces(slots);
         for (const PlacedSurface& surface : surfaces_) {
             Transform render_from_object = surface.world_from_object;
@@ -433,6 +439,7 @@ class Preparer {
             triangles_.add(surface.material, surface.node, placed.triangles);
             quads_.add(surface.material, surface.node, placed.quads);
         }
+        instances_.place(origin, slots, result_);
     }
 
     /// Reserves the arrays, because growing ones take twice the memory, and more while they are copied.
@@ -482,6 +489,7 @@ class Preparer {
         for (const Placed& body : placed_balls_) origin.add_placed(body.world_from_unit, body.unit_from_world, false);
         for (const Placed& body : placed_boxes_) origin.add_placed(body.world_from_unit, body.unit_from_world, true);
         for (const PlacedSurface& surface : surfaces_) origin.add_mesh(*surface.mesh, surface.world_from_object);
+        instances_.add_to(origin, result_.camera.render_from_camera.translation);
         for (const Light& light : lights_) {
             if (light.light.kind != PunctualKind::directional) origin.add_point(light.position);
         }
@@ -550,6 +558,7 @@ class Preparer {
     std::vector<Block> blocks_;
     std::vector<Placed> placed_balls_, placed_boxes_;
     std::vector<PlacedSurface> surfaces_;
+    InstanceList instances_;
     std::vector<Light> lights_;
 #define TANDEM_PRIMITIVE(Type, name, names) Owners names##_;
 #include "tandem/kernel/view/primitives.def"
