@@ -306,8 +306,10 @@ class CudaBackend final : public Backend {
         const std::size_t variant = variant_for(variants, effects);
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
-            linked = kernels_->find(job.tier, resident.view(),
-                                    linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter));
+            LinkedFacts facts =
+                linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter);
+            if (structure_of(resident.view()) == Structure::instanced) facts.kinds |= PrimitiveKinds::instanced;
+            linked = kernels_->find(job.tier, resident.view(), facts);
         }
         const SceneKernel& kernel =
             linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);
@@ -340,7 +342,7 @@ class CudaBackend final : public Backend {
         stats.device_bytes = resident.bytes() + bytes + sample_bytes;
         stats.registers = facts.registers;
         stats.occupancy = facts.occupancy;
-        static constexpr const char* structure_names[] = {"few", "loop", "bvh"};
+        static constexpr const char* structure_names[] = {"few", "loop", "bvh", "instances"};
         stats.effects = effects;
         if (linked.kernel == nullptr) stats.carried = variants[variant].effects - effects - host_effects;
         stats.seconds.compile = linked.seconds;
@@ -413,7 +415,9 @@ class CudaBackend final : public Backend {
     }
 
     double trace(const DeviceScene& resident, const TraceJob& job) {
-        const float size = reach(resident.view().bvh.frame.bounds);
+        const DeviceSceneView& view = resident.view();
+        const bool instanced = structure_of(view) == Structure::instanced;
+        const float size = reach((instanced ? view.instanced_bvh.frame : view.bvh.frame).bounds);
         const bool coherent =
             job.coherence == Coherence::unknown ? are_coherent(job.rays, size) : job.coherence == Coherence::coherent;
         const std::uint32_t row = row_length(job.rays, size);

@@ -133,12 +133,31 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 #include "tandem/kernel/texture/texture_arrays.def"
 #undef TANDEM_TEXTURE_ARRAY
     }
+    PreparedInstances instances = scene.instances;
+    const InstancedBvh instanced_bvh = instances.empty() ? InstancedBvh{} : build_instanced_bvh(instances);
+    layout.add(instances.instances, view_.instanced.instances);
+    layout.add(instances.meshes, view_.instanced.meshes);
+    layout.add(instances.faces, view_.instanced.faces);
+    layout.add(instances.normals, view_.instanced.mesh_normals);
+    layout.add(instanced_bvh.nodes, view_.instanced_bvh.nodes);
+    layout.add(instanced_bvh.entry_instances, view_.instanced_bvh.entry_instances);
+    layout.add(instanced_bvh.entry_faces, view_.instanced_bvh.entry_faces);
     bytes_ = layout.bytes();
     require_room(*memory_, bytes_, primitive_count(scene));
     memory_->device.reserve(bytes_);
     layout.point(memory_->device.data());
 
-    if (fits_constant_memory(host)) {
+    if (instances.empty()) {
+        view_.instanced = {};
+        view_.instanced_bvh = {};
+    } else {
+        static_cast<SceneView&>(view_.instanced) = view_.scene;
+        view_.instanced.mesh_count = static_cast<std::uint32_t>(instances.meshes.size());
+        view_.instanced.first_instanced_id = static_cast<std::uint32_t>(primitive_count(scene));
+        view_.instanced_bvh.instance_entries = static_cast<std::uint32_t>(instanced_bvh.entry_instances.size());
+        view_.instanced_bvh.frame = instanced_bvh.frame;
+    }
+    if (instances.empty() && fits_constant_memory(host)) {
         view_.few = make_constant_memory_tracer(host, view_.scene);
         view_.certain = make_certain_scene(host);
     }
@@ -146,7 +165,8 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
     memory_->upload_start.record(stream.get());
     layout.upload(*memory_, stream);
     memory_->upload_end.record(stream.get());
-    if (primitive_count(scene) > loop_limit) {
+    const std::size_t most_tested = instances.empty() ? loop_limit : 0;
+    if (primitive_count(scene) > most_tested) {
         const BuiltBvh built = memory_->lasting_bvh.of(view_.scene, memory_->bvh, stream.get(), refits);
         view_.bvh = built.view;
         bvh_nodes_ = built.node_count;

@@ -9,6 +9,7 @@
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"
+#include "tandem/kernel/traversal/instanced_tracer.h"
 #include "tandem/kernel/view/scene_view.h"
 #include "tandem/render/tier.h"
 #include "tandem/render/trace_job.h"
@@ -22,11 +23,14 @@ struct DeviceSceneView {
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
     CertainScene certain;      ///< for that view
     bool diverges;             ///< even neighbouring rays visit very different numbers of nodes
+    InstancedView instanced;   ///< without instances in most scenes
+    InstancedBvhView instanced_bvh;
 };
 
 /// The tracers: how the primitives of a scene are found.
-enum class Structure { few, loop, bvh };
+enum class Structure { few, loop, bvh, instanced };
 [[nodiscard]] inline Structure structure_of(const DeviceSceneView& view) {
+    if (view.instanced.instances != nullptr) return Structure::instanced;
     if (view.bvh.nodes != nullptr) return Structure::bvh;
     return fits_constant_memory(view.scene) ? Structure::few : Structure::loop;
 }
@@ -70,7 +74,7 @@ struct DeviceRays {
 
 /// Whether rays may be traced by two kernels (refill_kernels.h).
 [[nodiscard]] inline bool may_refill(const DeviceSceneView& scene, bool are_coherent) {
-    return !are_coherent || scene.diverges;
+    return structure_of(scene) == Structure::bvh && (!are_coherent || scene.diverges);
 }
 
 /// What a ray's candidates take between the two kernels that trace incoherent rays.

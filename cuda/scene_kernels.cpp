@@ -31,6 +31,16 @@ namespace tandem::cuda {
 #undef TANDEM_COMPILED
 #undef TANDEM_TIER
 
+// Scenes of instances: the tier fast has the kernels of strict.
+#define TANDEM_INSTANCED_TIER(name)                               \
+    std::span<const std::byte> linked_short_instanced_##name();   \
+    std::span<const std::byte> linked_long_instanced_##name();    \
+    std::span<const std::byte> compiled_plain_instanced_##name(); \
+    std::span<const std::byte> compiled_full_instanced_##name();
+TANDEM_INSTANCED_TIER(strict)
+TANDEM_INSTANCED_TIER(precise)
+#undef TANDEM_INSTANCED_TIER
+
 static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchronising_effects) &&
                   variants[1].effects == all_effects,
               "compiled_code() and CMakeLists.txt know two");
@@ -41,7 +51,16 @@ namespace {
 
 constexpr const char* kernel_name = "tandem_render";
 
+/// The tier whose kernels draw.
+Tier kernel_tier(Tier tier, Structure structure) {
+    return structure == Structure::instanced && tier == Tier::fast ? Tier::strict : tier;
+}
+
 std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_long) {
+    if (structure == Structure::instanced) {
+        if (tier == Tier::precise) return is_long ? linked_long_instanced_precise() : linked_short_instanced_precise();
+        return is_long ? linked_long_instanced_strict() : linked_short_instanced_strict();
+    }
     switch (tier) {
 #define TANDEM_TIER(name, promise)                                                       \
     case Tier::name:                                                                     \
@@ -52,6 +71,8 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
                 return is_long ? linked_long_loop_##name() : linked_short_loop_##name(); \
             case Structure::bvh:                                                         \
                 return is_long ? linked_long_bvh_##name() : linked_short_bvh_##name();   \
+            case Structure::instanced:                                                   \
+                break;                                                                   \
         }                                                                                \
         break;
 #include "tandem/render/tiers.def"
@@ -104,12 +125,18 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
     input.kernel = kernel_name;
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
-    input.tier = tier;
+    input.tier = kernel_tier(tier, structure);
     input.architecture = architecture;
     return input;
 }
 
 std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant) {
+    if (structure == Structure::instanced) {
+        if (tier == Tier::precise) {
+            return variant == 0 ? compiled_plain_instanced_precise() : compiled_full_instanced_precise();
+        }
+        return variant == 0 ? compiled_plain_instanced_strict() : compiled_full_instanced_strict();
+    }
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \
@@ -181,12 +208,17 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
         }
         case Structure::loop:
             return launch(LoopTracer{scene.scene});
+        case Structure::instanced:
         case Structure::bvh:
             break;
     }
     BvhView bvh = scene.bvh;
     bvh.stack_overflows = &counters->stack_overflows;
-    launch(DeferringBvhTracer{scene.scene, bvh});
+    const DeferringBvhTracer tracer = {{scene.scene, bvh}};
+    if (structure_of(scene) == Structure::instanced) {
+        return launch(InstancedTracer{{scene.instanced, tracer, scene.instanced_bvh}});
+    }
+    launch(tracer);
 }
 
 }  // namespace tandem::cuda

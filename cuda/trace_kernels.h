@@ -57,6 +57,13 @@ void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const Devic
 template <class Real, Ask ask>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
+    if (structure_of(scene) == Structure::instanced) {
+        if constexpr (is_fast<Real>) {
+            return trace_kernels(Tier::strict, ask)(scene, rays, stream);
+        } else {
+            return launch_one<Real, ask>(instanced_tracer(scene, rays.counters), rays, stream);
+        }
+    }
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
         if constexpr (is_fast<Real> && can_refill<Tracer> && ask != Ask::occluded) {
             // Decisions in leaves are slower for incoherent rays even in float alone, and the hits of a ray must not

@@ -16,7 +16,15 @@ inline constexpr unsigned int resident_blocks = [] {
     return faces && !is_fast<Real> ? 6 : 8;
 }();
 
-/// Calls f with the tracer for the scene, which counts into `counters`. `decisions`: where hierarchies decide.
+/// The tracer for a scene of Structure::instanced, which counts into `counters`.
+inline InstancedTracer instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counters) {
+    BvhView bvh = scene.bvh;
+    bvh.stack_overflows = &counters->stack_overflows;
+    return {{scene.instanced, {{scene.scene, bvh}}, scene.instanced_bvh}};
+}
+
+/// Calls f with the tracer for a scene without instances, which counts into `counters`. `decisions`: where hierarchies
+/// decide.
 template <Decisions decisions = Decisions::in_leaves, class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
@@ -27,6 +35,7 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
         case Structure::loop:
             return faces ? f(LoopTracerFor<all>{scene.scene}) : f(LoopTracerFor<bodies>{scene.scene});
         case Structure::bvh:
+        case Structure::instanced:
             break;
     }
     BvhView bvh = scene.bvh;

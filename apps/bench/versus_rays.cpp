@@ -28,6 +28,7 @@ struct RayContender {
 /// Null for scenes that Embree's own spheres or triangles cannot represent.
 std::unique_ptr<EmbreeNative> make_native(const PreparedScene& scene, int threads) {
     const std::size_t count = primitive_count(scene);
+    if (!scene.instances.empty()) return nullptr;
     if (scene.spheres.size() == count) return std::make_unique<EmbreeNative>(scene.spheres, threads);
     if (scene.triangles.size() == count) return std::make_unique<EmbreeNative>(scene.triangles, threads);
     return nullptr;

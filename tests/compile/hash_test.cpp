@@ -30,6 +30,11 @@ PreparedScene one_of_each() {
     scene.textures.texels = {1, 2};
     scene.textures.textures = {{0, 2, 1}};
     scene.textures.materials.resize(1);
+    scene.instances.instances.resize(1);
+    scene.instances.node_of = {0};
+    scene.instances.meshes = {{6, 0, 1, 0, 1, 0}};
+    scene.instances.faces = scene.triangles;
+    scene.instances.normals.assign(3, Vec3f{0, 0, 1});
     return scene;
 }
 
@@ -46,6 +51,11 @@ TEST(SceneHash, ChangesWithEveryField) {
         {"ellipsoid bound", [](PreparedScene& s) { s.ellipsoids[0].bounding_sphere.radius = 7; }},
         {"ellipsoid extent", [](PreparedScene& s) { s.ellipsoids[0].half_extent.y = 7; }},
         {"parallelepiped map", [](PreparedScene& s) { s.parallelepipeds[0].object_from_world.row[0].x = 7; }},
+        {"place of an instance",
+         [](PreparedScene& s) { s.instances.instances[0].render_from_object.translation.x = 7; }},
+        {"material of an instanced mesh", [](PreparedScene& s) { s.instances.meshes[0].material = 7; }},
+        {"corner of an instanced mesh", [](PreparedScene& s) { s.instances.faces[0].v1.x = 7; }},
+        {"normal of an instanced mesh", [](PreparedScene& s) { s.instances.normals[2].x = 7; }},
         {"triangle corner", [](PreparedScene& s) { s.triangles[0].v2.y = 7; }},
         {"triangle normals", [](PreparedScene& s) { s.triangles[0].attributes.normals = 1; }},
         {"triangle texture", [](PreparedScene& s) { s.triangles[0].attributes.texcoords = 1; }},

@@ -84,7 +84,7 @@ TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
 }
 
 TEST(CompiledCode, IsThereForEverySceneAndTheFactsLeaveEverythingOpen) {
-    for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh}) {
+    for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh, Structure::instanced}) {
         for (const bool faces : {false, true}) {
             for (std::size_t variant = 0; variant < std::size(variants); ++variant) {
 #define TANDEM_TIER(name, promise) EXPECT_FALSE(compiled_code(Tier::name, structure, faces, variant).empty());

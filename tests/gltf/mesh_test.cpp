@@ -4,6 +4,8 @@
 #include <functional>
 
 #include "gltf/files.h"
+#include "support/thrown_message.h"
+#include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 
 namespace tandem {
@@ -86,6 +88,43 @@ TEST_F(GltfMesh, IntegersStandForPositions) {
     EXPECT_TRUE(contains(sentences(import(file).report), "rendered: KHR_mesh_quantization at extensionsUsed[0]: "));
     file.json["accessors"][whole]["normalized"] = true;
     EXPECT_EQ(mesh_of(file).positions[1], Vec3f(7.0F / 32767, 0, 0));
+}
+
+/// 10^5 times a mesh of 20,000 faces.
+TEST_F(GltfMesh, IsKeptOnceWhereItAppearsVeryOften) {
+    TestFile file = mesh_file();
+    constexpr std::uint32_t side = 100;
+    std::vector<float> corners;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i <= side; ++i) {
+        for (std::uint32_t k = 0; k <= side; ++k) {
+            corners.insert(corners.end(),
+                           {static_cast<float>(i), static_cast<float>(i * k % 7), static_cast<float>(k)});
+            const std::uint32_t first = i * (side + 1) + k;
+            if (i == side || k == side) continue;
+            indices.insert(indices.end(),
+                           {first, first + 1, first + side + 2, first, first + side + 2, first + side + 1});
+        }
+    }
+    primitive(file)["attributes"] = {{"POSITION", file.add_floats("VEC3", corners)}};
+    primitive(file)["indices"] = file.add_indices(5125, indices);
+    std::vector<float> places;
+    for (int i = 0; i < 100'000; ++i) {
+        places.insert(places.end(), {static_cast<float>(i % 300) * 120, 0, static_cast<float>(i / 300) * -120});
+    }
+    file.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", file.add_floats("VEC3", places)}};
+    const PreparedScene prepared = prepare(import(file).scene);
+    EXPECT_EQ(prepared.instances.instances.size(), 100'000U);
+    EXPECT_EQ(prepared.instances.faces.size(), 20'000U);
+    EXPECT_EQ(instanced_face_count(prepared.instances), 2'000'000'000U);
+    EXPECT_EQ(primitive_count(prepared), 0U);
+    const auto write_out = [&] { (void)written_out(prepared, only_cuda_keeps_instances); };
+    const std::string refusal = test::thrown_message<EnvironmentError>(write_out);
+    EXPECT_TRUE(contains(refusal, "the scene of 2000000000 faces, which are written out because only the backend cuda"))
+        << refusal;
+    file.json["materials"][0]["alphaMode"] = "MASK";
+    EXPECT_TRUE(contains(error_of(file), "nodes: 1 of them show the equivalent of 2000000000 faces"));
 }
 
 TEST_F(GltfMesh, IsReadOnceHoweverManyNodesShowIt) {
@@ -245,6 +284,7 @@ INSTANTIATE_TEST_SUITE_P(
                 const std::size_t places = f.add_floats("VEC3", std::vector<float>(3 * 60'000, 1));
                 p["indices"] = f.add_indices(5121, std::vector<std::uint32_t>(3 * 1000, 1));
                 f.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+                f.json["materials"][0]["alphaMode"] = "MASK";  // else the mesh is kept once
             },
             "nodes: 1 of them show the equivalent of 60000000 faces, which takes 14.10 GB of memory; a file with"}),
     [](const auto& info) { return std::string(info.param.name); });

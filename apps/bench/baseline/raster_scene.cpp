@@ -204,6 +204,7 @@ double extent_of(const RasterScene& scene) {
 }  // namespace
 
 std::string why_not_rasterised(const PreparedScene& scene) {
+    if (!scene.instances.empty()) return "the scene has instances of meshes, which the rasteriser does not draw";
     const std::size_t count = count_triangles(scene, [](const Vec3d&, double) { return 0; });
     if (count <= most_triangles) return {};
     return fmt::format("the scene has {} triangles even with the coarsest spheres; the rasteriser draws at most {}",

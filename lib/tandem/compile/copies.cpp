@@ -230,6 +230,9 @@ PreparedScene without_copies(const PreparedScene& scene) {
 #undef TANDEM_PRIMITIVE
     remove(scene.copies, 0, result.material_of);
     remove(scene.copies, 0, result.node_of);
+    const auto before_instances = static_cast<std::uint32_t>(scene.copies.size());
+    for (InstancedMesh& mesh : result.instances.meshes) mesh.first_id -= before_instances;
+    for (MeshInstance& instance : result.instances.instances) instance.first_id -= before_instances;
     const TracedIds ids(scene.copies);
     for (AreaLight& light : result.area_lights) light.primitive = ids.traced(light.primitive);
     result.copies.clear();

@@ -24,7 +24,7 @@ class Placer {
           scene_(scene) {
         world_.reserve(mesh.positions.size());
         for (const Vec3f& position : mesh.positions) {
-            world_.push_back(narrow(transform_point(world_from_object, widen(position))));
+            world_.push_back(place_corner(world_from_object, position));
             placed_.bounds = merge(placed_.bounds, {world_.back(), world_.back()});
         }
     }
@@ -74,7 +74,7 @@ class Placer {
         if (!mesh_.normals.empty()) {
             result.normals = next_index(scene_.normals.size());
             for (const std::uint32_t i : c) {
-                scene_.normals.push_back(narrow(normalize(normal_matrix_ * widen(mesh_.normals[i]))));
+                scene_.normals.push_back(place_normal(normal_matrix_, mesh_.normals[i]));
             }
         }
         if (!slots_.empty()) {
@@ -126,7 +126,7 @@ PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, Face
 Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object) {
     Aabb bounds;
     for (const Vec3f& position : mesh.positions) {
-        const Vec3f placed = narrow(transform_point(world_from_object, widen(position)));
+        const Vec3f placed = place_corner(world_from_object, position);
         bounds = merge(bounds, {placed, placed});
     }
     return bounds;

@@ -10,6 +10,14 @@
 
 namespace tandem {
 
+/// A mesh of the scene at one place. In world space and double until the render origin is known.
+struct PlacedSurface {
+    const Mesh* mesh;
+    Transform world_from_object;
+    std::uint32_t material;
+    std::size_t node;
+};
+
 /// The result of place_mesh().
 struct PlacedMesh {
     Aabb bounds;  ///< of all its corners

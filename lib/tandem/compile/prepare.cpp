@@ -17,6 +17,7 @@
 #include "tandem/compile/environments.h"
 #include "tandem/compile/media.h"
 #include "tandem/compile/node_checks.h"
+#include "tandem/compile/place_instances.h"
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/place_solids.h"
 #include "tandem/compile/prepare_textures.h"
@@ -46,7 +47,10 @@ void make_unlit(PhongMaterial& phong, Optics& optics) {
 class Preparer {
   public:
     Preparer(const Scene& scene, const PrepareOptions& options)
-        : scene_(scene), options_(options), settings_(without_effects(options.settings, options.effects.off)) {}
+        : scene_(scene),
+          options_(options),
+          settings_(without_effects(options.settings, options.effects.off)),
+          instances_(scene, instanced_uses(scene, options.instanced_from)) {}
 
     PreparedScene run() {
         result_.time = options_.time ? *options_.time : time_of_frame(scene_, options_.frame);
@@ -100,6 +104,7 @@ class Preparer {
         std::size_t count = 0, spheres = 0, boxes = 0;
         for (const Node& node : scene_.nodes) {
             for (const Geometry& geometry : node.geometry) {
+                if (is_kept_once(geometry)) continue;
                 const std::size_t instances = instance_count(geometry);
                 count += primitives_in(geometry.shape) * instances;
                 if (std::holds_alternative<SphereShape>(geometry.shape)) spheres += instances;
@@ -114,6 +119,11 @@ class Preparer {
         const std::size_t bytes = spheres * sizeof(Sphere) + boxes * sizeof(Box) +
                                   (count - spheres - boxes) * sizeof(Triangle) + 2 * count * sizeof(std::uint32_t);
         require_memory(bytes, fmt::format("the scene of {} primitives", count));
+    }
+
+    bool is_kept_once(const Geometry& geometry) const {
+        const auto* shape = std::get_if<MeshShape>(&geometry.shape);
+        return shape != nullptr && instances_.is_kept({shape->mesh, geometry.material});
     }
 
     /// The optional part `part`, for every material, if any has it.
@@ -143,14 +153,6 @@ class Preparer {
         const TracedIds ids(result_.copies);
         for (AreaLight& light : result_.area_lights) light.primitive = ids.of_scene(light.primitive);
     }
-
-    /// In world space and double until the render origin is known.
-    struct PlacedSurface {
-        const Mesh* mesh;
-        Transform world_from_object;
-        std::uint32_t material;
-        std::size_t node;
-    };
 
     /// Russian roulette starts only at this vertex: on shorter paths it saves less than its noise costs.
     static constexpr std::uint32_t first_roulette = 3;
@@ -211,6 +213,10 @@ class Preparer {
             return;
         }
         const Mesh& mesh = scene_.meshes[std::get<MeshShape>(geometry.shape).mesh];
+        if (instances_.take({std::get<MeshShape>(geometry.shape).mesh, geometry.material},
+                            {&mesh, world_from_object, geometry.material, node})) {
+            return;
+        }
         for (const Vec3f& position : mesh.positions) {
             check_reach(scene_, node, transform_point(world_from_object, widen(position)), {0, 0, 0});
         }
@@ -227,6 +233,9 @@ class Preparer {
             result_.lights.back().position = narrow(light.position - origin);
         }
         const std::vector<CornerSlots> slots = corner_slots(scene_);
+        const std::vector<PlacedSurface> written_out =
+            instances_.take_back(origin, [this](const Aabb& box) { return sees_outside_of(box); });
+        surfaces_.insert(surfaces_.end(), written_out.begin(), written_out.end());
         const std::size_t faces = reserve_faces(slots);
         solids.place(origin, faces, result_);
         for (const PlacedSurface& surface : surfaces_) {
@@ -245,6 +254,7 @@ class Preparer {
             quads_.add(surface.material, surface.node, placed.quads);
         }
         for (const Owners* owners : {&triangles_, &quads_}) append(*owners);
+        instances_.place(origin, slots, result_);
     }
 
     /// Reserves the arrays, because growing ones take twice the memory, and more while they are copied. Returns the
@@ -293,6 +303,7 @@ class Preparer {
         RenderOrigin origin(result_.camera.render_from_camera.translation);
         solids.add_to(origin);
         for (const PlacedSurface& surface : surfaces_) origin.add_mesh(*surface.mesh, surface.world_from_object);
+        instances_.add_to(origin, result_.camera.render_from_camera.translation);
         for (const Light& light : lights_) {
             if (light.light.kind != PunctualKind::directional) origin.add_point(light.position);
         }
@@ -339,6 +350,7 @@ class Preparer {
     const RenderSettings settings_;
     std::vector<Transform> world_from_node_;
     std::vector<PlacedSurface> surfaces_;
+    InstanceList instances_;
     std::vector<Light> lights_;
     Owners triangles_, quads_;
     PreparedScene result_;

@@ -18,6 +18,8 @@ struct PrepareOptions {
     ForcedEffects effects{};        ///< forced on, or forced off even if the scene needs them
     std::optional<double> time{};   ///< seconds: an instant instead of the frame's time, with the shutter closed
     RenderSettings settings{};
+    /// Meshes that appear many times are kept once if together they have at least so many faces (docs/instances.md).
+    std::uint64_t instanced_from = 2'000'000;
 };
 
 /// Throws InputError with the problems that validate() finds, if there are any.

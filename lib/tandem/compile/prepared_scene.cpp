@@ -92,6 +92,12 @@ std::string scene_hash(const PreparedScene& scene) {
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
     if (is_there(scene.name)) hash.update_value(scene.name);
 #include "tandem/kernel/lights/lights.def"
+    if (!scene.instances.empty()) {
+        add(scene.instances.instances);
+        add(scene.instances.meshes);
+        add(scene.instances.faces);
+        add(scene.instances.normals);
+    }
     if (!scene.textures.materials.empty()) {  // scenes without textures keep their older hash
         add(scene.textures.texels);
         add(scene.textures.textures);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tandem/compile/copies.h"
+#include "tandem/compile/prepared_instances.h"
 #include "tandem/compile/prepared_textures.h"
 #include "tandem/kernel/bsdf/phong.h"
 #include "tandem/kernel/camera/camera.h"
@@ -37,6 +38,9 @@ struct PreparedScene {
 #define TANDEM_SCENE_ARRAY(Type, names) std::vector<Type> names;
 #include "tandem/kernel/view/scene_arrays.def"
     PreparedTextures textures;
+    /// Meshes that are kept once. The ids of their faces follow those of the arrays above, in the order of meshes,
+    /// instances and faces; material_of and node_of do not have them. Empty in most scenes.
+    PreparedInstances instances;
     std::vector<std::uint32_t> node_of;  ///< by primitive id: index into Scene::nodes, for messages
     std::vector<PrimitiveCopy> copies;   ///< primitives that are not traced, because they are copies
     std::uint32_t area_light_kinds = 0;  ///< PrimitiveKinds of area_lights
@@ -67,6 +71,7 @@ struct PreparedScene {
     Shutter shutter{};            ///< closed for an instant of a frame
 };
 
+/// Of the arrays; without the faces of instanced meshes.
 [[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
 
 /// Points from one space to the other; directions, normals and t are the same in both.

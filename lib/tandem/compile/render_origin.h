@@ -25,6 +25,10 @@ class RenderOrigin {
     void add_placed(const Transform& world_from_unit, const Matrix3& unit_from_world, bool is_box);
     void add_mesh(const Mesh& mesh, const Transform& world_from_object);
     void add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2);
+    /// A box that contains a surface, which is not nearer to the camera than distance().
+    void add_far(const Vec3d& lower, const Vec3d& upper) { add_extent(lower, upper); }
+    /// Of the nearest surface point so far from the camera; infinite if there is none.
+    [[nodiscard]] double distance() const { return distance_; }
     /// A point without a surface: the position of a light.
     void add_point(const Vec3d& point);
     /// All that was added to another one with the same camera, after what is here: of two points at the same distance

@@ -19,6 +19,9 @@ constexpr double most_scene_bytes = 3.8e8, bytes_per_byte = 190;
 constexpr double bytes_per_face = 235, bytes_of_normals = 36, bytes_of_texcoords = 24, bytes_of_colours = 48;
 /// Primitives without faces, and shapes, cost time too.
 constexpr double least_faces = 4;
+/// What an instance of a mesh that is kept once takes while a scene is loaded and traced, and when meshes are kept
+/// once: as in compile/place_instances.cpp.
+constexpr double bytes_per_instance = 500, least_instances = 8, least_faces_kept_once = 64;
 
 // Counts are below 2^53 and their products may be above 2^64, so they are doubles.
 
@@ -26,6 +29,7 @@ constexpr double least_faces = 4;
 struct Cost {
     double faces = 0;
     double bytes = 0;
+    bool can_be_kept_once = false;
 };
 
 double bytes_per_face_of(const Json& attributes) {
@@ -36,6 +40,16 @@ double bytes_per_face_of(const Json& attributes) {
         if (name.starts_with("TEXCOORD_")) bytes += bytes_of_texcoords;
     }
     return bytes;
+}
+
+/// Whether a primitive's material lets its mesh be kept once.
+bool is_plain(const Json& document, const Json& primitive) {
+    const Json* number = find(primitive, "material");
+    if (number == nullptr) return true;
+    const Json& material = document["materials"][number->get<std::size_t>()];
+    if (find(material, "emissiveTexture") != nullptr || find(material, "emissiveFactor") != nullptr) return false;
+    if (const Json* mode = find(material, "alphaMode"); mode != nullptr && *mode != "OPAQUE") return false;
+    return find_extension(material, "KHR_materials_unlit") == nullptr;
 }
 
 Cost cost_of(const Source& source, const Json& primitive) {
@@ -49,7 +63,17 @@ Cost cost_of(const Source& source, const Json& primitive) {
     double faces = least_faces;
     if (mode == triangle_list) faces = std::max(faces, count / 3);
     if (mode == triangle_strip || mode == triangle_fan) faces = std::max(faces, count - 2);
-    return {faces, faces * bytes_per_face_of(*attributes)};
+    const bool can_be_kept_once = faces >= least_faces_kept_once && is_plain(source.document.json, primitive);
+    return {faces, faces * bytes_per_face_of(*attributes), can_be_kept_once};
+}
+
+/// Whether anything in the file may transmit light: then all meshes are written out.
+bool transmits(const Json& json) {
+    if (!json.contains("materials")) return false;
+    for (const Json& material : json["materials"]) {
+        if (find_extension(material, "KHR_materials_transmission") != nullptr) return true;
+    }
+    return false;
 }
 
 double instances_of(const Source& source, const Json& node) {
@@ -66,23 +90,28 @@ double instances_of(const Source& source, const Json& node) {
 
 void check_face_count(const Source& source, const std::vector<std::optional<std::uint32_t>>& node_of) {
     const Json& json = source.document.json;
-    std::vector<std::optional<Cost>> cost_of_mesh(source.document.length("meshes"));
-    Cost sum;
+    std::vector<double> instances_of_mesh(source.document.length("meshes"), 0);
+    std::vector<bool> is_skinned(instances_of_mesh.size(), false);
     std::size_t shown = 0;
     for (std::size_t i = 0; i < node_of.size(); ++i) {
         const Json* mesh = node_of[i] ? find(json["nodes"][i], "mesh") : nullptr;
         if (mesh == nullptr) continue;
-        std::optional<Cost>& of_mesh = cost_of_mesh[mesh->get<std::size_t>()];
-        if (!of_mesh) {
-            of_mesh = Cost{};
-            for (const Json& primitive : json["meshes"][mesh->get<std::size_t>()]["primitives"]) {
-                const Cost cost = cost_of(source, primitive);
-                *of_mesh = {of_mesh->faces + cost.faces, of_mesh->bytes + cost.bytes};
-            }
-        }
-        const double instances = instances_of(source, json["nodes"][i]);
-        sum = {sum.faces + of_mesh->faces * instances, sum.bytes + of_mesh->bytes * instances};
+        instances_of_mesh[mesh->get<std::size_t>()] += instances_of(source, json["nodes"][i]);
+        if (find(json["nodes"][i], "skin") != nullptr) is_skinned[mesh->get<std::size_t>()] = true;
         ++shown;
+    }
+    const bool may_keep = !transmits(json);
+    Cost sum;
+    for (std::size_t m = 0; m < instances_of_mesh.size(); ++m) {
+        const double instances = instances_of_mesh[m];
+        if (instances == 0) continue;
+        for (const Json& primitive : json["meshes"][m]["primitives"]) {
+            const Cost cost = cost_of(source, primitive);
+            const bool is_kept_once =
+                may_keep && !is_skinned[m] && cost.can_be_kept_once && instances >= least_instances;
+            sum.faces += cost.faces * instances;
+            sum.bytes += is_kept_once ? cost.bytes + instances * bytes_per_instance : cost.bytes * instances;
+        }
     }
     const auto bytes = static_cast<double>(data_bytes(source));
     const double limit = std::max(most_scene_bytes, bytes_per_byte * bytes);

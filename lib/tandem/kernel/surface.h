@@ -66,6 +66,19 @@ TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView& scene, const Quad& quad,
     return shading_normal<Real>(quad, record, normals, ray, here);
 }
 
+/// The same on a face of an instanced mesh, whose normals are placed for it.
+template <class Real>
+TANDEM_HD Vec3<Double<Real>> instanced_normal(const SceneView& scene, std::uint32_t id, const Ray<Real>& ray,
+                                              const Mask<Real>& here) {
+    const InstancedFace at = instanced_face(scene, id);
+    const Vec3f* of_mesh = corner_normals(static_cast<const InstancedView&>(scene).mesh_normals, at.face.attributes);
+    Vec3f normals[3] = {};
+    for (int i = 0; i < 3 && of_mesh != nullptr; ++i) {
+        normals[i] = place_normal(at.instance.normal_matrix, of_mesh[i]);
+    }
+    return shading_normal<Real>(placed(at), of_mesh == nullptr ? nullptr : normals, ray, here);
+}
+
 /// Do materials depend on the position on the surface?
 template <class Effects>
 TANDEM_HD constexpr bool has_pictures() {
@@ -102,7 +115,7 @@ Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From
     Mask<Real> opaque(true);
     for_each_unique_lane(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
         if (!has_textures(scene.textures)) return;
-        const MaterialTextures& textures = scene.textures.materials[scene.material_of[primitive]];
+        const MaterialTextures& textures = scene.textures.materials[material_of<kinds>(scene, primitive)];
         if (!(textures.alpha_cutoff > 0.0F)) return;
         bool on_face = false;
         const Mask<Real> exits = hits_far_side<kinds>(scene, primitive, ray, source, hit.t, here);
@@ -154,6 +167,8 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
             if (needs_point) own = surface_point(body, record, ray, hit.t);
             if (needs_point && !is_face<Body>) {
                 normal = own.normal;
+            } else if (std::is_same_v<Body, Triangle> && is_instanced<kinds>(scene, primitive)) {
+                normal = instanced_normal<Real>(scene, primitive, ray, here);
             } else {
                 normal = normal_at<Real>(scene, body, record, ray, hit.t, here);
                 if constexpr (std::is_same_v<Body, Sphere>) on_sphere = on_sphere || here;
@@ -169,7 +184,7 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
         }
 
         // Textures
-        const std::uint32_t number = scene.material_of[primitive];
+        const std::uint32_t number = material_of<kinds>(scene, primitive);
         const Optics& optics = scene.optics[number];
         const bool both_sides = sides == FaceSides::double_sided;
         MaterialTexels<Real> texels;

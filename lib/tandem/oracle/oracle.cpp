@@ -59,6 +59,7 @@ class OracleBackend final : public Backend {
                 .exact = false};
     }
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
+        if (!scene.instances.empty()) return load(written_out(scene, only_cuda_keeps_instances), tier);
         return std::make_shared<OracleScene>(scene, tier);
     }
 

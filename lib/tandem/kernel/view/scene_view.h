@@ -12,6 +12,7 @@
 #include "tandem/kernel/shapes/quad.h"
 #include "tandem/kernel/texture/anisotropy.h"
 #include "tandem/kernel/texture/texture_set.h"
+#include "tandem/kernel/view/instances.h"
 
 #define TANDEM_ENVIRONMENT_HEADERS
 #include "tandem/kernel/lights/lights.def"
@@ -42,6 +43,17 @@ struct SceneView {
     Environment environment;
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) Type name;
 #include "tandem/kernel/lights/lights.def"
+};
+
+/// A scene with meshes that are kept once. The ids of their faces follow those of all other primitives. A view of its
+/// own, so that kernels of other scenes are as they would be without.
+struct InstancedView : SceneView {
+    const MeshInstance* instances;
+    const InstancedMesh* meshes;  ///< in the order of their ids
+    const Triangle* faces;        ///< in object space; `normals` of their attributes is an index into mesh_normals
+    const Vec3f* mesh_normals;    ///< at corners, in object space
+    std::uint32_t mesh_count;
+    std::uint32_t first_instanced_id;
 };
 
 /// Whether a kind of environment takes the place of the gradient.
@@ -83,6 +95,8 @@ struct PrimitiveKinds {
 #include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
         ;
+    /// Triangles of an InstancedView. None of `all`, because only tracers for such scenes find them.
+    static constexpr std::uint32_t instanced = 1U << 31;
     static constexpr std::uint32_t faces = triangle | quad;
     static constexpr std::uint32_t bodies = all & ~faces;
 };
@@ -161,10 +175,53 @@ TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
 #endif
 }
 
+/// Whether primitive `id` is a face of an instanced mesh. Then `scene` is an InstancedView.
+template <std::uint32_t kinds>
+TANDEM_HD_INLINE bool is_instanced(const SceneView& scene, std::uint32_t id) {
+    if constexpr ((kinds & PrimitiveKinds::instanced) == 0) return false;
+    return may_have(PrimitiveKinds::instanced) && id >= static_cast<const InstancedView&>(scene).first_instanced_id;
+}
+
+/// A face of an instanced mesh, as it is in the mesh, and its instance.
+struct InstancedFace {
+    const MeshInstance& instance;
+    const Triangle& face;
+    std::uint32_t material;
+};
+
+/// Needs is_instanced().
+TANDEM_HD_INLINE InstancedFace instanced_face(const SceneView& scene, std::uint32_t id) {
+    const auto& view = static_cast<const InstancedView&>(scene);
+    std::uint32_t first = 0, end = view.mesh_count;
+    while (end - first > 1) {
+        const std::uint32_t middle = (first + end) / 2;
+        (id < view.meshes[middle].first_id ? end : first) = middle;
+    }
+    const InstancedMesh& mesh = view.meshes[first];
+    const std::uint32_t within = id - mesh.first_id, instance = within / mesh.face_count;
+    return {view.instances[mesh.first_instance + instance],
+            view.faces[mesh.first_face + (within - instance * mesh.face_count)], mesh.material};
+}
+
+/// The face in render space. Its index of normals remains that of the mesh.
+TANDEM_HD_INLINE Triangle placed(const InstancedFace& at) {
+    const Transform& place = at.instance.render_from_object;
+    return {place_corner(place, at.face.v0), place_corner(place, at.face.v1), place_corner(place, at.face.v2),
+            at.face.attributes};
+}
+
+/// The material of primitive `id`.
+template <std::uint32_t kinds = PrimitiveKinds::all>
+TANDEM_HD_INLINE std::uint32_t material_of(const SceneView& scene, std::uint32_t id) {
+    if (is_instanced<kinds>(scene, id)) return instanced_face(scene, id).material;
+    return scene.material_of[id];
+}
+
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
-    // the last possible kind needs no comparison
+    if (is_instanced<kinds>(scene, id)) return visitor(placed(instanced_face(scene, id)));
+        // the last possible kind needs no comparison
 #define TANDEM_PRIMITIVE(Type, name, names)                                                   \
     if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
         constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);              \

@@ -1,0 +1,41 @@
+/// Meshes that appear many times and are kept once. Their faces are placed when a ray meets them, by the operations
+/// with which place_mesh() places those of other meshes, so no bit depends on it (docs/instances.md).
+#pragma once
+
+#include <cstdint>
+
+#include "tandem/kernel/shapes/triangle.h"
+#include "tandem/math/transform.h"
+
+namespace tandem {
+
+/// A corner in render space.
+TANDEM_HD_INLINE Vec3f place_corner(const Transform& render_from_object, const Vec3f& position) {
+    return narrow(transform_point(render_from_object, widen(position)));
+}
+/// A normal at a corner in render space. `normals`: the normal_matrix() of the transform.
+TANDEM_HD_INLINE Vec3f place_normal(const Matrix3& normals, const Vec3f& normal) {
+    return narrow(normalize(normals * widen(normal)));
+}
+
+/// A mesh at one place.
+struct alignas(16) MeshInstance {
+    Transform render_from_object;
+    Matrix3 normal_matrix;
+    // for the walk, with the bound in docs/instances.md
+    Vec3f object_from_render[3];  ///< rows, without the translation
+    Vec3f centre;                 ///< of the mesh's box, in render space
+    std::uint32_t first_id;       ///< the id of its first face
+    std::int32_t root;            ///< the node of the mesh's hierarchy (InstancedBvhView)
+};
+static_assert(sizeof(MeshInstance) == 224, "no padding: scene_hash() reads all bytes");
+
+/// A mesh with one material, and its instances, which are neighbours: so are their ids.
+struct InstancedMesh {
+    std::uint32_t first_id;
+    std::uint32_t first_instance, instance_count;
+    std::uint32_t first_face, face_count;  ///< in InstancedView::faces
+    std::uint32_t material;
+};
+
+}  // namespace tandem
