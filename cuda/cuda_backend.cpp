@@ -306,8 +306,7 @@ class CudaBackend final : public Backend {
         const std::size_t variant = variant_for(variants, effects);
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
-            LinkedFacts facts =
-                linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter);
+            LinkedFacts facts = linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter);
             if (structure_of(resident.view()) == Structure::instanced) facts.kinds |= PrimitiveKinds::instanced;
             linked = kernels_->find(job.tier, resident.view(), facts);
         }
