@@ -185,23 +185,24 @@ void add_plans(BenchmarkRow& row, const std::vector<Trial>& trials) {
         ForecastRange Forecast::*range;
         double Trial::*truth;
     };
-    for (const auto& [name, range, truth] : {Quantity{"samples", &Forecast::samples, &Trial::samples},
-                                             Quantity{"seconds", &Forecast::seconds, &Trial::seconds}}) {
-        const std::string planned = fmt::format("planned_{}", name);
+    for (const Quantity& quantity : {Quantity{"samples", &Forecast::samples, &Trial::samples},
+                                     Quantity{"seconds", &Forecast::seconds, &Trial::seconds}}) {
+        const std::string planned = fmt::format("planned_{}", quantity.name);
         const auto of = [&](double ForecastRange::*end, const char* suffix) {
             return add_series(row, trials, (planned + suffix).c_str(),
-                              [&](const Trial& t) { return t.forecast.*range.*end; });
+                              [&](const Trial& t) { return (t.forecast.*quantity.range).*end; });
         };
         const auto values = of(&ForecastRange::value, ""), low = of(&ForecastRange::low, "_low"),
                    high = of(&ForecastRange::high, "_high");
         double truths = 0;
-        for (const Trial& trial : trials) truths += trial.*truth;
+        for (const Trial& trial : trials) truths += trial.*quantity.truth;
         const double mean = mean_of(values);
-        row.figures.emplace_back(planned + "_over_" + name, mean * static_cast<double>(trials.size()) / truths);
+        row.figures.emplace_back(planned + "_over_" + quantity.name,
+                                 mean * static_cast<double>(trials.size()) / truths);
         row.figures.emplace_back(planned + "_low", mean_of(low) / mean - 1);
         row.figures.emplace_back(planned + "_high", mean_of(high) / mean - 1);
-        row.figures.emplace_back(fmt::format("{}_in_plan", name), share_of(trials, [&](const Trial& t) {
-                                     return contains(t.forecast.*range, t.*truth);
+        row.figures.emplace_back(fmt::format("{}_in_plan", quantity.name), share_of(trials, [&](const Trial& t) {
+                                     return contains(t.forecast.*quantity.range, t.*quantity.truth);
                                  }));
     }
 }

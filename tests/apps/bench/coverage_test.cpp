@@ -40,6 +40,31 @@ TEST(CoverageReport, HasEveryTrialOfEveryScene) {
     }
 }
 
+TEST(CoverageReport, HasARowForEachTarget) {
+    CoverageOptions options;
+    options.size = {24, 16};
+    options.trials = 3;
+    options.reference_samples = 64;
+    options.reference_factor = 4;
+    options.equal_samples = {32, 128};
+    options.plans = false;
+    options.scenes = {"named:paper"};
+    Report report;
+    (void)run_coverage(options, {}, report);
+    ASSERT_EQ(report.rows.size(), 2U);
+    EXPECT_NEAR(figure(report.rows[0], "target") / figure(report.rows[1], "target"), 2, 0.5);
+    EXPECT_LT(figure(report.rows[0], "samples"), figure(report.rows[1], "samples"));
+    for (const BenchmarkRow& row : report.rows) {
+        for (const auto& [name, values] : row.series) EXPECT_FALSE(name.starts_with("planned")) << name;
+    }
+    options.plans = true;
+    Report planned;
+    (void)run_coverage(options, {}, planned);
+    EXPECT_EQ(figure(planned.rows[1], "samples"), figure(report.rows[1], "samples")) << "a forecast changes nothing";
+    EXPECT_LT(figure(planned.rows[1], "planned_samples_low"), 0);
+    EXPECT_GT(figure(planned.rows[1], "planned_samples_high"), 0);
+}
+
 TEST(CoverageReport, NeedsScenes) {
     Report report;
     EXPECT_TRUE(test::contains(test::input_error([&] { (void)run_coverage({}, {}, report); }), "name the scenes"));
