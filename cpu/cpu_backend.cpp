@@ -243,7 +243,9 @@ class CpuBackend final : public Backend {
     [[nodiscard]] std::shared_ptr<ResidentScene> load_shared(const std::shared_ptr<const PreparedScene>& scene,
                                                              Tier tier) override {
         const DefaultFpEnvironment guard;
-        if (!scene.instances.empty()) return load(written_out(scene, only_cuda_keeps_instances), tier);
+        if (!scene->instances.empty()) {
+            return load_shared(std::make_shared<PreparedScene>(written_out(*scene, only_cuda_keeps_instances)), tier);
+        }
         std::shared_ptr<CpuScene> result;
         arena_.execute([&] { result = std::make_shared<CpuScene>(scene, tier, device_.get(), set_.kernels(tier)); });
         return result;
