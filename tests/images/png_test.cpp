@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -112,6 +113,13 @@ TEST(Png, HasPartsIfItIsLarge) {
     const ByteImage large = sample_bytes(1000, 900);  // 2.7 MB
     EXPECT_EQ(PngEncoder(large, {}, 1).part_count(), FastDeflate::is_available() ? 11U : 1U);
     EXPECT_EQ(PngEncoder(large, {}, 2).part_count(), 1U);
+}
+
+TEST(Png, IsRefusedWithoutPixels) {
+    for (const auto& [width, height] : {std::pair{0, 0}, {0, 2}, {2, 0}}) {
+        const ByteImage empty{width, height, {}};
+        for (const int level : {1, 2}) EXPECT_THROW((void)encode_png(empty, {}, level), std::runtime_error);
+    }
 }
 
 TEST(Png, IsSmallIfItIsSmooth) {

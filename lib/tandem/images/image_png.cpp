@@ -254,7 +254,8 @@ Bytes encode(const ByteImageView& image, const ImageMetadata& metadata, const Wr
 
 PngEncoder::PngEncoder(const ByteImageView& image, ImageMetadata metadata, int level)
     : image_(image), metadata_(std::move(metadata)), level_(level) {
-    if (level == 1 && FastDeflate::is_available()) strips_.emplace(image);
+    const bool has_pixels = image.width > 0 && image.height > 0;  // libpng refuses others
+    if (level == 1 && has_pixels && FastDeflate::is_available()) strips_.emplace(image);
 }
 
 void PngEncoder::encode(std::size_t part) {
