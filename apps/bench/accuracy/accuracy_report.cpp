@@ -83,17 +83,27 @@ bool bits_hold(const SceneSweep& sweep, const std::vector<SweepBackend>& backend
     return hold;
 }
 
-void add_answers(const std::vector<SceneSweep>& sweeps, const SweepOptions& options,
-                 const std::vector<SweepBackend>& backends, Report& report) {
-    report.blocks.emplace_back(Heading{"The answer"});
+/// A paragraph for every sentence of every scene.
+void add_sentences(const std::vector<SceneSweep>& sweeps, const std::vector<SweepBackend>& backends,
+                   std::vector<std::string> (*words)(const SceneSweep&, const std::vector<SweepBackend>&),
+                   Report& report) {
     for (const SceneSweep& sweep : sweeps) {
         const std::string scene = sweeps.size() > 1 ? sweep.scene.name + ": " : "";
-        for (const std::string& sentence : answers(sweep, backends)) {
+        for (const std::string& sentence : words(sweep, backends)) {
             report.blocks.emplace_back(Paragraph{scene + sentence});
         }
     }
+}
+
+void add_answers(const std::vector<SceneSweep>& sweeps, const SweepOptions& options,
+                 const std::vector<SweepBackend>& backends, Report& report) {
+    report.blocks.emplace_back(Heading{"The answer"});
+    add_sentences(sweeps, backends, answers, report);
     report.blocks.emplace_back(Heading{"How to read it"});
     report.blocks.emplace_back(Paragraph{meaning_of_words()});
+    report.blocks.emplace_back(
+        Heading{fmt::format("Each setting beside {}", sweeps.front().plan.settings.front().name)});
+    add_sentences(sweeps, backends, comparisons, report);
     report.blocks.emplace_back(Heading{"What was not varied"});
     report.blocks.emplace_back(Paragraph{not_varied(options)});
     for (const SceneSweep& sweep : sweeps) {

@@ -53,13 +53,19 @@ std::string price_sentence(const SceneSweep& sweep, const std::string& backend) 
     return fmt::format("On {}, a tenth of the error costs {} times the time: {}.", backend, format_number(price), ends);
 }
 
-/// Each setting against the baseline, with the most samples.
+bool has_failed(const SceneSweep& sweep, const std::string& backend, const Setting& setting) {
+    return !sweep.ladder(backend, setting).back()->failures.empty();
+}
+
+std::string failure_sentence(const SceneSweep& sweep, const std::string& backend, const Setting& setting) {
+    return fmt::format("{} on {} failed: {}.", setting.name, backend,
+                       fmt::join(sweep.ladder(backend, setting).back()->failures, "; "));
+}
+
+/// A setting that has not failed against the baseline, with the most samples.
 std::string setting_sentence(const SceneSweep& sweep, const std::string& backend, const Setting& setting) {
     const SweepPoint& point = *sweep.ladder(backend, setting).back();
     const SweepPoint& baseline = *sweep.ladder(backend, sweep.plan.settings.front()).back();
-    if (!point.failures.empty()) {
-        return fmt::format("{} on {} failed: {}.", setting.name, backend, fmt::join(point.failures, "; "));
-    }
     std::string text = fmt::format("{} on {} {} at {} spp, and {}", setting.name, backend, time_clause(point, baseline),
                                    point.samples, error_clause(point, baseline));
     const std::vector<const SweepPoint*> ladder = sweep.ladder(backend, setting);
@@ -159,12 +165,24 @@ std::vector<std::string> answers(const SceneSweep& sweep, const std::vector<Swee
     for (const SweepBackend& backend : backends) {
         sentences.push_back(price_sentence(sweep, backend.name));
         for (const Setting& setting : sweep.plan.settings) {
-            if (setting.axis == Axis::baseline || !runs_on(setting, backend.name)) continue;
-            sentences.push_back(setting_sentence(sweep, backend.name, setting));
+            if (!runs_on(setting, backend.name) || !has_failed(sweep, backend.name, setting)) continue;
+            sentences.push_back(failure_sentence(sweep, backend.name, setting));
         }
         sentences.push_back(choice_sentence(sweep, backend.name));
         if (&backend != &backends.front()) {
             sentences.push_back(backends_sentence(sweep, backends.front().name, backend.name));
+        }
+    }
+    return sentences;
+}
+
+std::vector<std::string> comparisons(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
+    std::vector<std::string> sentences;
+    for (const SweepBackend& backend : backends) {
+        for (const Setting& setting : sweep.plan.settings) {
+            if (setting.axis == Axis::baseline || !runs_on(setting, backend.name)) continue;
+            if (has_failed(sweep, backend.name, setting)) continue;
+            sentences.push_back(setting_sentence(sweep, backend.name, setting));
         }
     }
     sentences.insert(sentences.end(), sweep.plan.biases.begin(), sweep.plan.biases.end());

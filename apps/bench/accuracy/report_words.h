@@ -15,8 +15,11 @@ namespace tandem::bench {
 /// "5.1 ms (5.0 ms to 5.3 ms)", with the interval of the median if there is one.
 [[nodiscard]] std::string in_words(const Summary& seconds);
 
-/// What a scene costs on each backend, and what to choose: a sentence each.
+/// What a digit costs on each backend, what failed, and what to choose: a sentence each.
 [[nodiscard]] std::vector<std::string> answers(const SceneSweep& sweep, const std::vector<SweepBackend>& backends);
+
+/// Each setting that has not failed against the baseline, and what is biased: a sentence each.
+[[nodiscard]] std::vector<std::string> comparisons(const SceneSweep& sweep, const std::vector<SweepBackend>& backends);
 
 /// The price of a tenth of the error: of the baseline on a backend, from the points whose error is resolved.
 [[nodiscard]] PowerLaw price_law(const SceneSweep& sweep, const std::string& backend);

@@ -248,6 +248,14 @@ std::vector<SweepBackend> one_backend() {
     return backends;
 }
 
+/// The answer and the comparisons, a line each.
+std::string words_of(const SceneSweep& sweep) {
+    std::string text;
+    for (const std::string& sentence : answers(sweep, one_backend())) text += sentence + "\n";
+    for (const std::string& sentence : comparisons(sweep, one_backend())) text += sentence + "\n";
+    return text;
+}
+
 TEST(AccuracyWords, SayWhatADigitCostsAndWhatToChoose) {
     const SceneSweep sweep = made_up({{"strict", 1, 0.1, 0.4},
                                       {"strict", 4, 0.4, 0.2},
@@ -258,8 +266,7 @@ TEST(AccuracyWords, SayWhatADigitCostsAndWhatToChoose) {
                                       {"coarse", 1, 0.09, 0.5},
                                       {"coarse", 4, 0.36, 0.45},
                                       {"coarse", 16, 1.4, 0.44}});
-    std::string text;
-    for (const std::string& sentence : answers(sweep, one_backend())) text += sentence + "\n";
+    const std::string text = words_of(sweep);
     EXPECT_TRUE(contains(text, "On cpu, a tenth of the error costs 100 times the time"));
     EXPECT_TRUE(contains(text,
                          "precise on cpu takes 2 (2 to 2) times as long as strict at 16 spp, and its error "
@@ -281,10 +288,8 @@ TEST(AccuracyWords, SayHowTheErrorOfASamplerFalls) {
     ASSERT_EQ(table.rows.size(), 2U);
     EXPECT_EQ(table.rows[0][2], "-0.50 (-0.51 to -0.49)");
     EXPECT_EQ(table.rows[1][2], "-1.00 (-1.01 to -0.99)");
-    std::string text;
-    for (const std::string& sentence : answers(sweep, one_backend())) text += sentence + "\n";
     EXPECT_TRUE(
-        contains(text,
+        contains(words_of(sweep),
                  "it falls with the samples to the power -1.00 (-1.01 to -0.99), that of strict -0.50 (-0.51 to "
                  "-0.49)."));
     sweep.points[4].errors.fill({0.1, {0, 0.2}, false});
@@ -303,6 +308,7 @@ TEST(AccuracyWords, NameWhatFailed) {
     const std::vector<std::string> sentences = answers(sweep, one_backend());
     EXPECT_TRUE(contains(sentences[1], "fast on cpu failed: 3 pixels are not finite."));
     EXPECT_FALSE(contains(sentences[2], "fast (")) << "not worth its time";
+    EXPECT_TRUE(comparisons(sweep, one_backend()).empty()) << "only of what has not failed";
     const ScatterPlot plot = pareto_plot(sweep, one_backend(), Metric::rmse);
     EXPECT_TRUE(plot.series[0].points[1].failed);
     EXPECT_EQ(points_table(sweep).rows[1].back(), "failed");
