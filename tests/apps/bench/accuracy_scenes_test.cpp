@@ -60,7 +60,7 @@ TEST(AccuracyScenes, ListHasAnEasyAndAHardSceneForEachAxis) {
     for (const ListedScene& listed : listed_scenes()) {
         found.emplace(listed.axis, listed.difficulty);
     }
-    for (const char* axis : {"samples", "sampler", "tier", "effects", "depth", "tessellation"}) {
+    for (const char* axis : {"samples", "sampler", "filter", "tier", "effects", "depth", "tessellation"}) {
         EXPECT_TRUE(found.contains({axis, "easy"}) && found.contains({axis, "hard"})) << axis;
     }
     const std::filesystem::path repository = std::filesystem::path(TANDEM_SCENES).parent_path().parent_path();
