@@ -328,8 +328,8 @@ class CudaBackend final : public Backend {
             draw(pixel_job, device_sums);
         }
         if (job.planes.has_any(first_hit_planes)) {
-            first_hits(job.tier)(resident.view(), first_hit_job(pixel_job, job.planes), height, planes, counters,
-                                 compute.get());
+            first_hits(structure_of(resident.view()), job.tier)(resident.view(), first_hit_job(pixel_job, job.planes),
+                                                                height, planes, counters, compute.get());
         }
         memory->render_end.record(compute.get());
 
@@ -415,8 +415,9 @@ class CudaBackend final : public Backend {
 
     double trace(const DeviceScene& resident, const TraceJob& job) {
         const DeviceSceneView& view = resident.view();
-        const bool instanced = structure_of(view) == Structure::instanced;
-        const float size = reach((instanced ? view.instanced_bvh.frame : view.bvh.frame).bounds);
+        const Structure structure = structure_of(view);
+        const float size =
+            reach((structure == Structure::instanced ? view.instanced_bvh.frame : view.bvh.frame).bounds);
         const bool coherent =
             job.coherence == Coherence::unknown ? are_coherent(job.rays, size) : job.coherence == Coherence::coherent;
         const std::uint32_t row = row_length(job.rays, size);
@@ -440,7 +441,7 @@ class CudaBackend final : public Backend {
                                  .tiled = row == 0 ? 0 : job.rays.size() / row / 4 * 4 * row};
         check(cudaMemsetAsync(counters_.data(), 0, sizeof(DeviceCounters), stream), "clearing counters");
         trace_start_.record(stream);
-        trace_kernels(resident.tier(), ask_of(rays))(resident.view(), rays, stream);
+        trace_kernels(structure, resident.tier(), ask_of(rays))(resident.view(), rays, stream);
         trace_end_.record(stream);
         download(job.hits, hits_);
         download(job.wide_t, wide_t_);

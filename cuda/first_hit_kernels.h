@@ -20,20 +20,12 @@ __global__ void __launch_bounds__(block_threads)
     keep(hits, 0, pixel, planes);
 }
 
-template <class Real>
-void launch_first_hits(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                       const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream) {
+template <class Real, class Tracer>
+void launch_first_hits(const Tracer& tracer, const PixelJob& job, std::uint32_t height, const FilmPlanes& planes,
+                       cudaStream_t stream) {
     const std::size_t pixels = std::size_t{job.width} * height;
-    const auto launch_with = [&]<class Tracer>(const Tracer& tracer) {
-        launch("finding first hits", first_hit_kernel<Real, Tracer>, dim3(blocks_for(pixels, block_threads)),
-               block_threads, stream, tracer, job, pixels, planes);
-    };
-    if (structure_of(scene) != Structure::instanced) return with_tracer(scene, counters, launch_with);
-    if constexpr (is_fast<Real>) {
-        launch_first_hits_strict(scene, job, height, planes, counters, stream);
-    } else {
-        launch_with(instanced_tracer(scene, counters));
-    }
+    launch("finding first hits", first_hit_kernel<Real, Tracer>, dim3(blocks_for(pixels, block_threads)), block_threads,
+           stream, tracer, job, pixels, planes);
 }
 
 }  // namespace tandem::cuda

@@ -91,13 +91,18 @@ enum class Ask { nearest, nearest_from_surface, occluded };
 /// Starts tracing the rays.
 using TraceLaunch = void(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 
-// For each query and tier: trace.cu.
+// For each query and tier: trace.cu; for scenes of instances: trace_instanced.cu, for which fast has the code of
+// strict.
+extern TraceLaunch trace_instanced_strict, trace_instanced_precise;
 #define TANDEM_TIER(name, promise) \
     extern TraceLaunch trace_nearest_##name, trace_nearest_from_surface_##name, trace_occluded_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
-[[nodiscard]] inline TraceLaunch& trace_kernels(Tier tier, Ask ask) {
+[[nodiscard]] inline TraceLaunch& trace_kernels(Structure structure, Tier tier, Ask ask) {
+    if (structure == Structure::instanced) {
+        return tier == Tier::precise ? trace_instanced_precise : trace_instanced_strict;
+    }
     const auto of_query = [ask](TraceLaunch & nearest, TraceLaunch & from_surface, TraceLaunch & occluded) -> auto& {
         if (ask == Ask::nearest) return nearest;
         return ask == Ask::nearest_from_surface ? from_surface : occluded;

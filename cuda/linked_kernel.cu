@@ -18,7 +18,7 @@ extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
 #define TANDEM_LINKED_FILTER tandem_facts.filter
 
 #include "cuda/render_thread.h"
-#include "tandem/math/fast_math.h"
+#include "cuda/tier_real.h"
 
 namespace tandem::cuda {
 
@@ -55,13 +55,7 @@ struct LinkedEffects {
     }
 };
 
-/// The Reals of the tiers, by their names.
-namespace linked_real {
-using strict = float;
-using precise = double;
-using fast = FastFloat;
-}  // namespace linked_real
-using LinkedReal = linked_real::TANDEM_LINKED_TIER;
+using LinkedReal = tier_real::TANDEM_LINKED_TIER;
 
 #if defined(TANDEM_SHORT_PATHS)
 // Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).

@@ -11,12 +11,16 @@ namespace tandem::cuda {
 using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                             const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream);
 
-// Defined in a file per tier (first_hits_*.cu).
+// Defined by first_hits.cu and first_hits_instanced.cu, where the tier fast has the kernel of strict.
+extern FirstHitLaunch launch_first_hits_instanced_strict, launch_first_hits_instanced_precise;
 #define TANDEM_TIER(name, promise) extern FirstHitLaunch launch_first_hits_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
-[[nodiscard]] inline FirstHitLaunch& first_hits(Tier tier) {
+[[nodiscard]] inline FirstHitLaunch& first_hits(Structure structure, Tier tier) {
+    if (structure == Structure::instanced) {
+        return tier == Tier::precise ? launch_first_hits_instanced_precise : launch_first_hits_instanced_strict;
+    }
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \

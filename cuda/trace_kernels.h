@@ -1,5 +1,6 @@
-/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h) and the query. trace.cu has
-/// them, compiled for each query with the flags of each tier and with TANDEM_SHORT_PATHS (cuda/CMakeLists.txt).
+/// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h) and the query. trace.cu and
+/// trace_instanced.cu have them, compiled with the flags of each tier and with TANDEM_SHORT_PATHS
+/// (cuda/CMakeLists.txt).
 #pragma once
 
 #if !defined(TANDEM_SHORT_PATHS)
@@ -54,21 +55,15 @@ void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const Devic
     launch_one<Real, ask>(tracer, rays, stream);
 }
 
+/// In a scene without instances.
 template <class Real, Ask ask>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
-    if (structure_of(scene) == Structure::instanced) {
-        if constexpr (is_fast<Real>) {
-            return trace_kernels(Tier::strict, ask)(scene, rays, stream);
-        } else {
-            return launch_one<Real, ask>(instanced_tracer(scene, rays.counters), rays, stream);
-        }
-    }
     with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
         if constexpr (is_fast<Real> && can_refill<Tracer> && ask != Ask::occluded) {
             // Decisions in leaves are slower for incoherent rays even in float alone, and the hits of a ray must not
             // depend on the others that it is traced with.
-            trace_kernels(Tier::strict, ask)(scene, rays, stream);
+            trace_kernels(Structure::bvh, Tier::strict, ask)(scene, rays, stream);
         } else {
             launch_best<Real, ask>(tracer, scene, rays, stream);
         }

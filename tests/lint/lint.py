@@ -11,9 +11,9 @@ CPP = {".h", ".cpp", ".cu", ".def", ".inl"}
 # The paper's method re-created to be measured, not used: its arithmetic is its own.
 BASELINE = "apps/bench/baseline/"
 # The tier fast: its files, and no others, may use what the exact tiers must not (docs/tiers.md). The CPU's kernels of all
-# tiers are the same files, and so are those that trace rays on the GPU; a definition tells them apart.
-FAST_TIER = re.compile(r"^cuda/first_hits_fast\w*\.cu$|^lib/tandem/math/fast_\w+\.h$")
-FAST_KERNEL = re.compile(r"-DTANDEM_(?:KERNEL|TRACE)_TIER=fast\b")
+# tiers are the same files, and so are those of the GPU; a definition tells them apart.
+FAST_TIER = re.compile(r"^lib/tandem/math/fast_\w+\.h$")
+FAST_KERNEL = re.compile(r"-DTANDEM_(?:KERNEL|TRACE|FIRST_HITS)_TIER=fast\b")
 FAST_FLAGS = {"cpu/CMakeLists.txt": {"-ffp-contract=fast"}, "cuda/CMakeLists.txt": {"--use_fast_math"}}
 FAST_MATH = re.compile(
     r"-ffast-math|-Ofast\b|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"

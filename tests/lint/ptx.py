@@ -31,6 +31,11 @@ def units_of(source):
         asked += [(ask, "strict") for ask in ("nearest_from_surface", "occluded")]
         return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_ASK={ask}", f"-DTANDEM_TRACE_TIER={tier}"])
                 for ask, tier in asked]
+    if source.name == "trace_instanced.cu":
+        return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_TIER={tier}"]) for tier in ("strict", "precise")]
+    if source.name.startswith("first_hits"):
+        tiers = ("strict", "precise") if "instanced" in source.name else ("strict", "precise", "fast")
+        return [(source, [f"-DTANDEM_FIRST_HITS_TIER={tier}"]) for tier in tiers]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
