@@ -1,3 +1,5 @@
+#include "cpu/kernels/usual_sampling.h"
+
 #include "cpu/kernels/render_entry.h"
 
 namespace tandem {

@@ -10,8 +10,8 @@ namespace tandem {
 
 /// Paths of one vertex: one pixel per lane.
 template <class Effects, class Real, class Tracer>
-TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
-                        Vec3d* sums) {
+TANDEM_HD TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                                  Vec3d* sums) {
     using Word = UInt<Real>;
     TileStats stats;
     TilePixels<Real> pixels(tile);
@@ -32,8 +32,8 @@ TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const Pixe
 
 /// Longer paths: a lane that is finished takes the next pixel of the tile.
 template <class Effects, class Real, class Tracer>
-TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
-                       Vec3d* sums) {
+TANDEM_HD TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
+                                 Vec3d* sums) {
     TileStats stats;
     TilePixels<Real> pixels(tile);
     PathSorter<Effects, Real> pool;
