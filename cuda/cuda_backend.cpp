@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 
 #include "cuda/device_scene.h"
@@ -259,7 +260,7 @@ class CudaBackend final : public Backend {
     /// Starts a frame on a stream, and the download of its film to its place.
     [[nodiscard]] std::unique_ptr<PendingFrame> start(std::shared_ptr<ResidentScene> scene, const RenderJob& job,
                                                       FilmPlace place, Stream& compute) {
-        Begun begun = begin(std::move(scene), job, compute);
+        Begun begun = begin(std::move(scene), job, compute, place.is_own ? 0 : pixels_of_parts(place.film));
         FrameMemory& memory = begun.memory();
         begin_download(memory);
         download_film(reinterpret_cast<Vec3d*>(memory.film.data()), pixels_of(window_of(job)), place);
@@ -267,6 +268,13 @@ class CudaBackend final : public Backend {
         return std::make_unique<CudaFrame>(std::move(begun), std::move(place));
     }
 
+    /// For so many pixels at least, a frame for a part of the film reserves memory. A larger frame than any before
+    /// would wait there: memory is not freed before the GPU has done all its work. So it is a quarter of the film,
+    /// unless that is much.
+    static std::size_t pixels_of_parts(const Film& film) {
+        constexpr std::size_t most = std::size_t{1} << 23;
+        return std::min(film.pixel_count() / 4, most);
+    }
     static std::size_t pixels_of(const FilmWindow& window) {
         return static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
     }
@@ -283,15 +291,17 @@ class CudaBackend final : public Backend {
         memory.download_end.record(download_.get());
     }
 
-    /// Starts the kernels of a frame on a stream.
-    [[nodiscard]] Begun begin(std::shared_ptr<ResidentScene> scene, const RenderJob& job, Stream& compute) {
+    /// Starts the kernels of a frame on a stream. `least_pixels`: reserves memory for so many.
+    [[nodiscard]] Begun begin(std::shared_ptr<ResidentScene> scene, const RenderJob& job, Stream& compute,
+                              std::size_t least_pixels = 0) {
         (void)selected(gpu_);
         const auto& resident = dynamic_cast<const DeviceScene&>(*scene);
         const PixelJob pixel_job = make_pixel_job(resident.camera(), job);
         const FilmWindow window = window_of(job);
         const std::size_t pixels = pixels_of(window);
-        const std::size_t bytes = film_bytes(pixels, job.planes);
-        const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? pixels * sizeof(Vec3d) : 0;
+        const std::size_t reserved = std::max(pixels, least_pixels);
+        const std::size_t bytes = film_bytes(reserved, job.planes);
+        const std::size_t sample_bytes = job.planes.has(FilmPlane::variance) ? reserved * sizeof(Vec3d) : 0;
         constexpr std::size_t counter_bytes = sizeof(DeviceCounters);
 
         // Reserve memory
@@ -333,7 +343,7 @@ class CudaBackend final : public Backend {
         }
         memory->render_end.record(compute.get());
 
-        const KernelFacts facts = kernel_facts(kernel.code.function());
+        const KernelFacts facts = facts_of(kernel.code.function());
         RenderStats stats;
         if (!effects.has_any(counted_ray_effects)) stats.rays = pixels * pixel_job.samples;
         stats.counters.dropped_primitives = resident.dropped_primitives();
@@ -352,6 +362,12 @@ class CudaBackend final : public Backend {
         return {std::move(scene), std::move(memory), std::move(stats)};
     }
 
+    /// kernel_facts(), asked for once, not for every band of a frame.
+    KernelFacts facts_of(const void* kernel) {
+        const auto place = facts_.find(kernel);
+        return place != facts_.end() ? place->second : facts_.emplace(kernel, kernel_facts(kernel)).first->second;
+    }
+
     /// The table of levels, uploaded by the first call; null for linear levels, which need none.
     const std::uint32_t* entries_of(TransferFunction transfer) {
         if (transfer == TransferFunction::linear) return nullptr;
@@ -364,7 +380,7 @@ class CudaBackend final : public Backend {
         return reinterpret_cast<const std::uint32_t*>(level_entries_.data());
     }
 
-    /// Starts the download of sums and planes. What is a whole film is one copy.
+    /// Starts the download of sums and planes. What is a whole film is one copy, and so is each plane of whole rows.
     void download_film(Vec3d* sums, std::size_t pixels, FilmPlace& place) {
         const FilmWindow& window = place.window;
         Film& film = place.film;
@@ -378,6 +394,11 @@ class CudaBackend final : public Backend {
         const std::size_t first =
             static_cast<std::size_t>(window.top) * film_width + static_cast<std::size_t>(window.left);
         const auto copy = [&](auto* to, const auto* from) {
+            if (width == film_width) {
+                check(cudaMemcpyAsync(to + first, from, pixels * sizeof(*to), cudaMemcpyDeviceToHost, download_.get()),
+                      "downloading rows of the film");
+                return;
+            }
             check(cudaMemcpy2DAsync(to + first, film_width * sizeof(*to), from, width * sizeof(*from),
                                     width * sizeof(*from), static_cast<std::size_t>(window.height),
                                     cudaMemcpyDeviceToHost, download_.get()),
@@ -488,6 +509,7 @@ class CudaBackend final : public Backend {
     bool culls_pixels_;
     bool refits_;
     std::optional<SceneKernels> kernels_;
+    std::map<const void*, KernelFacts> facts_;  ///< of those
     cudaDeviceProp properties_{};
     Stream upload_;
     Stream download_{Stream::Priority::first};  ///< so that levels are found while the next frame is rendered

@@ -75,6 +75,20 @@ TEST(Division, PortionsEndTogether) {
     }
 }
 
+TEST(Division, WorkersOfSimilarPaceCountAsEqual) {
+    std::vector<Worker> workers = {{.pace = 1}, {.pace = 1.9, .busy = 3}, {.pace = 2.1}, {}, {.pace = 1}};
+    level(workers);
+    EXPECT_DOUBLE_EQ(workers[0].pace, 1.3);
+    EXPECT_DOUBLE_EQ(workers[1].pace, 1.3);
+    EXPECT_DOUBLE_EQ(workers[1].busy, 3);
+    EXPECT_DOUBLE_EQ(workers[2].pace, 2.1) << "twice as slow";
+    EXPECT_DOUBLE_EQ(workers[3].pace, 0) << "not known";
+    EXPECT_DOUBLE_EQ(workers[4].pace, 1.3);
+    std::vector<Worker> unknown(2);
+    level(unknown);
+    EXPECT_DOUBLE_EQ(unknown[1].pace, 0);
+}
+
 TEST(Division, PartsShrinkTowardsTheEnd) {
     EXPECT_EQ(part_size(800, 2, true, 10), 400U);
     EXPECT_EQ(part_size(800, 4, true, 10), 200U);

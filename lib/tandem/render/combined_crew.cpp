@@ -14,12 +14,24 @@ namespace tandem {
 
 namespace {
 
-/// Bands that a member holds at a time: while one is rendered, the film of another is downloaded.
-constexpr std::size_t most_bands = 2;
+/// Bands that a member holds at a time: the film of one is downloaded, another is rendered, and a third fills the
+/// multiprocessors that the last pixels of the second leave idle, without a pause in which this thread submits it.
+constexpr std::size_t most_bands = 3;
 
-/// Into how many parts a member divides its portion of what is left (part_size()). A member renders two bands at a
-/// time, but traces one part of the rays at a time; and rows may differ much in cost. So bands are smaller parts.
-constexpr int band_steps = 4, ray_steps = 2;
+/// Into how many parts a member divides its portion of what is left (part_size()).
+constexpr int steps = 2;
+
+/// A band has at most the rows of a member's share of the frame over this. Rows may differ much in cost.
+constexpr double most_of_share = 8;
+
+/// If downloads take more than this share of the time, they are what a frame waits for. Then a member's first band is
+/// its share of the frame over `first_of_share`, so that the first download starts soon, and a band has at most
+/// `growth` times the rows of the one before, so that it is rendered before that one is downloaded.
+constexpr double most_downloading = 0.5, first_of_share = 16, growth = 1.5;
+
+/// How long wait_for() looks for the end of a frame whose last rows have been taken before it sleeps, in seconds.
+/// Waking up takes a thread 0.05 to 0.1 ms.
+constexpr double most_looking = 2e-3;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
 
@@ -96,7 +108,14 @@ void Crew::submit(const std::shared_ptr<SharedFrame>& frame) {
 
 RenderResult Crew::wait_for(SharedFrame& frame) {
     std::unique_lock lock(mutex_);
-    settled_.wait(lock, [&] { return frame.is_done; });
+    settled_.wait(lock, [&] { return frame.is_done || frame.rows.is_empty(); });
+    if (!frame.is_done) {
+        lock.unlock();
+        const Stopwatch watch;
+        while (!frame.is_done && watch.seconds() < most_looking) std::this_thread::yield();
+        lock.lock();
+        settled_.wait(lock, [&] { return frame.is_done.load(); });
+    }
     if (frame.error) std::rethrow_exception(frame.error);
     return {std::move(frame.film), std::move(frame.stats)};
 }
@@ -107,12 +126,23 @@ void Crew::cancel(SharedFrame& frame) {
     std::erase_if(queue_, [&](const auto& other) { return other.get() == &frame; });
 }
 
+template <class Paces>
+std::vector<Worker> Crew::workers(const Paces& paces, double units) const {
+    std::vector<Worker> workers;
+    const double now = clock_.seconds();
+    for (std::size_t i = 0; i < paces.size(); ++i) {
+        const bool failed = members_[i]->has_failed;
+        workers.push_back({paces[i].get() * units, failed ? forever : std::max(0.0, members_[i]->free_at - now)});
+    }
+    return workers;
+}
+
 std::optional<Division::Part> Crew::take_rays(const CombinedScene& scene, std::size_t member, std::size_t all,
                                               Division& rays) {
     const std::size_t least = std::max(options_.least_rays, all / (most_ray_parts * members_.size()));
     const std::vector<Worker> crew = workers(scene.ray_paces, 1);
     const double portion = fair_portion(crew, member, rays.left());
-    const auto part = rays.take(size_of_part(portion, crew[member].pace, ray_steps, least));
+    const auto part = rays.take(size_of_part(portion, crew[member].pace, steps, least));
     if (part) members_[member]->free_at = clock_.seconds() + crew[member].pace * static_cast<double>(part->count);
     return part;
 }
@@ -163,24 +193,27 @@ Band Crew::take_band(std::size_t index) {
     const double samples_of_row = static_cast<double>(frame->window.width) * frame->job.samples;
     const std::size_t least_rows = options_.least_pixels / static_cast<std::size_t>(frame->window.width);
     std::vector<Worker> crew = workers(frame->scene->sample_paces, samples_of_row);
+    level(crew);
     for (Worker& worker : crew)
-        worker.busy = worker.busy < forever ? 0 : forever;  // each has two bands, and takes the next when one is done
+        worker.busy = worker.busy < forever ? 0 : forever;  // each has bands, and takes the next when one is done
     const double portion = fair_portion(crew, index, frame->rows.left());
-    Band band{frame, frame->rows.take(size_of_part(portion, crew[index].pace, band_steps, least_rows)).value()};
-    if (frame->rows.is_empty()) queue_.pop_front();
+    const double share = fair_portion(crew, index, static_cast<std::size_t>(frame->window.height));
+    double most_rows = share / most_of_share;
+    if (frame->scene->waits_for_downloads) {
+        const double grown = growth * static_cast<double>(frame->last_rows[index]);
+        most_rows = std::min(most_rows, std::max(share / first_of_share, grown));
+    }
+    const std::size_t rows =
+        std::min(size_of_part(portion, crew[index].pace, steps, least_rows), static_cast<std::size_t>(most_rows));
+    Band band{frame, frame->rows.take(std::max(rows, least_rows)).value()};
+    frame->last_rows[index] = band.rows.count;
+    if (frame->rows.is_empty()) {
+        queue_.pop_front();
+        settled_.notify_all();
+    }
     ++frame->bands;
     if (!frame->watch) frame->watch.emplace();
     return band;
-}
-
-std::vector<Worker> Crew::workers(const std::vector<Pace>& paces, double units) const {
-    std::vector<Worker> workers;
-    const double now = clock_.seconds();
-    for (std::size_t i = 0; i < paces.size(); ++i) {
-        const bool failed = members_[i]->has_failed;
-        workers.push_back({paces[i].get() * units, failed ? forever : std::max(0.0, members_[i]->free_at - now)});
-    }
-    return workers;
 }
 
 std::size_t Crew::size_of_part(double portion, double pace, int steps, std::size_t least) const {
@@ -220,8 +253,10 @@ void Crew::finish(std::size_t index, std::unique_lock<std::mutex>& lock) {
     lock.lock();
     if (error) return fail(index, 0, error);
     SharedFrame& frame = *band.frame;
-    const double seconds = std::exchange(member.busy, Stopwatch()).seconds();
-    frame.scene->sample_paces[index].add(band.samples(), seconds - result.stats.seconds.compile);
+    const double seconds = std::exchange(member.busy, Stopwatch()).seconds() - result.stats.seconds.compile;
+    frame.scene->sample_paces[index].add(band.samples(), seconds);
+    frame.band_seconds += seconds;
+    frame.download_seconds += result.stats.seconds.download;
     frame.compile = std::max(frame.compile, result.stats.seconds.compile);
     add(frame.stats, result.stats);
     member.samples += static_cast<std::uint64_t>(band.samples());
@@ -236,6 +271,8 @@ void Crew::settle(SharedFrame& frame) {
     frame.stats.seconds = {};
     frame.stats.seconds.compile = frame.compile;
     frame.stats.seconds.render = std::max(frame.watch->seconds() - frame.compile, 0.0);
+    for (MeanPace& pace : frame.scene->sample_paces) pace.fade();
+    frame.scene->waits_for_downloads = frame.download_seconds > most_downloading * frame.band_seconds;
     for (const std::string& warning : std::exchange(warnings_, {})) {
         frame.stats.warning += (frame.stats.warning.empty() ? "" : "; ") + warning;
     }

@@ -1,6 +1,7 @@
 /// How a combined backend (combined_backend.h) works: the threads of its members, and the queue of frames.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -37,6 +38,22 @@ class Pace {
     double seconds_per_unit_ = 0;
 };
 
+/// The same over all that it has done, because parts differ: the last rows of a frame say little about others.
+class MeanPace {
+  public:
+    void add(double units, double seconds) {
+        if (!(units > 0) || !(seconds > 0)) return;
+        units_ += units;
+        seconds_ += seconds;
+    }
+    /// What was measured so far counts half from now on.
+    void fade() { units_ *= 0.5, seconds_ *= 0.5; }
+    [[nodiscard]] double get() const { return units_ > 0 ? seconds_ / units_ : 0; }
+
+  private:
+    double units_ = 0, seconds_ = 0;
+};
+
 class Crew;
 
 class CombinedScene final : public ResidentScene {
@@ -47,7 +64,9 @@ class CombinedScene final : public ResidentScene {
 
     // all guarded by the crew's mutex once the scene is loaded
     std::vector<std::shared_ptr<ResidentScene>> parts;  ///< of each member; null if it failed
-    std::vector<Pace> sample_paces, ray_paces;
+    std::vector<MeanPace> sample_paces;
+    std::vector<Pace> ray_paces;
+    bool waits_for_downloads = false;  ///< most of the time, in the last frame
 
   private:
     Crew& crew_;
@@ -60,18 +79,21 @@ struct SharedFrame {
           job(asked),
           window(window_of(asked)),
           film(std::move(memory)),
-          rows(static_cast<std::size_t>(window.height), band_step) {}
+          rows(static_cast<std::size_t>(window.height), band_step),
+          last_rows(scene->parts.size()) {}
 
     const std::shared_ptr<CombinedScene> scene;
     const RenderJob job;
     const FilmWindow window;
     Film film;
     Division rows;
-    std::size_t bands = 0;  ///< held by members now
+    std::vector<std::size_t> last_rows;  ///< of the last band of each member
+    std::size_t bands = 0;               ///< held by members now
     RenderStats stats;
     double compile = 0;
-    std::optional<Stopwatch> watch;  ///< since the first band
-    bool is_done = false;
+    double band_seconds = 0, download_seconds = 0;  ///< of all bands; the second is a part of the first
+    std::optional<Stopwatch> watch;                 ///< since the first band
+    std::atomic<bool> is_done = false;              ///< may be read without the mutex
     std::exception_ptr error;
 };
 
@@ -184,7 +206,8 @@ class Crew {
     [[nodiscard]] Band take_band(std::size_t index);
     /// The members as workers; those that have failed are busy for ever. A worker's unit is `units` of the paces'
     /// units.
-    [[nodiscard]] std::vector<Worker> workers(const std::vector<Pace>& paces, double units) const;
+    template <class Paces>
+    [[nodiscard]] std::vector<Worker> workers(const Paces& paces, double units) const;
     [[nodiscard]] std::size_t size_of_part(double portion, double pace, int steps, std::size_t least) const;
 
     void start(std::size_t index, Band band, std::unique_lock<std::mutex>& lock);

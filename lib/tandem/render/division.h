@@ -57,6 +57,22 @@ struct Worker {
     double busy = 0;  ///< seconds until it has done what it took
 };
 
+/// Workers that are less than twice as slow as the fastest get the mean pace of these. The rows of a picture may differ
+/// much in cost, so what two workers needed for different rows does not tell which of them is somewhat faster; and if
+/// one is, it takes more parts.
+inline void level(std::vector<Worker>& workers) {
+    double least = std::numeric_limits<double>::infinity(), sum = 0, near = 0;
+    for (const Worker& w : workers) {
+        if (w.pace > 0) least = std::min(least, w.pace);
+    }
+    for (const Worker& w : workers) {
+        if (w.pace > 0 && w.pace < 2 * least) sum += w.pace, ++near;
+    }
+    for (Worker& w : workers) {
+        if (w.pace > 0 && w.pace < 2 * least) w.pace = sum / near;
+    }
+}
+
 /// The units, of those that are left, that a worker should do so that all end at the same time. Workers whose pace is
 /// not known count as the mean of the others.
 [[nodiscard]] inline double fair_portion(const std::vector<Worker>& workers, std::size_t worker, std::size_t left) {
