@@ -133,7 +133,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 #include "tandem/kernel/texture/texture_arrays.def"
 #undef TANDEM_TEXTURE_ARRAY
     }
-    PreparedInstances instances = scene.instances;
+    const PreparedInstances& instances = scene.instances;
     const InstancedBvh instanced_bvh = instances.empty() ? InstancedBvh{} : build_instanced_bvh(instances);
     layout.add(instances.instances, view_.instanced.instances);
     layout.add(instances.meshes, view_.instanced.meshes);

@@ -264,11 +264,11 @@ CLI::App* add_scale(CLI::App& app, Everything& all) {
     command
         ->add_option(
             "--parts", all.scale.parts,
-            "Parts of the report: rays (builds and rays by the number of primitives) and frames (by the number "
-            "of GPUs)")
+            "Parts of the report: rays (builds and rays by the number of primitives), frames (by the number of GPUs) "
+            "and instances (rays through meshes that are kept once, on a GPU)")
         ->delimiter(',')
         ->capture_default_str()
-        ->check(CLI::IsMember({"rays", "frames"}));
+        ->check(CLI::IsMember({"rays", "frames", "instances"}));
     command->add_option("--kinds", all.scale.kinds, "Kinds of named scenes: spheres, boxes, triangles, quads, mixed")
         ->delimiter(',')
         ->capture_default_str();

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "gpu_scale.h"
+#include "instance_rates.h"
 #include "output.h"
 #include "ray_sets.h"
 #include "second_rays.h"
@@ -304,6 +305,14 @@ bool run_scale(const ScaleOptions& options, const BackendSource& source, Report&
             throw EnvironmentError(fmt::format("frames by number of GPUs cannot be measured: {}", reason));
         const GpuScaleOptions frames{{}, gpus, options.size, options.samples, options.tier, options.repetitions};
         holds = run_gpu_scale(frames, options.scenes, source, report) && holds;
+    }
+    if (has("instances")) {
+        const std::string reason = source.why_unavailable("cuda");
+        if (!reason.empty())
+            throw EnvironmentError(fmt::format("rays through instances cannot be measured: {}", reason));
+        report.summary += "Rays through meshes that are kept once.";
+        const InstanceRateOptions rates{.ray_edge = options.ray_edge, .repetitions = options.repetitions};
+        holds = run_instance_rates(rates, source, report) && holds;
     }
     return holds;
 }

@@ -11,7 +11,7 @@
 namespace tandem::bench {
 
 struct ScaleOptions {
-    std::vector<std::string> parts = {"rays"};  ///< rays, and frames by number of GPUs (gpu_scale.h)
+    std::vector<std::string> parts = {"rays"};  ///< rays, frames (gpu_scale.h), instances (instance_rates.h)
     std::vector<std::string> kinds = {"spheres", "boxes", "triangles"};  ///< of named scenes, named:KIND/N
     double least = 10, most = 1e6;                                       ///< primitives
     int steps = 1;                                                       ///< numbers of primitives per factor of ten

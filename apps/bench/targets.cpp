@@ -13,6 +13,7 @@
 #include "first_picture.h"
 #include "frame_timing.h"
 #include "gpu_scale.h"
+#include "instance_rates.h"
 #include "output.h"
 #include "second_rays.h"
 #include "sequence.h"
@@ -78,6 +79,14 @@ class TargetRun {
         const RayTiming timing = time_rays(ray_options(scene, set), {"cuda"}, source_, report_);
         add_rows(timing.rows);
         finish_rays(result, timing.rows[0]);
+    }
+
+    /// Our rays per second in a city of instances, divided by those in a block of them that is written out.
+    void gpu_city_rays(TargetResult& result, RaySet set) {
+        const InstanceRateOptions options{.ray_edge = options_.ray_edge, .repetitions = options_.repetitions};
+        const InstanceRates rates = time_instances(set, options, source_, report_);
+        add_rows({rates.written, rates.kept, rates.city});
+        finish(result, ratio_of_medians(rates.written.seconds, rates.city.seconds));
     }
 
     /// Rays from the points that coherent rays hit to a point light, in a million spheres: any hit ends them.
@@ -371,6 +380,13 @@ std::vector<Target> all_targets(int cores) {
                                  rays.fast_over_strict, 1, [&rays](TargetRun& run, TargetResult& result) {
                                      run.price_of_strict(result, rays.scene);
                                  }));
+    }
+    for (const RaySet set : {RaySet::coherent, RaySet::random}) {
+        targets.push_back(target(fmt::format("gpu-city-{}", to_string(set)),
+                                 fmt::format("A city of 100,489 instances of a mesh, GPU, {} rays: at least 0.2 times "
+                                             "the rate in a block of 125 that is written out",
+                                             to_string(set)),
+                                 0.2, 1, [set](TargetRun& run, TargetResult& r) { run.gpu_city_rays(r, set); }));
     }
     targets.push_back(target("gpu-rays-shadow", "A million spheres, GPU (H200), shadow rays: at least 3 G rays/s", 3e9,
                              1, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));

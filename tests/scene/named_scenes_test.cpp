@@ -47,6 +47,30 @@ TEST(NamedScenes, FacesAreWhatTheirNamesSay) {
     }
 }
 
+TEST(NamedScenes, BlocksAndCitiesAreInstancesInTheirCells) {
+    for (const char* name : {"block/125", "city/121"}) {
+        const Scene scene = named_scene(name);
+        const bool is_city = name[0] == 'c';
+        const PreparedScene prepared = prepare(scene);
+        EXPECT_EQ(prepared.instances.instances.size(), is_city ? 121U : 125U);
+        EXPECT_EQ(prepared.instances.faces.size(), 20480U);
+        const double cell = 2.0 / (is_city ? 11 : 5);
+        Vec3d least{9, 9, 9}, most{-9, -9, -9};
+        for (const Trs& trs : scene.nodes.at(2).geometry.at(0).instances) {
+            for (int i = 0; i < 3; ++i) {
+                least[i] = lesser(least[i], trs.translation[i]);
+                most[i] = greater(most[i], trs.translation[i]);
+            }
+        }
+        for (int i = 0; i < 3; ++i) {
+            const double edge = is_city && i == 1 ? 0 : 1 - cell / 2;
+            EXPECT_NEAR(least[i], -edge, 0.21 * cell) << name << ", axis " << i;
+            EXPECT_NEAR(most[i], edge, 0.21 * cell) << name << ", axis " << i;
+        }
+    }
+    EXPECT_TRUE(contains(test::input_error([&] { (void)named_scene("city/0"); }), "city/N"));
+}
+
 TEST(NamedScenes, SeedsMakeOtherScenesAndNamesTheSame) {
     const auto hash = [](const char* name) { return scene_hash(prepare(named_scene(name))); };
     EXPECT_EQ(hash("mixed/50"), hash("mixed/50/1"));

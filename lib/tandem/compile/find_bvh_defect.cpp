@@ -1,29 +1,11 @@
-#include "tandem/compile/build_bvh.h"
-
 #include <fmt/format.h>
 
-#include <cmath>
+#include "tandem/compile/build_bvh.h"
+#include "tandem/compile/child_box.h"
 
 namespace tandem {
 
 namespace {
-
-/// What node_ray.h takes for a child's box, in exact arithmetic, without the part of a step that rounding needs.
-struct ChildBox {
-    Vec3d lower, upper;
-};
-
-ChildBox child_box(const BvhNode& node, unsigned child) {
-    const auto plane = [&](unsigned axis, std::uint32_t planes, double inward) {
-        const double step = std::ldexp(1.0, static_cast<int>(node.frame >> (8 * axis) & 255U) - 127 - 7);
-        const double exact = node.corner[axis] + step * (planes >> (8 * child) & 255U);
-        return exact + inward * step * 0x1p-8;
-    };
-    return {{plane(0, node.lower_x, 1), plane(1, node.lower_y, 1), plane(2, node.lower_z, 1)},
-            {plane(0, node.upper_x, -1), plane(1, node.upper_y, -1), plane(2, node.upper_z, -1)}};
-}
-
-bool is_empty(const ChildBox& box) { return box.lower.x > box.upper.x; }
 
 bool contains(const ChildBox& outer, const Aabb& inner) {
     return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y && outer.lower.z <= inner.lower.z &&

@@ -221,8 +221,6 @@ void InstanceList::place(const Vec3d& origin, const std::vector<CornerSlots>& sl
             instance.render_from_object = surface.world_from_object;
             instance.render_from_object.translation -= origin;
             instance.normal_matrix = normal_matrix(surface.world_from_object.linear);
-            const Matrix3 inverse_of = inverse(surface.world_from_object.linear);
-            for (int i = 0; i < 3; ++i) instance.object_from_render[i] = narrow(inverse_of.row[i]);
             instance.first_id = static_cast<std::uint32_t>(next_id);
             all.instances.push_back(instance);
             all.node_of.push_back(static_cast<std::uint32_t>(surface.node));

@@ -36,15 +36,15 @@ struct PreparedInstances {
 
 inline constexpr const char* only_cuda_keeps_instances = "only the backend cuda keeps a mesh once that appears often";
 
-/// The hierarchies of the instances. Sets the roots of the instances too.
+/// The hierarchies of the instances.
 struct InstancedBvh {
     std::vector<BvhNode> nodes;
-    std::vector<std::uint32_t> entry_instances;
+    std::vector<EntryInstance> entry_instances;
     std::vector<EntryFace> entry_faces;
     StructureFrame frame;
 };
 /// Instances that are exact copies of an earlier one are left out: the lower id wins. Deterministic.
-[[nodiscard]] InstancedBvh build_instanced_bvh(PreparedInstances& instances);
+[[nodiscard]] InstancedBvh build_instanced_bvh(const PreparedInstances& instances);
 
 /// What is wrong with the hierarchies of instances, as find_bvh_defect(): a face or an instance that is missing or
 /// twice, a box that does not contain its child, or a mesh's box that is not padded enough for an instance. For tests.

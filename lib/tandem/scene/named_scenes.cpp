@@ -248,6 +248,34 @@ Scene one_icosphere(const std::string& name, int level) {
     return scene;
 }
 
+/// `count` instances of one mesh, in the cells of a grid: of a cube, or of its floor.
+Scene instances_of_icosphere(const std::string& name, std::uint32_t count, std::uint32_t seed, bool is_city) {
+    Scene scene = crowd(name);
+    scene.meshes = {icosphere(5)};
+    std::uint32_t edge = 1;
+    const auto cells = [is_city](std::uint64_t n) { return is_city ? n * n : n * n * n; };
+    while (cells(edge) < count) ++edge;
+    const double cell = 2.0 / edge;
+    std::vector<Trs> instances(count);
+    constexpr std::size_t at_once = 4096;
+    for_each_chunk(count, at_once, [&](const Chunk& chunk) {
+        for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+            ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
+            const auto row = [&](std::size_t place) { return (static_cast<double>(place % edge) + 0.5) * cell - 1; };
+            const Vec3d middle = {row(i), is_city ? 0.0 : row(i / edge / edge), row(i / edge)};
+            instances[i].translation = middle + numbers.in_cube() * (0.2 * cell);
+            instances[i].scale = (Vec3d{1, 1, 1} + numbers.in_cube() * 0.5) * (0.364 * cell);
+            instances[i].rotation = numbers.rotation();
+        }
+    });
+    if (is_city) {
+        scene.nodes[0].trs.translation = {0, 5.5 * cell, 1};
+        scene.nodes[0].trs.rotation = {-0.28, 0, 0, 0.96};  // the horizon is at the top
+    }
+    add_instances(scene, "instances", MeshShape{0}, 3, std::move(instances));
+    return scene;
+}
+
 /// Parses "123" within [least, most]; empty if it is not a number or out of range.
 std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t most, std::uint32_t least = 1) {
     std::uint32_t value = 0;
@@ -260,6 +288,7 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
 std::size_t least_bytes(std::string_view kind) {
     if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
     if (kind == "quads") return 4 * 16 + 72;
+    if (kind == "block" || kind == "city") return sizeof(Trs) + 240;
     return sizeof(Trs) + (kind == "spheres" ? 24 : kind == "mixed" ? 90 : 152);  // turned boxes have matrices
 }
 
@@ -277,7 +306,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 std::vector<std::string> scene_names() {
     return {"paper",          "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
-            "boxes/N[/SEED]", "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL"};
+            "boxes/N[/SEED]", "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
+            "block/N[/SEED]", "city/N[/SEED]"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -302,6 +332,9 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
             if (parts[0] == "triangles") return random_faces(full, *count, *seed, 3);
             if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
+            if (parts[0] == "block" || parts[0] == "city") {
+                return instances_of_icosphere(full, *count, *seed, parts[0] == "city");
+            }
         }
     }
     throw InputError(

@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "gpu_scale.h"
+#include "instance_rates.h"
 #include "loop_backend.h"
+#include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 
 namespace tandem::bench {
@@ -40,6 +42,33 @@ TEST(Scale, MeasuresEverySizeBackendThreadsAndSetOfRays) {
     }
     EXPECT_EQ(report.rows.front().label, "named:spheres/2, cpu, 1 thread, coherent");
     EXPECT_NE(prose_of(report).find("All hits are equal"), std::string::npos) << prose_of(report);
+}
+
+TEST(Scale, MeasuresInstancesBesideTheSameWrittenOut) {
+    BackendSource source = loop_source(nothing);
+    source.make = [](const std::string&, const BackendOptions&) { return make_backend("cpu", {}); };
+    const InstanceRateOptions options{.block = 8, .city_edge = 2, .ray_edge = 32, .repetitions = 2};
+    Report report;
+    EXPECT_TRUE(run_instance_rates(options, source, report)) << prose_of(report);
+    ASSERT_EQ(report.rows.size(), 2U * 3);
+    EXPECT_EQ(report.rows[0].label, "named:block/8, written out, coherent");
+    EXPECT_EQ(report.rows[1].label, "named:block/8, kept once, coherent");
+    EXPECT_EQ(report.rows[5].label, "named:city/4, kept once, random");
+    for (const BenchmarkRow& row : report.rows) {
+        EXPECT_EQ(row.seconds.size(), 2U) << row.label;
+        EXPECT_EQ(row.rays, 1024) << row.label;
+        // a view at flat angles passes above so small a city
+        const bool is_above = row.label == "named:city/4, kept once, coherent";
+        EXPECT_EQ(row.figures.back().second > 0.1, !is_above) << row.label << ": hits";
+    }
+}
+
+TEST(Scale, CountsHitsOfInstancesThatDiffer) {
+    Report report;
+    const InstanceRateOptions options{.block = 8, .city_edge = 2, .ray_edge = 6, .repetitions = 1};
+    // this backend sees no instances
+    EXPECT_FALSE(run_instance_rates(options, loop_source(nothing), report));
+    EXPECT_NE(prose_of(report).find("hits differ from those of the faces written out"), std::string::npos);
 }
 
 TEST(Scale, CountsHitsThatDiffer) {

@@ -31,11 +31,26 @@ TEST(Targets, IdsAreUniqueAndFollowTheCores) {
         EXPECT_GT(target.required, 0);
         EXPECT_EQ(target.command, "tandem-bench targets --only " + target.id);
     }
-    for (const char* id :
-         {"gpu-paper", "gpu-paper-unculled", "cpu-paper-1", "cpu-paper-2", "cpu-paper-16", "cpu-paper-o0",
-          "cpu-rays-coherent", "cpu-rays-random", "gpu-rays-coherent", "gpu-rays-random", "gpu-rays-coherent-mesh",
-          "gpu-rays-random-mesh", "gpu-rays-random-triangles", "gpu-rays-coherent-boxes", "gpu-first-picture",
-          "gpu-share", "gpu-scale-2", "gpu-scale-4"}) {
+    for (const char* id : {"gpu-paper",
+                           "gpu-paper-unculled",
+                           "cpu-paper-1",
+                           "cpu-paper-2",
+                           "cpu-paper-16",
+                           "cpu-paper-o0",
+                           "cpu-rays-coherent",
+                           "cpu-rays-random",
+                           "gpu-rays-coherent",
+                           "gpu-rays-random",
+                           "gpu-rays-coherent-mesh",
+                           "gpu-rays-random-mesh",
+                           "gpu-rays-random-triangles",
+                           "gpu-rays-coherent-boxes",
+                           "gpu-first-picture",
+                           "gpu-share",
+                           "gpu-scale-2",
+                           "gpu-scale-4",
+                           "gpu-city-coherent",
+                           "gpu-city-random"}) {
         EXPECT_TRUE(ids.contains(id)) << id;
     }
     EXPECT_EQ(list_targets(16).size(), list_targets(2).size() + 1) << "two cores cannot show what 16 threads do";

@@ -32,6 +32,13 @@ struct Candidates {
         overflow = placed ? overflow : 1U;
     }
 
+    /// Whether the next one would have no place.
+    [[nodiscard]] TANDEM_HD_INLINE bool is_full(float limit) const {
+        bool full = true;
+        for (int k = 0; k < most; ++k) full = full && lo[k] <= limit;
+        return full;
+    }
+
     /// Calls decide(primitive) for those that may be hit at or before the limit. In one place of the code, so that all
     /// threads of a warp decide together.
     template <class Decide>

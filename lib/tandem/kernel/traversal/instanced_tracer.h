@@ -1,5 +1,5 @@
 /// Traces rays through a scene with instanced meshes: two levels propose, and the faces as they are in render space
-/// decide. The bound of the moved ray is in docs/instances.md.
+/// decide. The bounds of the moved ray are in docs/instances.md.
 #pragma once
 
 #include "tandem/kernel/traversal/bvh_tracer.h"
@@ -15,40 +15,108 @@ struct alignas(16) EntryFace {
 };
 static_assert(sizeof(EntryFace) == 48);
 
+/// What a walk needs of an instance: an entry of the upper hierarchy, 64 bytes.
+struct alignas(16) EntryInstance {
+    Vec3f object_from_render[3];  ///< rows, without the translation
+    Vec3f centre;                 ///< of the mesh's box, in render space
+    float radius;                 ///< instance_radius()
+    std::int32_t root;            ///< the node of the mesh's hierarchy
+    std::uint32_t number;         ///< of the MeshInstance
+    std::uint32_t unused = 0;
+};
+static_assert(sizeof(EntryInstance) == 64);
+
 /// The hierarchies of instances and of their meshes, in one array of nodes. The root of the instances is the first, and
 /// their entries come before those of the meshes.
 struct InstancedBvhView {
     const BvhNode* nodes;
-    const std::uint32_t* entry_instances;
+    const EntryInstance* entry_instances;
     const EntryFace* entry_faces;  ///< by entry - instance_entries
     std::uint32_t instance_entries;
     StructureFrame frame;
     std::uint32_t bits_of_256 = 0x43800000U;  ///< as in BvhView
 };
 
-/// The padding of the boxes of a mesh, in its frame: docs/instances.md. `row_norm`: the largest 1-norm of a row of
-/// object_from_render of its instances; `scene_reach`: that of the instances in render space; `mesh_reach`: of the
-/// mesh's box from its centre.
-TANDEM_HD_INLINE float instanced_margin(double row_norm, double scene_reach, double mesh_reach) {
-    return round_up((64.0 * row_norm * scene_reach + 16.0 * mesh_reach) * widen(float_roundoff) + 1e-30);
+/// Of a sphere around EntryInstance::centre that contains the instance with a distance to spare: docs/instances.md.
+/// `half_diagonal`: of its box in render space; `scene_reach`: that of the instances.
+TANDEM_HD_INLINE float instance_radius(double half_diagonal, double scene_reach) {
+    return round_up(half_diagonal * (1 + 0x1p-20) + 64.0 * scene_reach * widen(float_roundoff) + 1e-30);
+}
+/// The padding of the boxes of a mesh, in its frame, for an instance: docs/instances.md. `row_norm`: the largest 1-norm
+/// of a row of object_from_render; `scene_reach`: that of the instances in render space; `radius`: instance_radius();
+/// `mesh_reach`: of the mesh's box from its centre.
+TANDEM_HD_INLINE float instanced_margin(double row_norm, double scene_reach, double radius, double mesh_reach) {
+    const double roundings = 6.0 * row_norm * scene_reach + 64.0 * row_norm * radius + 16.0 * mesh_reach;
+    return round_up(roundings * widen(float_roundoff) + 1e-30);
 }
 /// Limits of row_norm, so that no component of a moved direction is lost.
 inline constexpr double least_row_norm = 1e-9, most_row_norm = 1e9;
 
 namespace instanced_detail {
 
-/// The query ray in the frame of a mesh, relative to the centre of its box, with the same parameter.
-TANDEM_HD_INLINE NodeRay move_to_object(const MeshInstance& instance, const QueryRay& query) {
-    const Vec3f from_centre = query.origin - instance.centre;
+/// The query ray without its rounding: a point at query parameter s is origin + s * direction, within 2^-49 of the
+/// distances.
+struct ExactQuery {
+    Vec3d origin, direction;
+};
+
+template <class Real>
+TANDEM_HD_INLINE ExactQuery exact_query(const Ray<Real>& ray, const Proposal<Real>& proposal) {
+    Vec3d direction = widen(ray.direction);
+    const Vec3d origin = widen(ray.origin) + direction * proposal.t_offset;
+    if constexpr (std::is_same_v<Real, double>) {  // whose squares may be subnormal
+        const double largest = greater(greater(absolute(direction.x), absolute(direction.y)), absolute(direction.z));
+        direction = {direction.x / largest, direction.y / largest, direction.z / largest};
+    }
+    return {origin, normalize(direction)};
+}
+
+/// A ray in the frame of a mesh, relative to the centre of its box. Its parameter is that of the query ray less `from`.
+struct MovedRay {
+    Vec3f origin, direction;
+    float from;
+};
+
+/// Starts where the ray enters the sphere around the instance, so that float is as accurate as the mesh is small.
+TANDEM_HD_INLINE MovedRay move_to_object(const EntryInstance& entry, const QueryRay& query, const ExactQuery& exact) {
+    const float nearest = loose_dot(entry.centre - query.origin, query.direction);
+    const float from = rough_greater(nearest - entry.radius, 0.0F);
+    const Vec3f start = narrow((exact.origin + exact.direction * widen(from)) - widen(entry.centre));
     const auto move = [&](const Vec3f& v) {
-        return Vec3f{loose_dot(instance.object_from_render[0], v), loose_dot(instance.object_from_render[1], v),
-                     loose_dot(instance.object_from_render[2], v)};
+        return Vec3f{loose_dot(entry.object_from_render[0], v), loose_dot(entry.object_from_render[1], v),
+                     loose_dot(entry.object_from_render[2], v)};
     };
-    return make_node_ray(move(from_centre), move(query.direction));
+    return {move(start), move(query.direction), from};
+}
+
+TANDEM_HD_INLINE EntryInstance load_entry_instance(const InstancedBvhView& bvh, std::uint32_t i) {
+    using bvh_detail::Load16, bvh_detail::load_16;
+    const auto* address = reinterpret_cast<const char*>(bvh.entry_instances + i);
+    const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32), s = load_16(address + 48);
+    return {{{float_of(p.a), float_of(p.b), float_of(p.c)},
+             {float_of(p.d), float_of(q.a), float_of(q.b)},
+             {float_of(q.c), float_of(q.d), float_of(r.a)}},
+            {float_of(r.b), float_of(r.c), float_of(r.d)},
+            float_of(s.a),
+            static_cast<std::int32_t>(s.b),
+            s.c};
+}
+
+TANDEM_HD_INLINE EntryFace load_entry_face(const InstancedBvhView& bvh, std::uint32_t i) {
+    using bvh_detail::Load16, bvh_detail::load_16;
+    const auto* address = reinterpret_cast<const char*>(bvh.entry_faces + i);
+    const Load16 p = load_16(address), q = load_16(address + 16), r = load_16(address + 32);
+    return {{float_of(p.a), float_of(p.b), float_of(p.c)},
+            {float_of(p.d), float_of(q.a), float_of(q.b)},
+            {float_of(q.c), float_of(q.d), float_of(r.a)},
+            r.b,
+            static_cast<FaceSides>(r.c)};
 }
 
 /// On a stack: the place where a ray leaves an instance.
 inline constexpr std::int32_t leave = no_child - 1;
+/// An instance that is none.
+inline constexpr std::uint32_t outside = 0xFFFFFFFFU;
 
 /// The stack of a walk through both levels, in local memory.
 struct Stack {
@@ -58,36 +126,68 @@ struct Stack {
     [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
 };
 
-/// Calls leaf(instance, face) for the faces that the ray may hit in [start, limit], until one returns true. `leaf` may
-/// lower `limit`. Returns whether one did.
-template <bool starts_late, class Leaf>
-TANDEM_HD_INLINE bool walk(const InstancedBvhView& bvh, const MeshInstance* instances, const QueryRay& query,
-                           const float& limit, const Leaf& leaf) {
-    BvhView nodes{};
-    nodes.nodes = bvh.nodes;
-    nodes.bits_of_256 = bvh.bits_of_256;
-    Stack stack;
-    bvh_detail::Walk at = bvh_detail::Walk::from_root(stack);
-    const MeshInstance* instance = nullptr;
-    NodeRay ray = make_node_ray(query.origin, query.direction);
-    while (!at.is_done()) {
-        if (!at.is_at_entry() && at.at != leave) at.descend<starts_late>(stack, nodes, ray, query.start, limit);
-        if (at.at == leave) {
-            ray = make_node_ray(query.origin, query.direction);
-            at.pop(stack);
-        } else if (at.is_at_entry() && at.entry() < bvh.instance_entries) {
-            instance = instances + bvh.entry_instances[at.entry()];
-            ray = move_to_object(*instance, query);
-            stack.set(at.depth++, at.top);
-            at.top = leave;
-            at.at = instance->root;
-        } else if (at.is_at_entry()) {
-            if (leaf(*instance, bvh.entry_faces[at.entry() - bvh.instance_entries])) return true;
-            at.pop(stack);
+/// A walk through both levels that can be interrupted.
+struct Walk {
+    bvh_detail::Walk place;
+    std::uint32_t instance = outside;  ///< whose mesh it is in
+
+    TANDEM_HD_INLINE explicit Walk(Stack& stack) : place(bvh_detail::Walk::from_root(stack)) {}
+    [[nodiscard]] TANDEM_HD_INLINE bool is_done() const { return place.is_done(); }
+
+    /// Calls leaf(instance, face) for the faces that the ray may hit in [start, limit] until one returns true, or the
+    /// walk is done. `leaf` may lower `limit`.
+    template <bool starts_late, class Leaf>
+    TANDEM_HD_INLINE void go_on(Stack& stack, const InstancedBvhView& bvh, const MeshInstance* instances,
+                                const Parked<QueryRay>& query, const Parked<ExactQuery>& exact, const float& limit,
+                                const Leaf& leaf) {
+        BvhView nodes{};
+        nodes.nodes = bvh.nodes;
+        nodes.bits_of_256 = bvh.bits_of_256;
+        const float start = starts_late ? query.get().start : 0.0F;
+        NodeRay ray{};
+        float from = 0;  // the query parameter where `ray` starts
+        std::uint32_t number = 0;
+        // that of the level where the walk is; the root of the hierarchy there
+        const auto take_ray = [&] {
+            const QueryRay same_query = query.get();
+            if (instance == outside) {
+                ray = make_node_ray(same_query.origin, same_query.direction);
+                from = 0;
+                return std::int32_t{0};
+            }
+            const EntryInstance entry = load_entry_instance(bvh, instance);
+            const MovedRay moved = move_to_object(entry, same_query, exact.get());
+            ray = make_node_ray(moved.origin, moved.direction);
+            from = moved.from;
+            number = entry.number;
+            return entry.root;
+        };
+        (void)take_ray();
+        while (!place.is_done()) {
+            if (!place.is_at_entry() && place.at != leave) {
+                // from the query parameter to that of the moved ray, with what the subtraction rounds
+                const float last = loose_multiply_add(4.0F * float_roundoff, limit, limit - from);
+                const float first =
+                    starts_late ? loose_multiply_add(-4.0F * float_roundoff, start, start - from) : 0.0F;
+                place.descend<starts_late>(stack, nodes, ray, first, last);
+            }
+            if (place.at == leave) {
+                instance = outside;
+                (void)take_ray();
+                place.pop(stack);
+            } else if (place.is_at_entry() && place.entry() < bvh.instance_entries) {
+                instance = place.entry();
+                stack.set(place.depth++, place.top);
+                place.top = leave;
+                place.at = take_ray();
+            } else if (place.is_at_entry()) {
+                const bool stops = leaf(instances[number], load_entry_face(bvh, place.entry() - bvh.instance_entries));
+                place.pop(stack);
+                if (stops) return;
+            }
         }
     }
-    return false;
-}
+};
 
 }  // namespace instanced_detail
 
@@ -109,28 +209,37 @@ struct InstancedStructure {
         }
         const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
-        const QueryRay query = make_query_ray(proposal, bvh.frame, source);
+        const Parked<QueryRay> query(make_query_ray(proposal, bvh.frame, source));
+        const Parked<instanced_detail::ExactQuery> exact(instanced_detail::exact_query(ray, proposal));
+        const Parked<Ray<Real>> parked(ray);
         float limit = limit_of(proposal, best);
         const float enough = search == Search::any ? to_plain(proposal.start(t_max)) : 0.0F;
-        Candidates<most_candidates> candidates;
         constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
-        const bool blocked = instanced_detail::walk<may_start_late>(
-            bvh, scene.instances, query, limit, [&](const MeshInstance& instance, const EntryFace& face) {
+        instanced_detail::Stack stack;
+        instanced_detail::Walk walk(stack);
+        bool blocked = false;
+        // the few rays with as many candidates as are kept decide about those, and go on
+        do {
+            Candidates<most_candidates> candidates;
+            const auto keep = [&](const MeshInstance& instance, const EntryFace& face) {
                 const std::uint32_t id = instance.first_id + face.number;
-                const HitInterval interval = interval_at<Real>(instance, face, source, query);
+                const HitInterval interval = interval_at<Real>(instance, face, source, query.get());
                 if (!(interval.lo <= limit)) return false;
-                if (search == Search::any && interval.hi < enough) return true;
+                blocked = search == Search::any && interval.hi < enough;
                 if constexpr (search == Search::nearest) limit = rough_lesser(limit, interval.hi);
                 candidates.add(interval.lo, id, limit);
-                return false;
-            });
-        if (blocked) {
-            best = {0.0, some_primitive};
-        } else if (candidates.overflow != 0) [[unlikely]] {
-            best = decide_crowd<search>(*this, ray, source, best, limit);
-        } else {
-            candidates.for_each(limit, [&](std::uint32_t id) { decide(ray, source, id, best); });
-        }
+                return blocked || candidates.is_full(limit);
+            };
+            walk.go_on<may_start_late>(stack, bvh, scene.instances, query, exact, limit, keep);
+            if (blocked) {
+                best = {0.0, some_primitive};
+                return;
+            }
+            const Ray<Real> same_ray = parked.get();
+            candidates.for_each(limit, [&](std::uint32_t id) { decide(same_ray, source, id, best); });
+            if (search == Search::any && best.t < t_max) return;
+            if (!walk.is_done()) limit = rough_lesser(limit, limit_of(propose(same_ray), best));
+        } while (!walk.is_done());
     }
 
   private:
@@ -167,35 +276,6 @@ struct InstancedStructure {
                                  Closest<Real>& best) const {
         visit_primitive<PrimitiveKinds::instanced>(
             scene, id, [&](const auto& primitive) { test_primitive(primitive, id, ray, source, true, best); });
-    }
-
-    /// For the few rays with too many candidates, as BvhStructure::decide_crowd().
-    template <Search search, class Real, class From>
-    TANDEM_HD_CALL Closest<Real> decide_crowd(const InstancedStructure& self, Ray<Real> ray, From source,
-                                              Closest<Real> best, float limit) {
-        const Proposal<Real> proposal = self.propose(ray);
-        const QueryRay query = make_query_ray(proposal, self.bvh.frame, source);
-        const Double<Real> t_max = best.t;
-        Candidates<2> certain;
-        constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
-        const auto keep_or_decide = [&](const MeshInstance& instance, const EntryFace& face) {
-            const std::uint32_t id = instance.first_id + face.number;
-            const HitInterval interval = interval_at<Real>(instance, face, source, query);
-            if (!(interval.lo <= limit)) return false;
-            if (search == Search::nearest && interval.hi < interval_detail::infinity) {
-                limit = lesser(limit, interval.hi);
-                certain.add(interval.lo, id, limit);
-                if (certain.overflow == 0) return false;
-                certain.overflow = 0;
-            }
-            const Double<Real> t_before = best.t;
-            self.decide(ray, source, id, best);
-            if (best.t < t_before) limit = lesser(limit, limit_of(proposal, best));
-            return search == Search::any && best.t < t_max;
-        };
-        (void)instanced_detail::walk<may_start_late>(self.bvh, self.scene.instances, query, limit, keep_or_decide);
-        certain.for_each(limit, [&](std::uint32_t id) { self.decide(ray, source, id, best); });
-        return best;
     }
 };
 

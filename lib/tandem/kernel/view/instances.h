@@ -22,13 +22,10 @@ TANDEM_HD_INLINE Vec3f place_normal(const Matrix3& normals, const Vec3f& normal)
 struct alignas(16) MeshInstance {
     Transform render_from_object;
     Matrix3 normal_matrix;
-    // for the walk, with the bound in docs/instances.md
-    Vec3f object_from_render[3];  ///< rows, without the translation
-    Vec3f centre;                 ///< of the mesh's box, in render space
-    std::uint32_t first_id;       ///< the id of its first face
-    std::int32_t root;            ///< the node of the mesh's hierarchy (InstancedBvhView)
+    std::uint32_t first_id;  ///< the id of its first face
+    std::uint32_t unused[1];
 };
-static_assert(sizeof(MeshInstance) == 224, "no padding: scene_hash() reads all bytes");
+static_assert(sizeof(MeshInstance) == 176, "no padding: scene_hash() reads all bytes");
 
 /// A mesh with one material, and its instances, which are neighbours: so are their ids.
 struct InstancedMesh {
