@@ -15,7 +15,6 @@ inline constexpr KernelVariant variants[] = {
     {"plain", {}},
     {"full", all_effects},
 };
-inline constexpr std::size_t full_variant = std::size(variants) - 1;
 
 /// A plain struct of 32-bit integers.
 struct LinkedFacts {

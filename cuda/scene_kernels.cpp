@@ -32,9 +32,10 @@ namespace tandem::cuda {
 #undef TANDEM_TIER
 
 // Scenes of instances: the tier fast has the kernels of strict.
-#define TANDEM_INSTANCED_TIER(name)                             \
-    std::span<const std::byte> linked_short_instanced_##name(); \
-    std::span<const std::byte> linked_long_instanced_##name();  \
+#define TANDEM_INSTANCED_TIER(name)                               \
+    std::span<const std::byte> linked_short_instanced_##name();   \
+    std::span<const std::byte> linked_long_instanced_##name();    \
+    std::span<const std::byte> compiled_plain_instanced_##name(); \
     std::span<const std::byte> compiled_full_instanced_##name();
 TANDEM_INSTANCED_TIER(strict)
 TANDEM_INSTANCED_TIER(precise)
@@ -131,8 +132,10 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
 
 std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant) {
     if (structure == Structure::instanced) {
-        if (variant != full_variant) return {};
-        return tier == Tier::precise ? compiled_full_instanced_precise() : compiled_full_instanced_strict();
+        if (tier == Tier::precise) {
+            return variant == 0 ? compiled_plain_instanced_precise() : compiled_full_instanced_precise();
+        }
+        return variant == 0 ? compiled_plain_instanced_strict() : compiled_full_instanced_strict();
     }
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
@@ -181,7 +184,6 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
 const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scene, std::size_t variant) {
     const Structure structure = structure_of(scene);
     const bool faces = has_faces(scene.scene);
-    if (structure == Structure::instanced) variant = full_variant;
     auto& kernel = compiled_[{tier, structure, faces, variant}];
     if (kernel == nullptr) {
         kernel.reset(new SceneKernel{LoadedCode(compiled_code(tier, structure, faces, variant), kernel_name),

@@ -25,8 +25,7 @@ namespace tandem::cuda {
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
 /// The kernel that was linked when Tandem was built, with the effects of `variants[variant]`, for scenes with faces
-/// (has_faces()) or without: a fat binary for CMAKE_CUDA_ARCHITECTURES. For Structure::instanced: `variant` is
-/// full_variant.
+/// (has_faces()) or without: a fat binary for CMAKE_CUDA_ARCHITECTURES.
 [[nodiscard]] std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant);
 
 /// A render kernel on the GPU.
