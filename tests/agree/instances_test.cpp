@@ -354,6 +354,7 @@ TEST_P(InstancedPictures, AreThoseOfTheSceneWrittenOut) {
             PrepareOptions options;
             options.instanced_from = 1;
             const PreparedScene kept = prepare(scene, options);
+            EXPECT_EQ(kept.effects, prepare(scene).effects) << crowd.name;
             RenderJob job;
             job.width = 64;
             job.height = 48;

@@ -48,6 +48,7 @@ std::vector<bool> used_materials(const Scene& scene, const PreparedScene& prepar
     for (std::size_t i = 0; i < material_of.size(); ++i) {
         if (i == 0 || material_of[i] != material_of[i - 1]) used[material_of[i]] = true;
     }
+    for (const auto& mesh : prepared.instances.meshes) used[mesh.material] = true;
     return used;
 }
 
@@ -158,7 +159,7 @@ std::vector<EffectNeed> derive_effects(const Scene& scene, const PreparedScene& 
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, effect, is) \
     if (scene.authored) needs.add(effect, "the environment is " + in_words(*scene.authored));
 #include "tandem/kernel/lights/lights.def"
-    if (prepared.material_of.empty()) return needs.take();  // nothing receives light
+    if (prepared.material_of.empty() && prepared.instances.empty()) return needs.take();  // nothing receives light
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
         if (node.light && is_lit(*node.light)) add_light(*node.light, label("light", node.name, i), needs);
