@@ -76,7 +76,7 @@ inline constexpr std::size_t variant_count = std::size(variants);
     throw "no variant has this name";
 }
 
-/// Of a job without options.
+/// The defaults of a RenderJob.
 inline constexpr Sampler usual_sampler = Sampler::random;
 inline constexpr PixelFilter usual_filter = PixelFilter::box;
 

@@ -11,7 +11,7 @@ namespace tandem::cuda {
 using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                             const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream);
 
-// Defined by first_hits.cu and first_hits_instanced.cu, where the tier fast has the kernel of strict.
+// Defined by first_hits.cu. In scenes of instances the tier fast has the kernel of strict.
 extern FirstHitLaunch launch_first_hits_instanced_strict, launch_first_hits_instanced_precise;
 #define TANDEM_TIER(name, promise) extern FirstHitLaunch launch_first_hits_##name;
 #include "tandem/render/tiers.def"

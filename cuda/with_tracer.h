@@ -23,6 +23,11 @@ inline InstancedTracer instanced_tracer(const DeviceSceneView& scene, DeviceCoun
     return {{scene.instanced, {{scene.scene, bvh}}, scene.instanced_bvh}};
 }
 
+template <class F>
+auto with_instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
+    return f(instanced_tracer(scene, counters));
+}
+
 /// Calls f with the tracer for a scene without instances, which counts into `counters`. `decisions`: where hierarchies
 /// decide.
 template <Decisions decisions = Decisions::in_leaves, class F>

@@ -33,9 +33,11 @@ def units_of(source):
                 for ask, tier in asked]
     if source.name == "trace_instanced.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_TIER={tier}"]) for tier in ("strict", "precise")]
-    if source.name.startswith("first_hits"):
-        tiers = ("strict", "precise") if "instanced" in source.name else ("strict", "precise", "fast")
-        return [(source, [f"-DTANDEM_FIRST_HITS_TIER={tier}"]) for tier in tiers]
+    if source.name == "first_hits.cu":
+        tracers = [("with_tracer", tier) for tier in ("strict", "precise", "fast")]
+        tracers += [("with_instanced_tracer", tier) for tier in ("strict", "precise")]
+        return [(source, [f"-DTANDEM_FIRST_HITS_TIER={tier}", "-DTANDEM_FIRST_HITS_NAME=first_hits_here",
+                          f"-DTANDEM_FIRST_HITS_TRACERS={with_tracers}"]) for with_tracers, tier in tracers]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
