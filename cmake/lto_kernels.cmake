@@ -119,49 +119,52 @@ function(tandem_add_lto_kernels target)
   tandem_embed_fatbin(${target} ${fatbin} "${arg_NAMESPACE}")
 endfunction()
 
-# tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FILE [NAMESPACE NAMESPACE]
-# [INCLUDES DIRS...] [DEFINES NAME=VALUE...]): links KERNEL from the LTO-IR of the function LINKS, which
-# tandem_add_lto_kernels() added in this folder, and from FACTS, which defines its facts. For each of
+# tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FACTS [NAMESPACE NAMESPACE]):
+# links KERNEL from the LTO-IR of the function LINKS, which tandem_add_lto_kernels() added in this folder, and from
+# FACTS.fatbin, which tandem_compile_to_lto() made in this folder and which defines the kernel's facts. For
 # CMAKE_CUDA_ARCHITECTURES: FUNCTION of TARGET gives a fat binary of machine code and PTX (tandem_embed_fatbin()).
 function(tandem_add_compiled_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;NAMESPACE" "INCLUDES;DEFINES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;NAMESPACE" "")
   set(name ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME})
   set(kernel ${CMAKE_CURRENT_BINARY_DIR}/${arg_LINKS}.fatbin)
-  set(facts ${name}_facts.fatbin)
-  tandem_compile_to_lto(
-    ${facts}
-    SOURCE ${arg_FACTS}
-    TIER ${arg_TIER}
-    INCLUDES ${arg_INCLUDES}
-    DEFINES ${arg_DEFINES}
-  )
+  set(facts ${CMAKE_CURRENT_BINARY_DIR}/${arg_FACTS}.fatbin)
   # The link decides about contraction and flushes: without an option for it, nvlink contracts, whatever nvcc's options
   # were. With one it passes on all of them, with nvcc's values for divisions and square roots.
   get_target_property(options tandem_cuda_${arg_TIER} TANDEM_LINK_OPTIONS)
   list(TRANSFORM options PREPEND -Xnvvm=)
-  set(files)
+  # One link for all GPUs, because the optimiser's output does not depend on the GPU: PTX of the lowest, which is assembled
+  # for each.
+  tandem_lowest_architecture(lowest)
+  set(ptx ${name}.ptx)
+  add_custom_command(
+    OUTPUT ${ptx}
+    COMMAND ${CMAKE_CUDA_DEVICE_LINKER} -dlto -arch=sm_${lowest} -emit-ptx -nvvmpath=${TANDEM_NVVM_DIR} ${options}
+            -kernels-used=${arg_KERNEL} ${kernel} ${facts} -o ${ptx}
+    DEPENDS ${kernel} ${facts}
+    COMMENT "Linking ${arg_NAME}.ptx"
+    COMMAND_EXPAND_LISTS VERBATIM
+  )
+  set(files ${ptx})
   set(images)
-  macro(image kind ending option)
-    set(file ${name}_${number}.${ending})
-    add_custom_command(
-      OUTPUT ${file}
-      COMMAND ${CMAKE_CUDA_DEVICE_LINKER} -dlto -arch=sm_${number} ${option} -nvvmpath=${TANDEM_NVVM_DIR} ${options}
-              -kernels-used=${arg_KERNEL} ${kernel} ${facts} -o ${file}
-      DEPENDS ${kernel} ${facts}
-      COMMENT "Linking ${arg_NAME}_${number}.${ending}"
-      COMMAND_EXPAND_LISTS VERBATIM
-    )
-    list(APPEND files ${file})
-    list(APPEND images --image3=kind=${kind},sm=${number},file=${file})
-  endmacro()
   tandem_cuda_architectures(architectures)
   foreach(architecture IN LISTS architectures)
-    string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
-    if(NOT architecture MATCHES "-virtual$")
-      image(elf cubin "")
-    endif()
     if(NOT architecture MATCHES "-real$")
-      image(ptx ptx -emit-ptx)
+      set(images --image3=kind=ptx,sm=${lowest},file=${ptx})
+    endif()
+  endforeach()
+  foreach(architecture IN LISTS architectures)
+    if(NOT architecture MATCHES "-virtual$")
+      string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
+      set(file ${name}_${number}.cubin)
+      add_custom_command(
+        OUTPUT ${file}
+        COMMAND ${CMAKE_CUDA_COMPILER} -arch=sm_${number} -cubin ${ptx} -o ${file}
+        DEPENDS ${ptx}
+        COMMENT "Assembling ${arg_NAME}_${number}.cubin"
+        VERBATIM
+      )
+      list(APPEND files ${file})
+      list(APPEND images --image3=kind=elf,sm=${number},file=${file})
     endif()
   endforeach()
   add_custom_command(
