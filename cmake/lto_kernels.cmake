@@ -25,6 +25,31 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
+# tandem_share_optimiser(TARGET): for kernels whose code does not ask for the GPU. For GPUs before 9.0 the optimiser runs
+# once, for the lowest of them, and machine code is assembled from its output; from 9.0 on, instructions differ that the
+# kernels use (docs/performance.md).
+function(tandem_share_optimiser target)
+  tandem_cuda_architectures(architectures)
+  tandem_lowest_architecture(lowest)
+  set(options)
+  foreach(architecture IN LISTS architectures)
+    string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
+    set(from ${number})
+    if(number LESS 90)
+      set(from ${lowest})
+    endif()
+    if(NOT architecture MATCHES "-virtual$")
+      list(APPEND options --generate-code=arch=compute_${from},code=sm_${number})
+    endif()
+    if(NOT architecture MATCHES "-real$")
+      list(APPEND options --generate-code=arch=compute_${from},code=compute_${from})
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES options)
+  set_target_properties(${target} PROPERTIES CUDA_ARCHITECTURES OFF)
+  target_compile_options(${target} PRIVATE ${options})
+endfunction()
+
 # Optimised as far as possible without the facts, so that a link starts from there (docs/performance.md). Not every
 # supported toolkit may have the option.
 execute_process(
@@ -65,12 +90,12 @@ function(tandem_compile_to_lto fatbin)
     list(APPEND flags -ccbin ${CMAKE_CUDA_HOST_COMPILER})
   endif()
   set(tier tandem_cuda_${arg_TIER})
-  set(includes ${arg_INCLUDES} $<TARGET_PROPERTY:${tier},INCLUDE_DIRECTORIES>)
+  set(includes ${arg_INCLUDES} $<TARGET_PROPERTY:${tier},INTERFACE_INCLUDE_DIRECTORIES>)
   file(RELATIVE_PATH shown ${PROJECT_SOURCE_DIR} ${source})
   add_custom_command(
     OUTPUT ${fatbin}
     COMMAND
-      ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" ${arg_DEFINES} -rdc=true
+      ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},INTERFACE_COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" ${arg_DEFINES} -rdc=true
       ${tandem_optimised_lto}
       -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin ${source} -o ${fatbin}
       -MD -MF ${fatbin}.d -MT ${fatbin}

@@ -34,9 +34,9 @@ if(NOT DEFINED TANDEM_CUDA)
                    "without the CUDA backend (put one on PATH, or run scripts/setup --with-cuda)")
   endif()
 endif()
-# Machine code for compute capability 7.5 to 9.0, and PTX that a driver compiles for later ones. 8.6 and 8.9 run the code of
-# 8.0: kernels that are linked for a scene are for the GPU itself in any case.
-set(CMAKE_CUDA_ARCHITECTURES 75-real 80-real 90-real 90-virtual CACHE STRING "GPUs to compile for")
+# Machine code for compute capability 8.0, which 8.6 and 8.9 run too, and 9.0. For 7.5 and for later GPUs PTX, which the
+# driver assembles when a kernel is first used, and keeps. Kernels that are linked for a scene are for the GPU itself.
+set(CMAKE_CUDA_ARCHITECTURES 75-virtual 80-real 90-real 90-virtual CACHE STRING "GPUs to compile for")
 
 if(PROJECT_IS_TOP_LEVEL)
   if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
