@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "cpu/embree_handles.h"
 #include "cpu/group_hierarchy.h"
 #include "cpu/instruction_sets.h"
 #include "tandem/base/error.h"
@@ -94,15 +95,14 @@ class CpuScene final : public ResidentScene {
     /// The scene for rays that are not coherent, which kernels trace one by one. The first call makes the groups, in
     /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
     /// called in a TBB task.
-    [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, const TierKernels& kernels,
-                                                           tbb::task_arena& arena) {
+    [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
         if (!groups_pay(*scene_, tier())) return view_;
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
             const std::size_t count = primitive_count(*scene_);
             try {
                 require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
-                arena.execute([&] { groups_.emplace(device, kernels, view_); });
+                arena.execute([&] { groups_.emplace(device, view_); });
             } catch (const EnvironmentError&) {  // the scene has another hierarchy
             }
             group_seconds_ = watch.seconds();
@@ -257,7 +257,7 @@ class CpuBackend final : public Backend {
         auto& resident = dynamic_cast<CpuScene&>(scene);
         const TierKernels& kernels = set_.kernels(scene.tier());
         const CpuSceneView& view = are_scattered(job, resident.view())
-                                       ? resident.view_for_single_rays(device_.get(), kernels, arena_)
+                                       ? resident.view_for_single_rays(device_.get(), arena_)
                                        : resident.view();
         return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {
             std::atomic<std::uint64_t> rejected = 0;

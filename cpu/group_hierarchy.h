@@ -1,18 +1,20 @@
 /// The hierarchy of groups of a scene.
 #pragma once
 
-#include "cpu/embree_handles.h"
 #include "cpu/kernels.h"
 #include "cpu/make_groups.h"
 
 namespace tandem {
 
-/// Neither copied nor moved, because Embree and kernels keep its address.
+/// Neither copied nor moved, because its view has its address.
 class GroupHierarchy {
   public:
     /// `scene`: its arrays outlive the hierarchy. To be called in a TBB arena. Throws EnvironmentError if there
     /// is not enough memory.
-    GroupHierarchy(RTCDevice device, const TierKernels& kernels, const CpuSceneView& scene);
+    GroupHierarchy(RTCDevice device, const CpuSceneView& scene)
+        : groups_(make_groups(device, scene.scene, scene.frame.margin)), group_view_(groups_.view()), view_(scene) {
+        view_.groups = &group_view_;
+    }
     GroupHierarchy(const GroupHierarchy&) = delete;
     GroupHierarchy& operator=(const GroupHierarchy&) = delete;
     ~GroupHierarchy() = default;
@@ -22,7 +24,6 @@ class GroupHierarchy {
 
   private:
     PrimitiveGroups groups_;
-    EmbreeScene embree_;
     GroupView group_view_;
     CpuSceneView view_;
 };

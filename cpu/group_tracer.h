@@ -1,89 +1,123 @@
-/// Traces single rays through the hierarchy of groups.
+/// Traces rays one by one through the hierarchy of groups, several at a time.
 #pragma once
 
-#include "cpu/embree_tracer.h"
 #include "cpu/group_query.h"
+#include "cpu/group_walk.h"
+#include "cpu/kernels/called_tracer.h"
 #include "tandem/kernel/traversal/quick_proposal.h"
 
 namespace tandem {
 
-template <class Real, class Isa>
-void intersect_group_callback(const RTCIntersectFunctionNArguments* args) {
-    if (args->valid[0] == 0) return;
-    const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-    auto& query = *reinterpret_cast<GroupQuery<Real, Isa>*>(args->context);
-    (void)query.template test<Search::nearest>(view, args->primID);
-    reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = query.limit;
-}
-
-template <class Real, class Isa>
-void occluded_group_callback(const RTCOccludedFunctionNArguments* args) {
-    if (args->valid[0] == 0) return;
-    const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-    auto& query = *reinterpret_cast<GroupQuery<Real, Isa>*>(args->context);
-    if (query.template test<Search::any>(view, args->primID)) {
-        reinterpret_cast<RTCRay*>(args->ray)->tfar = -__builtin_huge_valf();  // "occluded"
+/// One ray on its way. `Isa`: the instruction set, which Real does not tell.
+template <Search search, class Real, class Isa>
+class GroupRay {
+  public:
+    /// Ray i of a batch. False if it cannot hit anything.
+    TANDEM_HD_INLINE bool start(const CpuSceneView& view, const RayBatch<Real>& batch, int i) {
+        const Ray<Real>& ray = batch.ray[i];
+        const Double<Real>& t_max = batch.t_max[i];
+        const QuerySource<Real>& source = batch.source[i];
+        query_.best = search == Search::any ? closest_starting_at<Real>(t_max) : no_hit<Real>();
+        query_.limit = 3e38F;
+        if (!batch.active[i]) return false;
+        if constexpr (std::is_same_v<Real, float>) {
+            query_.proposal = propose_quickly(ray, view.frame);
+        } else {
+            query_.proposal = propose(ray, view.frame, true);
+        }
+        if (!query_.proposal.active) return false;
+        float from = 0.0F;
+        if constexpr (search == Search::any) {
+            query_.limit = to_plain(query_.proposal.limit(t_max));
+            if (!(query_.limit >= 0)) return false;
+            query_.enough = to_plain(query_.proposal.start(t_max));
+        } else {
+            from = to_plain(query_.proposal.start_for(source));
+        }
+        if constexpr (!is_fast<Real>) {
+            const PathSource<Real>& path = source;
+            query_.interval_ray = make_query_ray(query_.proposal, view.frame, path);
+        }
+        query_.ray = &ray;
+        query_.source = &source;
+        query_.filter = in_all_lanes<typename GroupQuery<Real, Isa>::Lane>(make_filter_ray(ray));
+        const auto& ray_to = query_.proposal.ray;
+        walk_.start({to_plain(ray_to.origin), to_plain(ray_to.direction)}, from, view.groups->root);
+        return true;
     }
-}
 
-/// As EmbreeTracer, for one ray. `Isa`: the instruction set, which Real does not tell.
-template <class Isa>
-struct GroupTracer {
-    const CpuSceneView& view;
-
-    template <class Real>
-    [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
-                                                         bool active) const {
-        GroupQuery<Real, Isa> query;
-        query.best = no_hit<Real>();
-        if (!start(query, ray, source, active)) return query.best;
-        query.limit = 3e38F;
-        RTCRayHit rayhit;
-        rayhit.ray = embree_detail::single_ray(query.proposal, to_plain(query.proposal.start_for(source)), query.limit);
-        rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        embree::intersect1(view.groups->embree, query.head, rayhit);
-        query.decide_candidates(view.scene);
-        return query.best;
+    /// Visits one node or group. False at the end of the way.
+    TANDEM_HD_INLINE bool advance(const CpuSceneView& view) {
+        const std::uint32_t child = walk_.at();
+        if ((child & is_group) == 0) {
+            return walk_.enter(view.groups->nodes[child], query_.limit);
+        }
+        if (query_.template test<search>(view, child & ~is_group)) {
+            is_occluded_ = true;
+            return false;
+        }
+        return walk_.next(query_.limit);
     }
 
-    template <class Real>
-    [[nodiscard]] TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                 const QuerySource<Real>& source, bool active) const {
-        GroupQuery<Real, Isa> query;
-        query.best = closest_starting_at<Real>(t_max);
-        if (!start(query, ray, source, active)) return false;
-        query.limit = to_plain(query.proposal.limit(t_max));
-        if (!(query.limit >= 0)) return false;
-        query.enough = to_plain(query.proposal.start(t_max));
-        RTCRay embree_ray = embree_detail::single_ray(query.proposal, 0.0F, query.limit);
-        embree::occluded1(view.groups->embree, query.head, embree_ray);
-        if (embree_ray.tfar < 0) return true;
-        query.decide_candidates(view.scene);
-        return query.best.t < t_max;
+    /// Loads what advance() visits next.
+    TANDEM_HD_INLINE void prefetch(const GroupView& groups) const {
+        const std::uint32_t child = walk_.at();
+        if ((child & is_group) == 0) {
+            prefetch_lines(groups.nodes[child]);
+        } else {
+            visit_group(groups, child & ~is_group, [](const auto& group) { prefetch_lines(group); });
+        }
+    }
+
+    /// After the last advance().
+    TANDEM_HD_INLINE const Closest<Real>& closest(const CpuSceneView& view) {
+        query_.decide_candidates(view);
+        return query_.best;
+    }
+    TANDEM_HD_INLINE bool occluded(const CpuSceneView& view, const Double<Real>& t_max) {
+        return is_occluded_ || closest(view).t < t_max;
     }
 
   private:
-    /// Fills what all queries need; false if the ray cannot hit anything.
-    template <class Real>
-    TANDEM_HD_INLINE bool start(GroupQuery<Real, Isa>& query, const Ray<Real>& ray, const QuerySource<Real>& source,
-                                bool active) const {
-        if (!active) return false;
-        if constexpr (std::is_same_v<Real, float>) {
-            query.proposal = propose_quickly(ray, view.frame);
-        } else {
-            query.proposal = propose(ray, view.frame, true);
+    template <class T>
+    TANDEM_HD_INLINE static void prefetch_lines(const T& item) {
+        constexpr std::size_t line = 64;
+        for (std::size_t at = 0; at < sizeof(T); at += line) {
+            __builtin_prefetch(reinterpret_cast<const char*>(&item) + at);
         }
-        if (!query.proposal.active) return false;
-        if constexpr (!is_fast<Real>) {
-            const PathSource<Real>& path = source;
-            query.interval_ray = make_query_ray(query.proposal, view.frame, path);
-        }
-        query.ray = &ray;
-        query.source = &source;
-        query.filter = in_all_lanes<typename GroupQuery<Real, Isa>::Lane>(make_filter_ray(ray));
-        embree::init_context(query.head, false);
-        return true;
     }
+
+    GroupQuery<Real, Isa> query_;
+    GroupWalk<Isa> walk_;
+    bool is_occluded_ = false;
 };
+
+/// Nearest hits, or whether shadow rays are blocked, for all rays of a batch. Memory is loaded for one ray while others
+/// are on their way: each visit of a node or group asks for the next one of its ray, and goes on with another ray.
+template <Search search, class Isa, class Real, class Finish>
+TANDEM_HD_INLINE void trace_groups(const CpuSceneView& view, const RayBatch<Real>& batch, const Finish& finish) {
+    GroupRay<search, Real, Isa> rays[RayBatch<Real>::most];
+    std::uint8_t on_the_way[RayBatch<Real>::most];
+    int count = 0;
+    for (int i = 0; i < batch.count; ++i) {
+        if (rays[i].start(view, batch, i)) {
+            on_the_way[count++] = static_cast<std::uint8_t>(i);
+        } else {
+            finish(i, rays[i]);
+        }
+    }
+    while (count > 0) {
+        for (int k = 0; k < count;) {
+            const int i = on_the_way[k];
+            if (rays[i].advance(view)) {
+                rays[i].prefetch(*view.groups);
+                ++k;
+            } else {
+                finish(i, rays[i]);
+                on_the_way[k] = on_the_way[--count];
+            }
+        }
+    }
+}
 
 }  // namespace tandem

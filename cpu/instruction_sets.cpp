@@ -19,14 +19,7 @@ namespace {
 template <class Isa, Tier tier>
 constexpr TierKernels tier_kernels() {
     using Kernels = CpuKernels<Isa, tier>;
-    TierKernels kernels = {{},
-                           Kernels::trace,
-                           Kernels::intersect,
-                           Kernels::occluded,
-                           Kernels::intersect_group,
-                           Kernels::occluded_group,
-                           nullptr,
-                           nullptr};
+    TierKernels kernels = {{}, Kernels::trace, Kernels::intersect, Kernels::occluded, nullptr, nullptr};
     [&]<std::size_t... variant>(std::index_sequence<variant...>) {
         ((kernels.render_tile[variant] = Kernels::template render_tile<variant>), ...);
     }

@@ -100,9 +100,6 @@ struct CpuKernels {
     // Embree's callbacks for user geometry, whose user pointer is a CpuSceneView.
     static void intersect(const RTCIntersectFunctionNArguments* args);
     static void occluded(const RTCOccludedFunctionNArguments* args);
-    // The same for groups of primitives, for single rays.
-    static void intersect_group(const RTCIntersectFunctionNArguments* args);
-    static void occluded_group(const RTCOccludedFunctionNArguments* args);
     // Embree's filters for hits on its own faces, in the tier fast.
     static void filter_nearest(const RTCFilterFunctionNArguments* args);
     static void filter_any(const RTCFilterFunctionNArguments* args);
@@ -115,8 +112,6 @@ struct TierKernels {
     std::uint64_t (*trace)(const CpuSceneView& scene, const TraceJob& job);
     RTCIntersectFunctionN intersect;
     RTCOccludedFunctionN occluded;
-    RTCIntersectFunctionN intersect_group;
-    RTCOccludedFunctionN occluded_group;
     RTCFilterFunctionN filter_nearest;  ///< null except in the tier fast
     RTCFilterFunctionN filter_any;      ///< the same
 };

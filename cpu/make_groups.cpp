@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cpu/embree_handles.h"
+#include "cpu/group_walk.h"
 #include "tandem/kernel/traversal/make_node.h"
 #include "tandem/math/fp_environment.h"
 
@@ -18,8 +19,8 @@ struct TreeNode {
     std::uint32_t children;  ///< 0 for a leaf
 };
 struct InnerNode : TreeNode {
-    static constexpr unsigned most = 8;
-    const TreeNode* child[most];
+    const TreeNode* child[group_node_width];
+    RTCBounds bounds[group_node_width];
 };
 struct Leaf : TreeNode {
     std::uint32_t count;
@@ -35,7 +36,10 @@ void set_children(void* node, void** children, unsigned int count, void*) {
     auto* inner = static_cast<InnerNode*>(static_cast<TreeNode*>(node));
     for (unsigned int i = 0; i < count; ++i) inner->child[i] = static_cast<const TreeNode*>(children[i]);
 }
-void ignore_bounds(void*, const RTCBounds**, unsigned int, void*) {}
+void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*) {
+    auto* inner = static_cast<InnerNode*>(static_cast<TreeNode*>(node));
+    for (unsigned int i = 0; i < count; ++i) inner->bounds[i] = *bounds[i];
+}
 void* make_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
     auto* leaf = static_cast<Leaf*>(rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf)));
     leaf->children = 0;
@@ -46,22 +50,39 @@ void* make_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* prim
     return static_cast<TreeNode*>(leaf);
 }
 
-std::vector<const Leaf*> leaves_in_order(const TreeNode* root, std::size_t primitives) {
-    std::vector<const Leaf*> leaves;
-    leaves.reserve(primitives / (group_size / 2));
-    std::vector<const TreeNode*> rest = {root};
-    while (!rest.empty()) {
-        const TreeNode* node = rest.back();
-        rest.pop_back();
-        if (node->children == 0) {
-            leaves.push_back(static_cast<const Leaf*>(node));
-        } else {
-            const auto& child = static_cast<const InnerNode*>(node)->child;
-            for (std::uint32_t i = node->children; i-- > 0;) rest.push_back(child[i]);
+Aabb box_of(const RTCBounds& b) { return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}}; }
+
+/// Copies a tree in depth-first order.
+class TreeCopy {
+  public:
+    /// `first_group`: the number of the first leaf's group. Boxes are padded by `margin`.
+    TreeCopy(HugePageVector<GroupNode>& nodes, std::uint32_t first_group, float margin)
+        : nodes_(nodes), first_group_(first_group), margin_(margin) {}
+
+    /// Returns the number of the copy, as GroupNode::child.
+    std::uint32_t add(const TreeNode& tree) {
+        if (tree.children == 0) {
+            leaves_.push_back(&static_cast<const Leaf&>(tree));
+            return is_group | (first_group_ + static_cast<std::uint32_t>(leaves_.size() - 1));
         }
+        const auto& inner = static_cast<const InnerNode&>(tree);
+        const std::size_t number = nodes_.size();
+        nodes_.emplace_back();
+        GroupChild children[group_node_width];
+        for (std::uint32_t i = 0; i < inner.children; ++i) {
+            children[i] = {box_of(inner.bounds[i]), add(*inner.child[i])};
+        }
+        nodes_[number] = make_group_node(children, inner.children, margin_);
+        return static_cast<std::uint32_t>(number);
     }
-    return leaves;
-}
+    [[nodiscard]] const std::vector<const Leaf*>& leaves() const { return leaves_; }
+
+  private:
+    HugePageVector<GroupNode>& nodes_;
+    std::vector<const Leaf*> leaves_;
+    std::uint32_t first_group_;
+    float margin_;
+};
 
 template <class Body>
 void for_all(std::size_t count, const Body& body) {
@@ -92,61 +113,92 @@ void set_primitive(FaceGroup<corners>& group, int place, const SceneView& scene,
     });
 }
 
-/// Groups of primitives [first, first + count).
-template <class Group>
-std::vector<Group> group(RTCDevice device, const SceneView& scene, std::uint32_t first, std::uint32_t count) {
-    if (count == 0) return {};
-    std::vector<RTCBuildPrimitive> boxes(count);
-    for_all(count, [&](std::size_t i) {
-        const std::uint32_t id = first + static_cast<std::uint32_t>(i);
-        const Aabb box = primitive_bounds(scene, id);
-        boxes[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, id};
-    });
-    const EmbreeTree tree(rtcNewBVH(device));
-    RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.bvh = tree.get();
-    arguments.primitives = boxes.data();
-    arguments.primitiveCount = arguments.primitiveArrayCapacity = count;
-    arguments.maxBranchingFactor = InnerNode::most;
-    arguments.maxDepth = 64;
-    arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = group_size;
-    arguments.createNode = make_inner_node;
-    arguments.setNodeChildren = set_children;
-    arguments.setNodeBounds = ignore_bounds;
-    arguments.createLeaf = make_leaf;
-    const auto* root = static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
-    check_embree(device, "grouping primitives");
-    const std::vector<const Leaf*> leaves = leaves_in_order(root, count);
-    std::vector<Group> groups(leaves.size());
-    for_all(leaves.size(), [&](std::size_t i) {
-        const Leaf& leaf = *leaves[i];
-        for (int place = 0; place < group_size; ++place) {
-            const bool is_there = static_cast<std::uint32_t>(place) < leaf.count;
-            groups[i].id[place] = is_there ? leaf.id[place] : no_primitive;
-            set_primitive(groups[i], place, scene, leaf.id[is_there ? place : 0]);
+/// Groups of primitives [first, first + count), and the trees of all groups, with padded boxes.
+class GroupMaker {
+  public:
+    GroupMaker(RTCDevice device, const SceneView& scene, float margin)
+        : device_(device), scene_(scene), margin_(margin) {}
+
+    template <class Group>
+    HugePageVector<Group> make(std::uint32_t first, std::uint32_t count) {
+        if (count == 0) return {};
+        std::vector<RTCBuildPrimitive> boxes(count);
+        Aabb all;
+        for_all(count, [&](std::size_t i) {
+            const std::uint32_t id = first + static_cast<std::uint32_t>(i);
+            const Aabb box = primitive_bounds(scene_, id);
+            boxes[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, id};
+        });
+        for (const RTCBuildPrimitive& b : boxes) {
+            all = merge(all, {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
         }
-    });
-    return groups;
-}
+        const EmbreeTree tree(rtcNewBVH(device_));
+        RTCBuildArguments arguments = rtcDefaultBuildArguments();
+        arguments.bvh = tree.get();
+        arguments.primitives = boxes.data();
+        arguments.primitiveCount = arguments.primitiveArrayCapacity = count;
+        arguments.maxBranchingFactor = group_node_width;
+        arguments.maxDepth = group_depth;
+        arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = group_size;
+        arguments.createNode = make_inner_node;
+        arguments.setNodeChildren = set_children;
+        arguments.setNodeBounds = set_bounds;
+        arguments.createLeaf = make_leaf;
+        const auto* root = static_cast<const TreeNode*>(rtcBuildBVH(&arguments));
+        check_embree(device_, "grouping primitives");
+        TreeCopy copy(nodes_, groups_, margin_);
+        roots_[root_count_++] = {all, copy.add(*root)};
+        const std::vector<const Leaf*>& leaves = copy.leaves();
+        groups_ += static_cast<std::uint32_t>(leaves.size());
+        HugePageVector<Group> groups(leaves.size());
+        for_all(leaves.size(), [&](std::size_t i) {
+            const Leaf& leaf = *leaves[i];
+            for (int place = 0; place < group_size; ++place) {
+                const bool is_there = static_cast<std::uint32_t>(place) < leaf.count;
+                groups[i].id[place] = is_there ? leaf.id[place] : no_primitive;
+                set_primitive(groups[i], place, scene_, leaf.id[is_there ? place : 0]);
+            }
+        });
+        return groups;
+    }
+
+    /// The trees as one. Returns its root.
+    std::uint32_t join() {
+        if (root_count_ == 1) return roots_[0].number;
+        nodes_.push_back(make_group_node(roots_, root_count_, margin_));
+        return static_cast<std::uint32_t>(nodes_.size() - 1);
+    }
+    HugePageVector<GroupNode> take_nodes() { return std::move(nodes_); }
+
+  private:
+    RTCDevice device_;
+    const SceneView& scene_;
+    float margin_;
+    HugePageVector<GroupNode> nodes_;
+    GroupChild roots_[3];
+    std::uint32_t root_count_ = 0;
+    std::uint32_t groups_ = 0;
+};
 
 }  // namespace
 
-GroupView PrimitiveGroups::view(RTCScene embree) const {
+GroupView PrimitiveGroups::view() const {
     const auto size = [](const auto& groups) { return static_cast<std::uint32_t>(groups.size()); };
-    return {embree, bodies.data(), triangles.data(), quads.data(), size(bodies), size(triangles), size(quads)};
+    return {nodes.data(), root,         bodies.data(),   triangles.data(),
+            quads.data(), size(bodies), size(triangles), size(quads)};
 }
 
-PrimitiveGroups make_groups(RTCDevice device, const SceneView& scene) {
+PrimitiveGroups make_groups(RTCDevice device, const SceneView& scene, float margin) {
     const std::uint32_t triangles = scene.triangle_count, quads = scene.quad_count;
     const std::uint32_t bodies = primitive_count(scene) - triangles - quads;
-    return {group<BodyGroup>(device, scene, 0, bodies), group<TriangleGroup>(device, scene, bodies, triangles),
-            group<QuadGroup>(device, scene, bodies + triangles, quads)};
-}
-
-const OfGroup<std::uint32_t>& ids_of_group(const GroupView& groups, std::uint32_t number) {
-    const OfGroup<std::uint32_t>* ids = nullptr;
-    visit_group(groups, number, [&](const auto& group) { ids = &group.id; });
-    return *ids;
+    GroupMaker maker(device, scene, margin);
+    PrimitiveGroups groups;
+    groups.bodies = maker.make<BodyGroup>(0, bodies);
+    groups.triangles = maker.make<TriangleGroup>(bodies, triangles);
+    groups.quads = maker.make<QuadGroup>(bodies + triangles, quads);
+    groups.root = maker.join();
+    groups.nodes = maker.take_nodes();
+    return groups;
 }
 
 }  // namespace tandem

@@ -2,7 +2,6 @@
 /// tested against several primitives at once (docs/performance.md, "CPU").
 #pragma once
 
-#include "cpu/embree_api.h"
 #include "tandem/kernel/shapes/hit.h"
 
 namespace tandem {
@@ -16,23 +15,26 @@ template <class T>
 using OfGroup = T[group_size];
 
 /// The spheres around primitives of any kind.
-struct alignas(32) BodyGroup {
+struct alignas(64) BodyGroup {
     OfGroup<float> x, y, z, radius;
     OfGroup<std::uint32_t> id;
 };
 
 /// The corners of triangles or quads.
 template <int corners>
-struct alignas(32) FaceGroup {
+struct alignas(64) FaceGroup {
     OfGroup<float> x[corners], y[corners], z[corners];
     OfGroup<std::uint32_t> id;
 };
 using TriangleGroup = FaceGroup<3>;
 using QuadGroup = FaceGroup<4>;
 
+struct GroupNode;  // group_nodes.h
+
 /// All groups of a scene, which are numbered in this order, and their hierarchy.
 struct GroupView {
-    RTCScene embree;
+    const GroupNode* nodes;
+    std::uint32_t root;  ///< as GroupNode::child
     const BodyGroup* bodies;
     const TriangleGroup* triangles;
     const QuadGroup* quads;

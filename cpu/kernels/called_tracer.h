@@ -14,6 +14,30 @@ template <class Isa, class Real>
 [[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                                  const QuerySource<Real>& source, const Mask<Real>& active);
 
+/// Rays that are traced one by one.
+template <class Real>
+struct RayBatch {
+    static constexpr int most = 16;
+    int count = 0;
+    Ray<Real> ray[most];
+    QuerySource<Real> source[most];
+    Double<Real> t_max[most];  ///< for any_hits()
+    bool active[most];
+
+    TANDEM_HD_INLINE void add(const Ray<Real>& one, const QuerySource<Real>& from, const Double<Real>& end,
+                              bool is_active) {
+        ray[count] = one;
+        source[count] = from;
+        t_max[count] = end;
+        active[count++] = is_active;
+    }
+};
+/// Writes the hit of ray i to hits[i], and whether it is blocked to occluded[i].
+template <class Isa, class Real>
+void closest_hits(const CpuSceneView& view, const RayBatch<Real>& batch, Closest<Real>* hits);
+template <class Isa, class Real>
+void any_hits(const CpuSceneView& view, const RayBatch<Real>& batch, bool* occluded);
+
 /// One copy of each function serves the whole path loop and trace(). The plain path loop has its own inline tracer.
 template <class Isa>
 struct CalledTracer {
@@ -31,6 +55,14 @@ struct CalledTracer {
                                                        const ShadowSource<Real>& source,
                                                        const Mask<Real>& active) const {
         return any_hit<Isa, Real>(view, ray, t_max, QuerySource<Real>(source), active);
+    }
+    template <class Real>
+    TANDEM_HD_INLINE void closest(const RayBatch<Real>& batch, Closest<Real>* hits) const {
+        closest_hits<Isa, Real>(view, batch, hits);
+    }
+    template <class Real>
+    TANDEM_HD_INLINE void occluded(const RayBatch<Real>& batch, bool* results) const {
+        any_hits<Isa, Real>(view, batch, results);
     }
 };
 

@@ -1,4 +1,5 @@
 // closest_hit(), any_hit() and Embree's callbacks of one tier for one instruction set.
+#include "cpu/embree_tracer.h"
 #include "cpu/group_tracer.h"
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
@@ -8,28 +9,44 @@ namespace tandem {
 template <class Isa, class Real>
 using IsaOf = std::conditional_t<is_fast<Real>, Fast<Isa>, Isa>;
 
-// Scenes of few primitives, which have no Embree scene, are only tested with packets (cpu/kernels/trace.cpp).
+// Packets go through Embree, or test all primitives of scenes of few.
 
 template <class Isa, class Real>
 Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
                           const Mask<Real>& active) {
-    if constexpr (RealTraits<Real>::lanes > 1) {
-        if (view.embree == nullptr) return LoopTracer{view.scene}.closest(ray, source, active);
-    } else if (view.groups != nullptr) {
-        return GroupTracer<IsaOf<Isa, Real>>{view}.closest(ray, source, active);
-    }
+    if (view.embree == nullptr) return LoopTracer{view.scene}.closest(ray, source, active);
     return EmbreeTracer{view}.closest(ray, source, active);
 }
 
 template <class Isa, class Real>
 Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                    const QuerySource<Real>& source, const Mask<Real>& active) {
-    if constexpr (RealTraits<Real>::lanes > 1) {
-        if (view.embree == nullptr) return LoopTracer{view.scene}.occluded(ray, t_max, source, active);
-    } else if (view.groups != nullptr) {
-        return GroupTracer<IsaOf<Isa, Real>>{view}.occluded(ray, t_max, source, active);
-    }
+    if (view.embree == nullptr) return LoopTracer{view.scene}.occluded(ray, t_max, source, active);
     return EmbreeTracer{view}.occluded(ray, t_max, source, active);
+}
+
+// Single rays go through groups, where there are any.
+
+template <class Isa, class Real>
+void closest_hits(const CpuSceneView& view, const RayBatch<Real>& batch, Closest<Real>* hits) {
+    if (view.groups != nullptr) {
+        const auto write = [&](int i, auto& ray) { hits[i] = ray.closest(view); };
+        return trace_groups<Search::nearest, IsaOf<Isa, Real>>(view, batch, write);
+    }
+    for (int i = 0; i < batch.count; ++i) {
+        hits[i] = EmbreeTracer{view}.closest(batch.ray[i], batch.source[i], batch.active[i]);
+    }
+}
+
+template <class Isa, class Real>
+void any_hits(const CpuSceneView& view, const RayBatch<Real>& batch, bool* occluded) {
+    if (view.groups != nullptr) {
+        const auto write = [&](int i, auto& ray) { occluded[i] = ray.occluded(view, batch.t_max[i]); };
+        return trace_groups<Search::any, IsaOf<Isa, Real>>(view, batch, write);
+    }
+    for (int i = 0; i < batch.count; ++i) {
+        occluded[i] = EmbreeTracer{view}.occluded(batch.ray[i], batch.t_max[i], batch.source[i], batch.active[i]);
+    }
 }
 
 template <class Isa, Tier tier>
@@ -41,16 +58,6 @@ template <class Isa, Tier tier>
 void CpuKernels<Isa, tier>::occluded(const RTCOccludedFunctionNArguments* args) {
     using Reals = TierReals<Isa, tier>;
     occluded_callback<typename Reals::One, typename Reals::Packet>(args);
-}
-template <class Isa, Tier tier>
-void CpuKernels<Isa, tier>::intersect_group(const RTCIntersectFunctionNArguments* args) {
-    using One = typename TierReals<Isa, tier>::One;
-    intersect_group_callback<One, IsaOf<Isa, One>>(args);
-}
-template <class Isa, Tier tier>
-void CpuKernels<Isa, tier>::occluded_group(const RTCOccludedFunctionNArguments* args) {
-    using One = typename TierReals<Isa, tier>::One;
-    occluded_group_callback<One, IsaOf<Isa, One>>(args);
 }
 template <class Isa, Tier tier>
 void CpuKernels<Isa, tier>::filter_nearest(const RTCFilterFunctionNArguments* args) {
@@ -68,18 +75,14 @@ using These = CpuKernels<ThisIsa, Tier::TANDEM_KERNEL_TIER>;
 using One = TierReals<ThisIsa, Tier::TANDEM_KERNEL_TIER>::One;
 using Packet = TierReals<ThisIsa, Tier::TANDEM_KERNEL_TIER>::Packet;
 
-template Closest<One> closest_hit<ThisIsa, One>(const CpuSceneView&, const Ray<One>&, const QuerySource<One>&,
-                                                const Mask<One>&);
 template Closest<Packet> closest_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Packet>&,
                                                       const QuerySource<Packet>&, const Mask<Packet>&);
-template Mask<One> any_hit<ThisIsa, One>(const CpuSceneView&, const Ray<One>&, const Double<One>&,
-                                         const QuerySource<One>&, const Mask<One>&);
 template Mask<Packet> any_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Packet>&, const Double<Packet>&,
                                                const QuerySource<Packet>&, const Mask<Packet>&);
+template void closest_hits<ThisIsa, One>(const CpuSceneView&, const RayBatch<One>&, Closest<One>*);
+template void any_hits<ThisIsa, One>(const CpuSceneView&, const RayBatch<One>&, bool*);
 template void These::intersect(const RTCIntersectFunctionNArguments*);
 template void These::occluded(const RTCOccludedFunctionNArguments*);
-template void These::intersect_group(const RTCIntersectFunctionNArguments*);
-template void These::occluded_group(const RTCOccludedFunctionNArguments*);
 #if TANDEM_KERNEL_FILTERS
 template void These::filter_nearest(const RTCFilterFunctionNArguments*);
 template void These::filter_any(const RTCFilterFunctionNArguments*);

@@ -54,9 +54,15 @@ template <class Reals>
 struct AskNearest {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
+    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
+        batch.add(to_real<One>(job.rays[i]), {}, {}, active);
+    }
     template <class Tracer>
-    TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
-        write(job, i, tracer.closest(to_real<One>(job.rays[i]), NoSource{}, active));
+    TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
+                               std::size_t first) {
+        Closest<One> hits[RayBatch<One>::most];
+        tracer.closest(batch, hits);
+        for (int i = 0; i < batch.count; ++i) write(job, first + static_cast<std::size_t>(i), hits[i]);
     }
     template <class Tracer>
     TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
@@ -81,10 +87,14 @@ template <class Reals>
 struct AskNearestFromSurface {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    template <class Tracer>
-    TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
+    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
         const Source<One> source = to_real<One>(job.sources[i]);
-        AskNearest<Reals>::write(job, i, tracer.closest(to_real<One>(job.rays[i]), source, active));
+        batch.add(to_real<One>(job.rays[i]), QuerySource<One>(source), {}, active);
+    }
+    template <class Tracer>
+    TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
+                               std::size_t first) {
+        AskNearest<Reals>::each(tracer, job, batch, first);
     }
     template <class Tracer>
     TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
@@ -99,13 +109,19 @@ template <class Reals>
 struct AskOccluded {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    template <class Tracer>
-    TANDEM_HD static void one(const Tracer& tracer, const TraceJob& job, std::size_t i, bool active) {
+    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
         ShadowSource<One> source;
         if (!job.sources.empty()) static_cast<Source<One>&>(source) = to_real<One>(job.sources[i]);
         source.light = job.ends[i].light;
         const auto t_max = constant<Double<One>>(job.ends[i].t);
-        write(job, i, tracer.occluded(to_real<One>(job.rays[i]), t_max, source, active));
+        batch.add(to_real<One>(job.rays[i]), QuerySource<One>(source), t_max, active);
+    }
+    template <class Tracer>
+    TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
+                               std::size_t first) {
+        bool occluded[RayBatch<One>::most];
+        tracer.occluded(batch, occluded);
+        for (int i = 0; i < batch.count; ++i) write(job, first + static_cast<std::size_t>(i), occluded[i]);
     }
     template <class Tracer>
     TANDEM_HD static void packet(const Tracer& tracer, const TraceJob& job, const Ray<Packet>& rays, std::size_t first,
@@ -141,9 +157,9 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
             continue;
         }
         if constexpr (!always_packets) {
-            for (std::size_t i = 0; i < used; ++i) {
-                Ask::one(tracer, job, first + i, traceable[static_cast<int>(i)]);
-            }
+            RayBatch<typename Reals::One> batch;
+            for (std::size_t i = 0; i < used; ++i) Ask::add(batch, job, first + i, traceable[static_cast<int>(i)]);
+            Ask::each(tracer, job, batch, first);
         }
     }
     return rejected;
@@ -152,8 +168,8 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
 template <class Isa, class Reals, class Ask>
 std::uint64_t trace_as(const CpuSceneView& view, const TraceJob& job) {
     const CalledTracer<Isa> tracer{view};
-    return view.embree != nullptr ? trace_rays<Reals, Ask, false>(tracer, job)
-                                  : trace_rays<Reals, Ask, true>(tracer, job);
+    const bool always_packets = view.embree == nullptr && view.groups == nullptr;
+    return always_packets ? trace_rays<Reals, Ask, true>(tracer, job) : trace_rays<Reals, Ask, false>(tracer, job);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // and of all kinds, ties, crowds, rays that leave surfaces and shadow rays, on every instruction set of this machine.
 #include <gtest/gtest.h>
 
+#include "cpu/embree_handles.h"
 #include "cpu/group_hierarchy.h"
 #include "cpu/instruction_sets.h"
 #include "support/bundles.h"
@@ -30,9 +31,7 @@ CpuSceneView plain_view(const PreparedScene& prepared) {
 }
 
 void trace_single_rays(const TierKernels& kernels, const GroupHierarchy& hierarchy, const TraceJob& job) {
-    CpuSceneView scene = hierarchy.view();
-    scene.embree = scene.groups->embree;  // without one, kernels would test all primitives
-    kernels.trace(scene, job);
+    kernels.trace(hierarchy.view(), job);
 }
 
 /// Without the last few rays: kernels take less than a packet of them for coherent, if it is one.
@@ -75,8 +74,7 @@ class GroupTracer : public ::testing::TestWithParam<std::tuple<InstructionSet, T
     template <class Real>
     void expect_bits_as(const PreparedScene& prepared, const std::vector<Ray<float>>& rays, const std::string& what) {
         const LoopTracer loop = {view(prepared)};
-        const TierKernels& kernels = std::get<0>(GetParam()).kernels(std::get<1>(GetParam()));
-        const GroupHierarchy scene(device_.get(), kernels, plain_view(prepared));
+        const GroupHierarchy scene(device_.get(), plain_view(prepared));
         const Batch first = {rays, {}, {}};
         compare<Real>(scene, loop, first, what);
         if (HasFatalFailure()) return;
@@ -195,7 +193,7 @@ TEST(GroupTracerInFast, FindsNearlyAllHits) {
     for (const InstructionSet& set : instruction_sets()) {
         if (!set.is_supported()) continue;
         const TierKernels& kernels = set.kernels(Tier::fast);
-        const GroupHierarchy hierarchy(device.get(), kernels, plain_view(prepared));
+        const GroupHierarchy hierarchy(device.get(), plain_view(prepared));
         std::vector<Hit> hits(rays.size());
         trace_single_rays(kernels, hierarchy, {.rays = rays, .hits = hits});
         std::size_t found = 0, same = 0;

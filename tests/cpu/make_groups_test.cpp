@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cpu/embree_handles.h"
+#include "cpu/group_walk.h"
 #include "support/hard_scenes.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/kernel/traversal/make_node.h"
@@ -14,10 +15,12 @@
 namespace tandem {
 namespace {
 
+constexpr float margin = 0.125F;
+
 class Groups : public ::testing::Test {
   protected:
     [[nodiscard]] PrimitiveGroups make(const PreparedScene& scene) const {
-        return make_groups(device_.get(), view(scene));
+        return make_groups(device_.get(), view(scene), margin);
     }
 
   private:
@@ -53,7 +56,7 @@ void expect_numbers(const QuadGroup& group, int place, const PreparedScene& scen
 
 /// Returns the number of primitives.
 template <class Group>
-std::size_t check(const std::vector<Group>& groups, const PreparedScene& scene, std::vector<int>& seen) {
+std::size_t check(const HugePageVector<Group>& groups, const PreparedScene& scene, std::vector<int>& seen) {
     std::size_t count = 0;
     for (const Group& group : groups) {
         EXPECT_NE(group.id[0], no_primitive);
@@ -74,6 +77,54 @@ std::size_t check(const std::vector<Group>& groups, const PreparedScene& scene, 
     return count;
 }
 
+const OfGroup<std::uint32_t>& ids_of(const GroupView& groups, std::uint32_t number) {
+    const OfGroup<std::uint32_t>* ids = nullptr;
+    visit_group(groups, number, [&](const auto& group) { ids = &group.id; });
+    return *ids;
+}
+
+/// A tree of groups, from the root on.
+class TreeCheck {
+  public:
+    TreeCheck(const PrimitiveGroups& groups, const PreparedScene& scene)
+        : groups_(groups), window_(groups.view()), scene_(view(scene)), seen_(group_count(window_)) {}
+
+    /// Returns the bounds of the primitives below a child.
+    Aabb check(std::uint32_t child, int depth) {
+        EXPECT_LE(depth, group_depth);
+        Aabb all;
+        if ((child & is_group) != 0) {
+            const std::uint32_t number = child & ~is_group;
+            ++seen_.at(number);
+            for (const std::uint32_t id : ids_of(window_, number)) {
+                if (id != no_primitive) all = merge(all, primitive_bounds(scene_, id));
+            }
+            return all;
+        }
+        const GroupNode& node = groups_.nodes.at(child);
+        const auto& plane = node.plane;
+        for (int i = 0; i < group_node_width; ++i) {
+            const Aabb box = {{plane[0][i], plane[1][i], plane[2][i]}, {plane[3][i], plane[4][i], plane[5][i]}};
+            if (is_empty(box)) continue;
+            const Aabb inside = check(node.child[i], depth + 1);
+            const Aabb padded = pad(inside, margin);
+            EXPECT_EQ(box.lower, padded.lower);
+            EXPECT_EQ(box.upper, padded.upper);
+            all = merge(all, inside);
+        }
+        return all;
+    }
+    [[nodiscard]] bool has_seen_each_once() const {
+        return std::count(seen_.begin(), seen_.end(), 1) == std::ssize(seen_);
+    }
+
+  private:
+    const PrimitiveGroups& groups_;
+    GroupView window_;
+    SceneView scene_;
+    std::vector<int> seen_;
+};
+
 void expect_all_once(const PrimitiveGroups& groups, const PreparedScene& scene, const std::string& what) {
     std::vector<int> seen(primitive_count(scene));
     const std::size_t faces = scene.triangles.size() + scene.quads.size();
@@ -81,6 +132,9 @@ void expect_all_once(const PrimitiveGroups& groups, const PreparedScene& scene, 
     EXPECT_EQ(check(groups.triangles, scene, seen), scene.triangles.size()) << what;
     EXPECT_EQ(check(groups.quads, scene, seen), scene.quads.size()) << what;
     for (std::size_t id = 0; id < seen.size(); ++id) ASSERT_EQ(seen[id], 1) << what << ", primitive " << id;
+    TreeCheck tree(groups, scene);
+    tree.check(groups.root, 0);
+    EXPECT_TRUE(tree.has_seen_each_once()) << what;
 }
 
 TEST_F(Groups, HoldEveryPrimitiveOnce) {
@@ -121,11 +175,11 @@ TEST_F(Groups, AreNumberedByKind) {
     scene.quads = prepare(named_scene("quads/30")).quads;
     scene.material_of.assign(primitive_count(view(scene)), 0);
     const PrimitiveGroups groups = make(scene);
-    const GroupView window = groups.view(nullptr);
+    const GroupView window = groups.view();
     EXPECT_EQ(group_count(window), groups.bodies.size() + groups.triangles.size() + groups.quads.size());
     std::vector<int> seen(primitive_count(scene));
     for (std::uint32_t number = 0; number < group_count(window); ++number) {
-        for (const std::uint32_t id : ids_of_group(window, number)) {
+        for (const std::uint32_t id : ids_of(window, number)) {
             if (id != no_primitive) ++seen.at(id);
         }
     }

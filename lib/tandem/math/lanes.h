@@ -21,8 +21,8 @@ struct Lanes {
     Vector part[parts];
 
     Lanes() = default;
-    TANDEM_HD_INLINE Lanes(T value) {  // the same value in every lane
-        for (int k = 0; k < parts; ++k) part[k] = Vector{} + value;
+    TANDEM_HD_INLINE Lanes(T value) {                                // the same value in every lane
+        for (int k = 0; k < parts; ++k) part[k] = value - Vector{};  // Vector{} + value would lose the sign of -0
     }
     /// Lane i holds make(i).
     template <class Make>
