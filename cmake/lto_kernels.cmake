@@ -157,8 +157,8 @@ function(tandem_add_compiled_kernels target)
   # were. With one it passes on all of them, with nvcc's values for divisions and square roots.
   get_target_property(options tandem_cuda_${arg_TIER} TANDEM_LINK_OPTIONS)
   list(TRANSFORM options PREPEND -Xnvvm=)
-  # One link for all GPUs, because the optimiser's output does not depend on the GPU: PTX of the lowest, which is assembled
-  # for each.
+  # One link for all GPUs, because the optimiser's output does not depend on the GPU (docs/performance.md): PTX of the lowest,
+  # which is assembled for each.
   tandem_lowest_architecture(lowest)
   set(ptx ${name}.ptx)
   add_custom_command(

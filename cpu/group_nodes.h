@@ -9,8 +9,8 @@ namespace tandem {
 /// The most children of a node.
 inline constexpr int group_node_width = 8;
 
-/// What a node's child is: the number of a node, or that of a group with this bit.
-inline constexpr std::uint32_t is_group = 0x80000000U;
+/// A child of a node is the number of a node, or that of a group and this bit.
+inline constexpr std::uint32_t group_bit = 0x80000000U;
 
 /// The boxes of up to eight children. In places without a child they are empty, so that no ray enters them.
 struct alignas(64) GroupNode {

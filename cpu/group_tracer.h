@@ -49,10 +49,10 @@ class GroupRay {
     /// Visits one node or group. False at the end of the way.
     TANDEM_HD_INLINE bool advance(const CpuSceneView& view) {
         const std::uint32_t child = walk_.at();
-        if ((child & is_group) == 0) {
+        if ((child & group_bit) == 0) {
             return walk_.enter(view.groups->nodes[child], query_.limit);
         }
-        if (query_.template test<search>(view, child & ~is_group)) {
+        if (query_.template test<search>(view, child & ~group_bit)) {
             is_occluded_ = true;
             return false;
         }
@@ -62,10 +62,10 @@ class GroupRay {
     /// Loads what advance() visits next.
     TANDEM_HD_INLINE void prefetch(const GroupView& groups) const {
         const std::uint32_t child = walk_.at();
-        if ((child & is_group) == 0) {
+        if ((child & group_bit) == 0) {
             prefetch_lines(groups.nodes[child]);
         } else {
-            visit_group(groups, child & ~is_group, [](const auto& group) { prefetch_lines(group); });
+            visit_group(groups, child & ~group_bit, [](const auto& group) { prefetch_lines(group); });
         }
     }
 

@@ -7,12 +7,13 @@
 
 namespace tandem {
 
-/// The deepest hierarchy: make_groups() makes no deeper one.
-inline constexpr int group_depth = 32;
+/// The most nodes above a group: make_groups() makes trees of at most one less, and joins them.
+inline constexpr int group_depth = 33;
 
 /// Bound of the slab tests plane / d - origin / d, with S = reach of the scene's bounds and u = 2^-24. As lengths, the
 /// two terms err by 4 u S each because of the reciprocal (rough_reciprocal()) and by u S because they are rounded, and
-/// the difference is rounded to 2 u S. So 12 u S, which the padding of the boxes covers (proposal.h).
+/// the difference is rounded to 2 u S. So 12 u S, which the padding of the boxes covers (proposal.h). Nothing
+/// overflows: S < 1e19, and 1 / d < 1e19 (make_node_ray()). Tested by tests/cpu/group_tracer_test.cpp.
 ///
 /// Nothing branches on the signs of the direction: they differ from ray to ray, and rays take turns.
 template <class Isa>

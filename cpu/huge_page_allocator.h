@@ -1,5 +1,5 @@
-/// Memory for arrays that rays read in no order: with pages of 4 KiB nearly every read would also miss the processor's
-/// table of pages (docs/performance.md, "CPU").
+/// Memory for arrays that rays read in no order: with larger pages, fewer reads miss the processor's table of pages
+/// (docs/performance.md, "CPU").
 #pragma once
 
 #include <sys/mman.h>
@@ -10,8 +10,7 @@
 
 namespace tandem {
 
-/// Of large arrays, whole huge pages begin the memory, and Linux is asked to use them. Where it does not, only speed is
-/// lost.
+/// Large arrays begin with a huge page, and Linux is asked to use such pages. Where it does not, only speed is lost.
 template <class T>
 struct HugePageAllocator {
     using value_type = T;

@@ -50,7 +50,10 @@ void* make_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* prim
     return static_cast<TreeNode*>(leaf);
 }
 
-Aabb box_of(const RTCBounds& b) { return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}}; }
+template <class Bounds>
+Aabb box_of(const Bounds& b) {
+    return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
 
 /// Copies a tree in depth-first order.
 class TreeCopy {
@@ -63,7 +66,7 @@ class TreeCopy {
     std::uint32_t add(const TreeNode& tree) {
         if (tree.children == 0) {
             leaves_.push_back(&static_cast<const Leaf&>(tree));
-            return is_group | (first_group_ + static_cast<std::uint32_t>(leaves_.size() - 1));
+            return group_bit | (first_group_ + static_cast<std::uint32_t>(leaves_.size() - 1));
         }
         const auto& inner = static_cast<const InnerNode&>(tree);
         const std::size_t number = nodes_.size();
@@ -129,16 +132,14 @@ class GroupMaker {
             const Aabb box = primitive_bounds(scene_, id);
             boxes[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, id};
         });
-        for (const RTCBuildPrimitive& b : boxes) {
-            all = merge(all, {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}});
-        }
+        for (const RTCBuildPrimitive& box : boxes) all = merge(all, box_of(box));
         const EmbreeTree tree(rtcNewBVH(device_));
         RTCBuildArguments arguments = rtcDefaultBuildArguments();
         arguments.bvh = tree.get();
         arguments.primitives = boxes.data();
         arguments.primitiveCount = arguments.primitiveArrayCapacity = count;
         arguments.maxBranchingFactor = group_node_width;
-        arguments.maxDepth = group_depth;
+        arguments.maxDepth = group_depth - 1;
         arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = group_size;
         arguments.createNode = make_inner_node;
         arguments.setNodeChildren = set_children;

@@ -93,8 +93,8 @@ class TreeCheck {
     Aabb check(std::uint32_t child, int depth) {
         EXPECT_LE(depth, group_depth);
         Aabb all;
-        if ((child & is_group) != 0) {
-            const std::uint32_t number = child & ~is_group;
+        if ((child & group_bit) != 0) {
+            const std::uint32_t number = child & ~group_bit;
             ++seen_.at(number);
             for (const std::uint32_t id : ids_of(window_, number)) {
                 if (id != no_primitive) all = merge(all, primitive_bounds(scene_, id));

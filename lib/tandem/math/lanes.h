@@ -21,8 +21,10 @@ struct Lanes {
     Vector part[parts];
 
     Lanes() = default;
-    TANDEM_HD_INLINE Lanes(T value) {                                // the same value in every lane
-        for (int k = 0; k < parts; ++k) part[k] = value - Vector{};  // Vector{} + value would lose the sign of -0
+    /// The same value in every lane.
+    TANDEM_HD_INLINE Lanes(T value) {
+        // adding 0 would lose the sign of -0, and takes an instruction
+        for (int k = 0; k < parts; ++k) part[k] = value - Vector{};
     }
     /// Lane i holds make(i).
     template <class Make>
