@@ -144,12 +144,18 @@ function(tandem_add_lto_kernels target)
   tandem_embed_fatbin(${target} ${fatbin} "${arg_NAMESPACE}")
 endfunction()
 
-# tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FACTS [NAMESPACE NAMESPACE]):
+# tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FACTS [REGISTERS MOST]
+# [NAMESPACE NAMESPACE]):
 # links KERNEL from the LTO-IR of the function LINKS, which tandem_add_lto_kernels() added in this folder, and from
 # FACTS.fatbin, which tandem_compile_to_lto() made in this folder and which defines the kernel's facts. For
-# CMAKE_CUDA_ARCHITECTURES: FUNCTION of TARGET gives a fat binary of machine code and PTX (tandem_embed_fatbin()).
+# CMAKE_CUDA_ARCHITECTURES: FUNCTION of TARGET gives a fat binary of machine code and PTX (tandem_embed_fatbin()). MOST: the
+# registers that a thread may have in the machine code; 0: as the launch bounds say.
 function(tandem_add_compiled_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;NAMESPACE" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;REGISTERS;NAMESPACE" "")
+  set(registers)
+  if(arg_REGISTERS)
+    set(registers -maxrregcount=${arg_REGISTERS})
+  endif()
   set(name ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME})
   set(kernel ${CMAKE_CURRENT_BINARY_DIR}/${arg_LINKS}.fatbin)
   set(facts ${CMAKE_CURRENT_BINARY_DIR}/${arg_FACTS}.fatbin)
@@ -183,7 +189,7 @@ function(tandem_add_compiled_kernels target)
       set(file ${name}_${number}.cubin)
       add_custom_command(
         OUTPUT ${file}
-        COMMAND ${CMAKE_CUDA_COMPILER} -arch=sm_${number} -cubin ${ptx} -o ${file}
+        COMMAND ${CMAKE_CUDA_COMPILER} -arch=sm_${number} ${registers} -cubin ${ptx} -o ${file}
         DEPENDS ${ptx}
         COMMENT "Assembling ${arg_NAME}_${number}.cubin"
         VERBATIM

@@ -165,13 +165,15 @@ struct EmbreeTracer {
     /// As LoopTracer::closest().
     template <class Real>
     [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
-                                                         bool active) const {
+                                                         bool active,
+                                                         const Double<Real>& farthest = no_hit<Real>().t) const {
         QueryContext<Real> query;
-        query.best = no_hit<Real>();
+        query.best = {farthest, no_primitive};
         query.source = &source;
         if (!start(query, ray, active, false)) return query.best;
         RTCRayHit rayhit;
-        rayhit.ray = embree_detail::single_ray(query.proposal, to_plain(query.proposal.start_for(source)), 3e38F);
+        rayhit.ray = embree_detail::single_ray(query.proposal, to_plain(query.proposal.start_for(source)),
+                                               to_plain(query.proposal.limit(farthest)));
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(view.embree, query.head, rayhit);
         if constexpr (is_fast<Real>) {
@@ -186,16 +188,16 @@ struct EmbreeTracer {
     }
 
     template <class T, class Isa>
-    [[nodiscard]] TANDEM_HD_INLINE Closest<Lanes<T, Isa>> closest(const Ray<Lanes<T, Isa>>& ray,
-                                                                  const QuerySource<Lanes<T, Isa>>& source,
-                                                                  const LaneMask<Isa>& active) const {
+    [[nodiscard]] TANDEM_HD_INLINE Closest<Lanes<T, Isa>> closest(
+        const Ray<Lanes<T, Isa>>& ray, const QuerySource<Lanes<T, Isa>>& source, const LaneMask<Isa>& active,
+        const Double<Lanes<T, Isa>>& farthest = no_hit<Lanes<T, Isa>>().t) const {
         using Real = Lanes<T, Isa>;
         QueryContext<Real> query;
-        query.best = no_hit<Real>();
+        query.best = {farthest, UInt<Real>(no_primitive)};
         query.source = &source;
         if (!start(query, ray, active, true)) return query.best;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
-        set_packet(rayhit.ray, query, query.proposal.start_for(source), Float<Real>(3e38F));
+        set_packet(rayhit.ray, query, query.proposal.start_for(source), query.proposal.limit(farthest));
         const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();

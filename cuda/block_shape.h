@@ -15,8 +15,9 @@ inline constexpr unsigned int block_width = 16;
 inline constexpr unsigned int block_height = 8;
 inline constexpr unsigned int block_threads = block_width * block_height;
 
-// One block of the kernels with a queue fills a multiprocessor, with 128 registers per thread.
-inline constexpr unsigned int queue_threads = 512;
+// One block of the kernels with a queue fills a multiprocessor: it has as many threads as the kernel's registers allow,
+// at most these.
+inline constexpr unsigned int most_queue_threads = 512;
 
 inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
@@ -29,7 +30,9 @@ struct RenderGrid {
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
     return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
 }
-/// One block per multiprocessor of the current GPU.
-[[nodiscard]] RenderGrid pixel_queue();
+/// Of the current GPU.
+[[nodiscard]] unsigned int multiprocessor_count();
+/// One block per multiprocessor of the current GPU, as large as the kernel allows.
+[[nodiscard]] RenderGrid pixel_queue(const void* kernel);
 
 }  // namespace tandem::cuda

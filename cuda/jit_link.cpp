@@ -98,6 +98,7 @@ std::vector<std::string> link_options(const JitInput& input) {
     options.push_back(fmt::format("-ftz={}", fast));
     options.push_back(fmt::format("-prec-div={}", 1 - fast));
     options.push_back(fmt::format("-prec-sqrt={}", 1 - fast));
+    if (input.registers > 0) options.push_back(fmt::format("-maxrregcount={}", input.registers));
     options.emplace_back("-split-compile=0");  // compile functions in parallel, on all processors
     return options;
 }

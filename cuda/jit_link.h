@@ -23,6 +23,7 @@ struct JitInput {
     std::vector<std::uint32_t> facts;  ///< its contents: words_of()
     Tier tier = Tier::strict;          ///< the tier whose arithmetic the link must preserve
     int architecture = 0;              ///< of the GPU: 90 for compute capability 9.0; at least that of the LTO-IR
+    int registers = 0;                 ///< the most that a thread may have; 0: as the kernel's launch bounds say
 };
 
 /// A struct of 32-bit integers as its words.

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "cuda/block_shape.h"
 #include "cuda/cuda_error.h"
 #include "cuda/kernels.h"
@@ -14,16 +16,25 @@ int fact(cudaDeviceAttr attribute) {
     return value;
 }
 
+cudaFuncAttributes attributes_of(const void* kernel) {
+    cudaFuncAttributes attributes{};
+    check(cudaFuncGetAttributes(&attributes, kernel), "reading the properties of a kernel");
+    return attributes;
+}
+
 }  // namespace
 
-RenderGrid pixel_queue() {
-    return {dim3(static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount))), queue_threads};
+unsigned int multiprocessor_count() { return static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount)); }
+
+RenderGrid pixel_queue(const void* kernel) {
+    return {dim3(multiprocessor_count()),
+            std::min(most_queue_threads, static_cast<unsigned int>(attributes_of(kernel).maxThreadsPerBlock))};
 }
 
 KernelFacts kernel_facts(const void* kernel) {
-    cudaFuncAttributes attributes{};
-    check(cudaFuncGetAttributes(&attributes, kernel), "reading the properties of a kernel");
-    const int threads = attributes.maxThreadsPerBlock;  // from its launch bounds, with which it is launched
+    const cudaFuncAttributes attributes = attributes_of(kernel);
+    // as it is launched: from its launch bounds, or as its registers allow
+    const int threads = std::min(attributes.maxThreadsPerBlock, static_cast<int>(most_queue_threads));
     int blocks = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),
           "reading the occupancy of a kernel");

@@ -59,14 +59,16 @@ using LinkedReal = tier_real::TANDEM_LINKED_TIER;
 
 #if defined(TANDEM_SHORT_PATHS)
 // Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
-#define TANDEM_LINKED_BOUNDS block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6
+#define TANDEM_LINKED_BOUNDS __launch_bounds__(block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6)
 #else
-#define TANDEM_LINKED_BOUNDS queue_threads, 1
+#define TANDEM_LINKED_BOUNDS  // the link decides about registers, and so about threads (most_registers() in
+                              // scene_kernels.cpp)
 #endif
 
-extern "C" __global__ void __launch_bounds__(TANDEM_LINKED_BOUNDS)
-    tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer, const __grid_constant__ PixelJob job,
-                  std::uint32_t height, Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer,
+                                                              const __grid_constant__ PixelJob job,
+                                                              std::uint32_t height, Vec3d* __restrict__ sums,
+                                                              DeviceCounters* __restrict__ counters) {
 #if defined(TANDEM_SHORT_PATHS)
     render_one<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #else

@@ -14,8 +14,9 @@ namespace tandem::cuda {
 /// Code that is loaded, and its kernel. Its functions use the GPU that is current.
 class LoadedCode {
   public:
-    /// The bytes are copied. Throws as check() does, so EnvironmentError for a machine that cannot run the code.
-    LoadedCode(std::span<const std::byte> code, const std::string& kernel);
+    /// The bytes are copied. `most_registers`: of a thread, where the driver assembles PTX; 0 leaves it to the PTX.
+    /// Throws as check() does, so EnvironmentError for a machine that cannot run the code.
+    LoadedCode(std::span<const std::byte> code, const std::string& kernel, int most_registers = 0);
     ~LoadedCode();
     LoadedCode(const LoadedCode&) = delete;
     LoadedCode& operator=(const LoadedCode&) = delete;

@@ -229,9 +229,8 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
 /// Starts both kernels.
 template <class Real, Ask ask, class Tracer>
 void trace_with_refill(const Tracer& tracer, const DeviceRays& rays, cudaStream_t stream) {
-    const RenderGrid grid = pixel_queue();
-    launch("finding candidates", find_candidates<Real, ask, Tracer>, grid.blocks.x * refill_blocks<Real, Tracer>,
-           block_threads, stream, tracer, rays);
+    launch("finding candidates", find_candidates<Real, ask, Tracer>,
+           multiprocessor_count() * refill_blocks<Real, Tracer>, block_threads, stream, tracer, rays);
     launch("deciding hits", decide_candidates<Real, ask, Tracer>, blocks_for(rays.count, block_threads), block_threads,
            stream, tracer, rays);
 }

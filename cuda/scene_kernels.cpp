@@ -85,6 +85,24 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
 bool has_queue(EffectMask effects) { return effects.has_any(synchronising_effects); }
 bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bits(facts.effects)); }
 
+/// The most registers of a thread; 0: as the launch bounds of a kernel without a queue say. A multiprocessor has room
+/// for 12 warps with 168 registers and for 16 with 128. Long code with doubles is faster with fewer warps and fewer
+/// spills; measured for the tier strict by effects (docs/performance.md, "Registers of kernels for long paths").
+int most_registers(Tier tier, EffectMask effects) {
+    constexpr int for_12_warps = 168, for_16_warps = 128;
+    if (!has_queue(effects)) return 0;
+    switch (tier) {
+        case Tier::fast:
+            return for_16_warps;
+        case Tier::precise:
+            return for_12_warps;
+        case Tier::strict:
+            break;
+    }
+    const bool lights_diffuse_paths = effects.has(Effect::indirect) && effects.has(Effect::shadows);
+    return lights_diffuse_paths || effects.has_any(effects_of_local_lobes) ? for_12_warps : for_16_warps;
+}
+
 /// With more lights than this their number is not a constant, since the loop over them would not be unrolled anyway.
 constexpr std::uint32_t most_linked_lights = 4;
 
@@ -126,6 +144,7 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = kernel_tier(tier, structure);
+    input.registers = most_registers(input.tier, EffectMask::from_bits(facts.effects));
     input.architecture = architecture;
     return input;
 }
@@ -186,15 +205,18 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
     const bool faces = has_faces(scene.scene);
     auto& kernel = compiled_[{tier, structure, faces, variant}];
     if (kernel == nullptr) {
-        kernel.reset(new SceneKernel{LoadedCode(compiled_code(tier, structure, faces, variant), kernel_name),
-                                     has_queue(variants[variant].effects), "rendering"});
+        const EffectMask effects = variants[variant].effects;
+        const std::span<const std::byte> code = compiled_code(tier, structure, faces, variant);
+        const int registers = most_registers(kernel_tier(tier, structure), effects);
+        kernel.reset(new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects), "rendering"});
     }
     return *kernel;
 }
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const RenderGrid grid = kernel.has_queue ? pixel_queue() : thread_per_pixel(job.width, height);
+    const RenderGrid grid =
+        kernel.has_queue ? pixel_queue(kernel.code.function()) : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };

@@ -9,7 +9,7 @@ namespace tandem {
 // Defined in cpu/kernels/query.cpp. `Isa` makes the names unique: Real does not always determine the instruction set.
 template <class Isa, class Real>
 [[nodiscard]] Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
-                                        const Mask<Real>& active);
+                                        const Mask<Real>& active, const Double<Real>& farthest);
 template <class Isa, class Real>
 [[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                                  const QuerySource<Real>& source, const Mask<Real>& active);
@@ -47,8 +47,9 @@ struct CalledTracer {
 
     template <class Real, class From>
     [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source,
-                                                         const Mask<Real>& active) const {
-        return closest_hit<Isa, Real>(view, ray, QuerySource<Real>(source), active);
+                                                         const Mask<Real>& active,
+                                                         const Double<Real>& farthest = no_hit<Real>().t) const {
+        return closest_hit<Isa, Real>(view, ray, QuerySource<Real>(source), active, farthest);
     }
     template <class Real>
     [[nodiscard]] TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,

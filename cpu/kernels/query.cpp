@@ -13,9 +13,9 @@ using IsaOf = std::conditional_t<is_fast<Real>, Fast<Isa>, Isa>;
 
 template <class Isa, class Real>
 Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
-                          const Mask<Real>& active) {
-    if (view.embree == nullptr) return LoopTracer{view.scene}.closest(ray, source, active);
-    return EmbreeTracer{view}.closest(ray, source, active);
+                          const Mask<Real>& active, const Double<Real>& farthest) {
+    if (view.embree == nullptr) return LoopTracer{view.scene}.closest(ray, source, active, farthest);
+    return EmbreeTracer{view}.closest(ray, source, active, farthest);
 }
 
 template <class Isa, class Real>
@@ -76,7 +76,8 @@ using One = TierReals<ThisIsa, Tier::TANDEM_KERNEL_TIER>::One;
 using Packet = TierReals<ThisIsa, Tier::TANDEM_KERNEL_TIER>::Packet;
 
 template Closest<Packet> closest_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Packet>&,
-                                                      const QuerySource<Packet>&, const Mask<Packet>&);
+                                                      const QuerySource<Packet>&, const Mask<Packet>&,
+                                                      const Double<Packet>&);
 template Mask<Packet> any_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Packet>&, const Double<Packet>&,
                                                const QuerySource<Packet>&, const Mask<Packet>&);
 template void closest_hits<ThisIsa, One>(const CpuSceneView&, const RayBatch<One>&, Closest<One>*);

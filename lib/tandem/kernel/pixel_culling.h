@@ -105,13 +105,14 @@ struct CulledTracer {
     std::uint32_t slots;
 
     template <class Real, class From>
-    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active,
+                                           const Double<Real>& farthest = no_hit<Real>().t) const {
         if constexpr (std::is_same_v<From, NoSource>) {
-            Closest<Real> best = no_hit<Real>();
+            Closest<Real> best = {farthest, no_primitive};
             if (active) all.find_among<Search::nearest>(slots, ray, source, best);
             return best;
         } else {
-            return all.closest(ray, source, active);
+            return all.closest(ray, source, active, farthest);
         }
     }
     template <class Real>

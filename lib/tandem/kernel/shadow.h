@@ -20,8 +20,9 @@ namespace shadow_detail {
 
 template <class Real, class From, class Tracer>
 TANDEM_HD_CALL_ON(device)
-Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, Mask<Real> active) {
-    return tracer.closest(ray, source, active);
+Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, Mask<Real> active,
+                              Double<Real> farthest) {
+    return tracer.closest(ray, source, active, farthest);
 }
 
 }  // namespace shadow_detail
@@ -33,14 +34,14 @@ Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, 
 /// the barrier of the block stopped with "illegal instruction" on an H200 (docs/performance.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
-                                    const Mask<Real>& active) {
+                                    const Mask<Real>& active, const Double<Real>& farthest = no_hit<Real>().t) {
     constexpr EffectMask scattering = bouncing_effects - Effect::cutouts;
     if constexpr (!Tracer::has_hierarchy) {
         if (Effects::has(Effect::cutouts) && !Effects::has_any(scattering)) {
-            return shadow_detail::closest_by_call<Real>(tracer, ray, source, active);
+            return shadow_detail::closest_by_call<Real>(tracer, ray, source, active, farthest);
         }
     }
-    return tracer.closest(ray, source, active);
+    return tracer.closest(ray, source, active, farthest);
 }
 
 /// Tracer::occluded() through alpha masks. Adds one to `rays` for each segment of the ray.
@@ -56,7 +57,7 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
     Mask<Real> open = shadow.active;
     Mask<Real> blocked(false);
     for (std::uint32_t masked_hits = 0; masked_hits < max_masked_hits; ++masked_hits) {
-        const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open);
+        const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open, shadow.t_max);
         const Mask<Real> found = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
         if (!any(found)) return blocked;
         const Mask<Real> passes =

@@ -176,7 +176,7 @@ struct BvhStructure {
         // a constant for other rays: with start_for() nvcc spills more, and nearest hits take 6 % longer
         constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
         const float start = may_start_late ? to_plain(proposal.start_for(source)) : 0.0F;
-        float limit = search == Search::any ? to_plain(proposal.limit(t_max)) : 3e38F;
+        float limit = first_limit(proposal, t_max);
         return bvh_detail::walk<may_start_late>(bvh, node_ray, start, limit, [&](std::uint32_t entry) {
             try_entry(entry, filter, source, proposal, best, limit);
             return search == Search::any && best.t < t_max;
@@ -205,7 +205,7 @@ struct BvhStructure {
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE bvh_detail::WalkEnd find_behind_walk(const Ray<Real>& ray, const From& source,
                                                           const Proposal<Real>& proposal, Closest<Real>& best) const {
-        float limit = search == Search::any ? to_plain(proposal.limit(best.t)) : 3e38F;
+        float limit = first_limit(proposal, best.t);
         const float enough = search == Search::any ? to_plain(proposal.start(best.t)) : 0.0F;
         Candidates<most_candidates> candidates;
         const QueryRay query = make_query_ray(proposal, bvh.frame, source);

@@ -119,10 +119,12 @@ struct LoopTracerFor {
 
     SceneView scene;
 
-    /// The nearest hit of a ray from `source`, of any type that test_primitive() takes.
+    /// The nearest hit of a ray from `source`, of any type that test_primitive() takes. Hits beyond `farthest` do not
+    /// count; if there is no other, t is `farthest`.
     template <class Real, class From>
-    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active) const {
-        Closest<Real> best = no_hit<Real>();
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, const Mask<Real>& active,
+                                           const Double<Real>& farthest = no_hit<Real>().t) const {
+        Closest<Real> best = {farthest, UInt<Real>(no_primitive)};
         find<Search::nearest>(ray, source, active, best);
         return best;
     }

@@ -70,6 +70,12 @@ struct Proposal {
     }
 };
 
+/// proposal.limit(t) of one ray, without an operation where t is known to be infinite.
+template <class Real>
+TANDEM_HD_INLINE float first_limit(const Proposal<Real>& proposal, const Double<Real>& t) {
+    return t < Double<Real>(__builtin_huge_val()) ? to_plain(proposal.limit(t)) : 3e38F;
+}
+
 namespace proposal_detail {
 
 /// Limits for rays that are moved to the bounds in float: the largest coordinate of the origin, relative to the reach

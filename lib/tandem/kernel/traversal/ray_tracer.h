@@ -11,8 +11,9 @@ template <class Structure>
 struct RayTracer : Structure {
     /// As LoopTracer::closest().
     template <class Real, class From>
-    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active) const {
-        Closest<Real> best = no_hit<Real>();
+    TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const From& source, bool active,
+                                           const Double<Real>& farthest = no_hit<Real>().t) const {
+        Closest<Real> best = {farthest, no_primitive};
         if (active) Structure::template find<Search::nearest>(ray, source, best);
         return best;
     }
