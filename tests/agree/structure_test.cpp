@@ -73,6 +73,15 @@ void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<f
     const PathSource<float> onwards = {spawned.source};
     const Closest<float> f = tracer.closest(spawned.ray, onwards, true);
     ASSERT_EQ(f.primitive, one_by_one.closest(spawned.ray, onwards, true).primitive) << what << ", onwards as a path";
+    for (const double farthest : {0.5 * f.t, f.t, f.t * (1 + 1e-15), 1.0, 1e300}) {
+        const Closest<float> bounded = tracer.closest(spawned.ray, onwards, true, farthest);
+        if (f.t < farthest) {
+            ASSERT_EQ(bounded.primitive, f.primitive) << what << ", up to " << farthest;
+            ASSERT_EQ(bits_of(bounded.t), bits_of(f.t)) << what << ", up to " << farthest;
+        } else {
+            ASSERT_EQ(bits_of(bounded.t), bits_of(farthest)) << what << ", up to " << farthest;
+        }
+    }
     ASSERT_EQ(c.primitive, d.primitive) << what << ", onwards";
     ASSERT_EQ(bits_of(c.t), bits_of(d.t)) << what << ", onwards";
     ShadowSource<float> source;
