@@ -61,8 +61,8 @@ using LinkedReal = tier_real::TANDEM_LINKED_TIER;
 // Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
 #define TANDEM_LINKED_BOUNDS __launch_bounds__(block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6)
 #else
-#define TANDEM_LINKED_BOUNDS  // the link decides about registers, and so about threads (most_registers() in
-                              // scene_kernels.cpp)
+// None: the link limits registers (most_registers() in scene_kernels.cpp), and registers limit threads (pixel_queue()).
+#define TANDEM_LINKED_BOUNDS
 #endif
 
 extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer,
