@@ -89,11 +89,12 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
     const Linked everything = write(all_effects);
     EXPECT_EQ(everything.registers, most_registers(facts(all_effects)));
     EXPECT_GT(code_bytes(all_effects), 3 * code_bytes({}));
-    // what a path carries from vertex to vertex, beside kernels that may use as many registers
+    // what a path carries from vertex to vertex, beside kernels that use about as many registers as they may
     for (const Effect one :
          {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect, Effect::microfacets}) {
         const Linked& alone = linked(facts(one));
-        EXPECT_EQ(alone.registers, most_registers(facts(one))) << to_string(one);
+        EXPECT_LE(alone.registers, most_registers(facts(one))) << to_string(one);
+        EXPECT_GT(alone.registers, most_registers(facts(one)) - 8) << to_string(one);
         EXPECT_GT(everything.stack_bytes, 3 * alone.stack_bytes) << to_string(one);
     }
     std::ofstream("kernel_masks.json") << table.dump(2) << "\n";
