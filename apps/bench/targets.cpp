@@ -29,7 +29,19 @@ namespace tandem::bench {
 namespace {
 
 constexpr const char* million_spheres = "named:spheres/1000000";
+constexpr const char* million_boxes = "named:boxes/1000000";
 constexpr const char* ten_million_spheres = "named:spheres/10000000";
+
+/// The glTF files in a folder, in the order of their names.
+std::vector<std::string> gltf_files(const std::string& folder) {
+    std::vector<std::string> files;
+    if (!std::filesystem::is_directory(folder)) return files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() == ".gltf") files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
 
 /// A target: what it needs and how it is measured.
 struct Target {
@@ -125,6 +137,45 @@ class TargetRun {
         const Ratio ratio = ratio_of_medians(rows[1].seconds, rows[0].seconds);
         finish(result, ratio);
         result.verdict = ratio.value <= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    /// The time of a frame in strict over that in fast: the worst of all scenes.
+    void frame_price(TargetResult& result, const std::string& backend) {
+        std::vector<std::string> scenes = gltf_files(options_.scenes);
+        if (scenes.empty()) {
+            result.why_not = fmt::format("not run: there are no scenes in {} here", options_.scenes);
+            return;
+        }
+        scenes.insert(scenes.end(), {million_spheres, "named:icosphere/8", "named:triangles/1000000", million_boxes});
+        const std::unique_ptr<Backend> renderer = make(backend, {});
+        Ratio worst;
+        std::string where;
+        for (const std::string& scene : scenes) {
+            const std::array rows = time_frames(*renderer, scene, {Tier::fast, Tier::strict});
+            add_rows({rows[0], rows[1]});
+            const Ratio ratio = ratio_of_medians(rows[1].seconds, rows[0].seconds);
+            if (worst.pairs != 0 && !(ratio.value > worst.value)) continue;
+            worst = ratio;
+            where = scene;
+        }
+        finish(result, worst);
+        result.shown += ", " + where;
+        result.verdict = worst.value <= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    /// Samples per second of whitted.gltf in strict.
+    void whitted_rate(TargetResult& result) {
+        const std::string scene = options_.scenes + "/whitted.gltf";
+        if (!std::filesystem::exists(scene)) {
+            result.why_not = fmt::format("not run: there is no {} here", scene);
+            return;
+        }
+        const std::array rows = time_frames(*make("cuda", {}), scene, {Tier::strict});
+        add_rows({rows[0]});
+        const Summary frame = summarize(rows[0].seconds);
+        result.measured = rows[0].samples / frame.median;
+        result.shown = format_count(result.measured) + " samples/s, kernel " + format_summary(frame);
+        result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
     }
 
     /// Primitives per second of a build on the GPU whose memory is there from the build before.
@@ -224,6 +275,34 @@ class TargetRun {
         std::unique_ptr<Backend> backend = source_.make(name, options);
         describe_backend(*backend, report_);
         return backend;
+    }
+
+    /// Times frames of a scene in each tier, in turns, after one round of warm-up.
+    template <std::size_t count>
+    std::array<BenchmarkRow, count> time_frames(Backend& backend, const std::string& path, const Tier (&tiers)[count]) {
+        const PreparedScene scene = prepare(load_scene(path), {});
+        std::array<std::shared_ptr<ResidentScene>, count> resident;
+        std::array<BenchmarkRow, count> rows;
+        const int samples = backend.name() == "cuda" ? options_.gpu_frame_samples : options_.cpu_frame_samples;
+        RenderJob job{options_.size.width, options_.size.height, samples, 0, 0};
+        for (std::size_t i = 0; i < count; ++i) {
+            resident[i] = backend.load(scene, tiers[i]);
+            rows[i].label = fmt::format("{}, {}", backend.name(), to_string(tiers[i]));
+            rows[i].scene = path;
+            rows[i].backend = backend.name();
+            rows[i].samples = sample_count(job);
+        }
+        for (int round = -1; round < options_.repetitions; ++round) {
+            for (const std::size_t i : interleaved_order(count, static_cast<std::size_t>(round + 1))) {
+                job.tier = tiers[i];
+                const RenderResult timed = backend.render(resident[i], job);
+                report_.counters += timed.stats.counters;
+                if (round < 0) continue;
+                rows[i].seconds.push_back(timed.stats.seconds.render);
+                rows[i].rounds.push_back(round);
+            }
+        }
+        return rows;
     }
 
     double render_seconds(Backend& backend, const RenderJob& job) {
@@ -330,7 +409,7 @@ constexpr std::array gpu_rays = {
     GpuRays{"", "A million spheres", million_spheres, 7.0, 2.8, 1.10},
     GpuRays{"-mesh", "A mesh of 1.3 million triangles", "named:icosphere/8", 7.2, 3.0, 1.35},
     GpuRays{"-triangles", "A million loose triangles", "named:triangles/1000000", 2.5, 1.05, 1.10},
-    GpuRays{"-boxes", "A million turned boxes", "named:boxes/1000000", 5.0, 2.1, 1.10},
+    GpuRays{"-boxes", "A million turned boxes", million_boxes, 5.0, 2.1, 1.10},
 };
 
 std::vector<Target> all_targets(int cores) {
@@ -390,6 +469,19 @@ std::vector<Target> all_targets(int cores) {
     }
     targets.push_back(target("gpu-rays-shadow", "A million spheres, GPU (H200), shadow rays: at least 3 G rays/s", 3e9,
                              1, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));
+    targets.push_back(target("gpu-whitted", "whitted.gltf, GPU (H200), strict: at least 1.4 G samples/s", 1.4e9, 1,
+                             [](TargetRun& run, TargetResult& result) { run.whitted_rate(result); }));
+    for (const char* backend : {"cuda", "cpu"}) {
+        const bool on_gpu = backend == std::string("cuda");
+        targets.push_back(target(
+            fmt::format("{}-frame-price", on_gpu ? "gpu" : "cpu"),
+            fmt::format(
+                "Frames of the scenes of assets/scenes and of a million primitives, {}: strict takes at most 1.10 "
+                "times as long as fast",
+                on_gpu ? "GPU" : "CPU"),
+            1.10, on_gpu ? 1 : 0,
+            [backend](TargetRun& run, TargetResult& result) { run.frame_price(result, backend); }));
+    }
     targets.push_back(target("gpu-build", "Ten million spheres, GPU (H200), build: at least 1 G spheres/s", 1e9, 1,
                              [](TargetRun& run, TargetResult& result) { run.gpu_build(result); }));
     targets.push_back(target(

@@ -50,7 +50,10 @@ TEST(Targets, IdsAreUniqueAndFollowTheCores) {
                            "gpu-scale-2",
                            "gpu-scale-4",
                            "gpu-city-coherent",
-                           "gpu-city-random"}) {
+                           "gpu-city-random",
+                           "gpu-whitted",
+                           "gpu-frame-price",
+                           "cpu-frame-price"}) {
         EXPECT_TRUE(ids.contains(id)) << id;
     }
     EXPECT_EQ(list_targets(16).size(), list_targets(2).size() + 1) << "two cores cannot show what 16 threads do";
@@ -81,6 +84,16 @@ TEST(Targets, AMissedTargetIsNotSatisfied) {
     Report report;
     EXPECT_FALSE(run_targets(options, loop_source(), report));
     EXPECT_EQ(property_of(report, "target gpu-rays-random"), "MISSED");
+}
+
+TEST(Targets, FramesWithoutTheirScenesAreLeftOpenAndNotMissed) {
+    TargetOptions options = small_options({"gpu-whitted", "gpu-frame-price", "cpu-frame-price"});
+    options.scenes = testing::TempDir() + "no_scenes";
+    Report report;
+    EXPECT_TRUE(run_targets(options, loop_source(), report));
+    for (const char* id : {"gpu-whitted", "gpu-frame-price", "cpu-frame-price"}) {
+        EXPECT_EQ(property_of(report, std::string("target ") + id), "not measured") << id;
+    }
 }
 
 TEST(Targets, TheAnimationIsMeasuredAndExplained) {
