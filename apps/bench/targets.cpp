@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <thread>
 
 #include "baseline/naive_renderer.h"
@@ -134,9 +135,7 @@ class TargetRun {
             rows[tier == Tier::fast ? 0 : 1] = time_rays(options, {"cuda"}, source_, report_).rows[0];
         }
         add_rows({rows[0], rows[1]});
-        const Ratio ratio = ratio_of_medians(rows[1].seconds, rows[0].seconds);
-        finish(result, ratio);
-        result.verdict = ratio.value <= result.required ? Verdict::met : Verdict::missed;
+        finish_at_most(result, ratio_of_medians(rows[1].seconds, rows[0].seconds));
     }
 
     /// The time of a frame in strict over that in fast: the worst of all scenes.
@@ -158,9 +157,8 @@ class TargetRun {
             worst = ratio;
             where = scene;
         }
-        finish(result, worst);
+        finish_at_most(result, worst);
         result.shown += ", " + where;
-        result.verdict = worst.value <= result.required ? Verdict::met : Verdict::missed;
     }
 
     /// Samples per second of whitted.gltf in strict.
@@ -292,16 +290,14 @@ class TargetRun {
             rows[i].backend = backend.name();
             rows[i].samples = sample_count(job);
         }
-        for (int round = -1; round < options_.repetitions; ++round) {
-            for (const std::size_t i : interleaved_order(count, static_cast<std::size_t>(round + 1))) {
-                job.tier = tiers[i];
-                const RenderResult timed = backend.render(resident[i], job);
-                report_.counters += timed.stats.counters;
-                if (round < 0) continue;
-                rows[i].seconds.push_back(timed.stats.seconds.render);
-                rows[i].rounds.push_back(round);
-            }
-        }
+        const auto measure = [&](std::size_t i) {
+            job.tier = tiers[i];
+            const RenderResult timed = backend.render(resident[i], job);
+            report_.counters += timed.stats.counters;
+            return timed.stats.seconds.render;
+        };
+        for (std::size_t i = 0; i < count; ++i) (void)measure(i);  // warms up
+        time_in_turns(rows, measure);
         return rows;
     }
 
@@ -337,12 +333,7 @@ class TargetRun {
         rows[1].label = our_name;
         (void)theirs();
         (void)ours();
-        for (int round = 0; round < options_.repetitions; ++round) {
-            for (const std::size_t i : interleaved_order(2, static_cast<std::size_t>(round))) {
-                rows[i].seconds.push_back((*measures[i])());
-                rows[i].rounds.push_back(round);
-            }
-        }
+        time_in_turns(rows, [&](std::size_t i) { return (*measures[i])(); });
         for (BenchmarkRow& row : rows) {
             row.scene = "named:paper";
             row.samples = sample_count(paper_job());
@@ -365,6 +356,21 @@ class TargetRun {
         result.measured = ratio.value;
         result.shown = format_ratio(ratio) + " times";
         result.verdict = ratio.value >= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    static void finish_at_most(TargetResult& result, const Ratio& ratio) {
+        finish(result, ratio);
+        result.verdict = ratio.value <= result.required ? Verdict::met : Verdict::missed;
+    }
+
+    /// Times all measures in turns, into a row for each.
+    void time_in_turns(std::span<BenchmarkRow> rows, const std::function<double(std::size_t)>& measure) const {
+        for (int round = 0; round < options_.repetitions; ++round) {
+            for (const std::size_t i : interleaved_order(rows.size(), static_cast<std::size_t>(round))) {
+                rows[i].seconds.push_back(measure(i));
+                rows[i].rounds.push_back(round);
+            }
+        }
     }
 
     const TargetOptions& options_;

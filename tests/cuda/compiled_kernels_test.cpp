@@ -70,6 +70,20 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
     expect_equal(Tier::strict, 1);
 }
 
+// The limits in cuda/CMakeLists.txt are those of a link at load.
+TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
+    const auto expect_within = [](Tier tier) {
+        const LinkedFacts facts = facts_of_any_scene(variants[1].effects, ConstantMemoryTracer::kinds);
+        const int most = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE).registers;
+        const int used = compiled(fmt::format("cuda/compiled_full_few_{}", to_string(tier)), "tandem_render").registers;
+        EXPECT_LE(used, most) << to_string(tier);
+        EXPECT_GT(used, most - 8) << to_string(tier);  // they are allocated in eights
+    };
+#define TANDEM_TIER(name, promise) expect_within(Tier::name);
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+}
+
 TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
     // Where margins cover fused operations, the exact tiers use them and fast does not: for intervals in hierarchies,
     // and for few primitives without effects (kernel/certain_light.h).

@@ -89,7 +89,8 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
     const Linked everything = write(all_effects);
     EXPECT_EQ(everything.registers, most_registers(facts(all_effects)));
     EXPECT_GT(code_bytes(all_effects), 3 * code_bytes({}));
-    // what a path carries from vertex to vertex, beside kernels that use about as many registers as they may
+    // What a path carries from vertex to vertex, beside kernels that use the registers that they may. A GPU allocates
+    // them in eights, so a kernel with up to seven fewer has no more warps.
     for (const Effect one :
          {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect, Effect::microfacets}) {
         const Linked& alone = linked(facts(one));
