@@ -14,7 +14,8 @@ install(
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
 )
 
-# tandem_install_header(HEADER): installs a header under lib/, and our headers that it includes.
+# tandem_install_header(HEADER): installs a header under lib/, and our headers that it includes. Those of the lobes
+# and of the environments stay here: only kernels ask for them.
 function(tandem_install_header header)
   get_property(known GLOBAL PROPERTY tandem_installed_headers)
   if(header IN_LIST known)
@@ -24,10 +25,18 @@ function(tandem_install_header header)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS lib/${header})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES lib/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT library)
-  file(STRINGS lib/${header} lines REGEX "^#include \"tandem/")
+  file(STRINGS lib/${header} lines REGEX "^#include \"tandem/|^#ifdef TANDEM_(LOBE|ENVIRONMENT)_HEADERS$|^#endif")
+  set(of_kernels OFF)
   foreach(line IN LISTS lines)
-    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
-    tandem_install_header(${included})
+    if(line MATCHES "^#include \"([^\"]+)\"")
+      if(NOT of_kernels)
+        tandem_install_header(${CMAKE_MATCH_1})
+      endif()
+    elseif(line MATCHES "^#ifdef")
+      set(of_kernels ON)
+    else()
+      set(of_kernels OFF)
+    endif()
   endforeach()
 endfunction()
 tandem_install_header(tandem/tandem.h)

@@ -23,6 +23,7 @@
 #include "tandem/base/memory.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/derive.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/kernel/moments.h"
 #include "tandem/math/fp_environment.h"

@@ -15,6 +15,7 @@
 #include "cuda/scene_kernels.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/kernel/first_hit.h"

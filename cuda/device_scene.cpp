@@ -10,6 +10,7 @@
 
 #include "tandem/base/memory.h"
 #include "tandem/base/parallel.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/collapse.h"
 
 namespace tandem::cuda {

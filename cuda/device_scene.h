@@ -7,6 +7,7 @@
 #include "cuda/memory.h"
 #include "cuda/refit_bvh.h"
 #include "cuda/stream.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 
 namespace tandem::cuda {

@@ -19,6 +19,7 @@
 #include "tandem/accuracy/reference.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/flip.h"
 #include "tandem/render/forecast.h"
 #include "tandem/render/tiled_film.h"

@@ -8,6 +8,7 @@
 #include "output.h"
 #include "pictures.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/images/flip.h"
 #include "tandem/report/format_number.h"

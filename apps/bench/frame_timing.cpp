@@ -1,6 +1,7 @@
 #include "frame_timing.h"
 
 #include "tandem/base/seconds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/motion_blur.h"
 
 namespace tandem::bench {

@@ -9,6 +9,7 @@
 #include "output.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/report/format_number.h"
 

@@ -3,6 +3,7 @@
 #include "baseline/rasteriser.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::bench {
 

@@ -15,6 +15,7 @@
 #include "second_rays.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/exact_math.h"

@@ -16,6 +16,7 @@
 #include "pictures.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/image_io.h"
 #include "tandem/images/png_encoder.h"
 #include "tandem/report/format_number.h"

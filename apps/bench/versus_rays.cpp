@@ -8,6 +8,7 @@
 #include "ray_sets.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/load_scene.h"
 #include "tandem/report/statistics.h"
 #include "versus.h"

@@ -10,6 +10,7 @@
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/effects/names.h"
 
 namespace tandem {

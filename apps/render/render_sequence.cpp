@@ -17,6 +17,7 @@
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/compile/cutout_kinds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
 #include "tandem/kernel/surface.h"

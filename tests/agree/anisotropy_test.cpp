@@ -12,6 +12,7 @@
 #include "support/backend_list.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

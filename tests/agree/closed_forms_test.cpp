@@ -9,6 +9,7 @@
 
 #include "support/backend_list.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

@@ -9,6 +9,7 @@
 #include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/oracle/oracle.h"
 #include "tandem/render/ray_coherence.h"
 #include "tandem/scene/named_scenes.h"

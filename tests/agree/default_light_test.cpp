@@ -6,6 +6,7 @@
 #include "support/backend_list.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/framing.h"
 

@@ -19,6 +19,7 @@
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -10,6 +10,7 @@
 #include "support/backend_list.h"
 #include "support/estimate.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {
@@ -30,7 +31,7 @@ Scene ball(const PhongMaterial& phong, std::optional<Microfacets> microfacets, b
     scene.indirect_light = indirect;
     return scene;
 }
-constexpr PhongMaterial white = {{0, 0, 0}, {1, 1, 1}, {0, 0, 0}, 1};
+constexpr PhongMaterial white_phong = {{0, 0, 0}, {1, 1, 1}, {0, 0, 0}, 1};
 constexpr PhongMaterial coloured = {{0, 0, 0}, {0.8F, 0.5F, 0.2F}, {0.3F, 0.3F, 0.3F}, 20};
 
 class EnvironmentPictures : public test::ExactBackend {
@@ -76,7 +77,7 @@ TEST_P(EnvironmentPictures, OfOneColourAreTheConstantBackground) {
 // Light is neither gained nor lost, whether paths or samples find it.
 TEST_P(EnvironmentPictures, HideAWhiteBall) {
     for (const bool indirect : {false, true}) {
-        Scene scene = ball(white, {}, indirect);
+        Scene scene = ball(white_phong, {}, indirect);
         scene.environment_image = constant_picture({1, 1, 1});
         test::expect_mean(mean_of(scene, 7), 6, indirect ? "indirect" : "direct");
     }
@@ -84,7 +85,7 @@ TEST_P(EnvironmentPictures, HideAWhiteBall) {
 
 // The light of one texel, by its solid angle: on a surface that faces it, what it emits times its extent over pi.
 TEST_P(EnvironmentPictures, LightByASingleTexel) {
-    Scene scene = ball(white, {}, false);
+    Scene scene = ball(white_phong, {}, false);
     scene.nodes[0].camera = OrthographicCamera{1e-3};
     EnvironmentImage image{{256, 128, std::vector<Vec3f>(256 * 128, Vec3f{0, 0, 0})}, 0, 2};
     // in the middle of the picture is -z; the camera looks at what faces +z, half of the picture further

@@ -9,6 +9,7 @@
 #include "support/random.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/scene/named_scenes.h"

@@ -11,13 +11,14 @@
 #include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
 namespace {
 
-RenderJob small_job(Tier tier = Tier::strict) {
+RenderJob odd_job(Tier tier = Tier::strict) {
     RenderJob job;
     job.tier = tier;
     job.width = 131;  // odd, so that tiles and packets end in the middle
@@ -35,7 +36,7 @@ Film render_with(const std::string& backend, const BackendOptions& options, cons
 
 class FilmBits : public test::ExactBackend {
   protected:
-    [[nodiscard]] static RenderJob job() { return small_job(GetParam().tier); }
+    [[nodiscard]] static RenderJob job() { return odd_job(GetParam().tier); }
 };
 
 TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
@@ -213,7 +214,7 @@ TEST(CpuFilm, DoesNotDependOnThreadsOrTiles) {
                 BackendOptions options;
                 options.threads = threads;
                 options.tile_size = tile;
-                const std::string hash = film_hash(render_with("cpu", options, scene, small_job()));
+                const std::string hash = film_hash(render_with("cpu", options, scene, odd_job()));
                 if (reference.empty()) reference = hash;
                 EXPECT_EQ(hash, reference) << name << ", " << threads << " threads, tiles of " << tile;
             }
@@ -231,8 +232,8 @@ TEST(CpuFilm, KeepsSubnormalsAfterACommit) {
     BackendOptions many;
     many.threads = 4;
     const PreparedScene prepared = prepare(scene);
-    const Film film = render_with("cpu", many, prepared, small_job());
-    const Film oracle = render_with("oracle", {}, prepared, small_job());
+    const Film film = render_with("cpu", many, prepared, odd_job());
+    const Film oracle = render_with("oracle", {}, prepared, odd_job());
     std::size_t lit = 0;
     for (std::size_t i = 0; i < film.pixel_count(); ++i) {
         lit += film.sums()[i].x > 0;

@@ -6,6 +6,7 @@
 
 #include "agree/varied_jobs.h"
 #include "support/filter_forms.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/pixel_filter_names.h"
 
 namespace tandem {

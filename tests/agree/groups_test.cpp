@@ -5,6 +5,7 @@
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -12,6 +12,7 @@
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/instanced_tracer.h"

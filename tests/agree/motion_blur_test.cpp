@@ -8,6 +8,7 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/camera_node.h"

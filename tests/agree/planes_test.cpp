@@ -7,7 +7,9 @@
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
+#include "support/film_of_the_oracle.h"
 #include "support/small_job.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_image.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/render/motion_blur.h"
@@ -128,12 +130,11 @@ double distance(const Vec3d& a, const Vec3d& b) {
 }
 
 TEST_P(PlaneBits, AreNearTheOracle) {
-    const auto oracle = make_backend("oracle");
     const PlaneMask wanted = FilmPlane::albedo | FilmPlane::normal | FilmPlane::depth | FilmPlane::primitive |
                              FilmPlane::material | FilmPlane::count;
     for (const auto& [name, scene] : scenes()) {
         const Film film = render(scene, wanted);
-        const Film right = oracle->render(oracle->load(scene, GetParam().tier), job(wanted)).film;
+        const Film& right = test::film_of_the_oracle(scene, "planes", job(wanted));
         const ConstFilmPlanes a = std::as_const(film).planes(), b = right.planes();
         std::size_t others = 0;
         for (std::size_t i = 0; i < film.pixel_count(); ++i) {

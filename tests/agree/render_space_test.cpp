@@ -9,6 +9,7 @@
 #include "support/under_parent.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
 

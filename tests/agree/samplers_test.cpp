@@ -7,6 +7,7 @@
 
 #include "agree/varied_jobs.h"
 #include "support/estimate.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/sampler_names.h"
 
 namespace tandem {

@@ -7,6 +7,7 @@
 #include "support/thrown_message.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/render/combined_backend.h"
 #include "tandem/scene/named_scenes.h"

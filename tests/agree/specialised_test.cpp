@@ -5,6 +5,7 @@
 #include "support/effect_scenes.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/effects/names.h"
 
 namespace tandem {

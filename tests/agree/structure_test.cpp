@@ -11,6 +11,7 @@
 #include "support/random.h"
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"

@@ -4,18 +4,20 @@
 
 #include <cmath>
 
+#include "support/aim.h"
 #include "support/backend_list.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/spawn_ray.h"
 
 namespace tandem {
 namespace {
 
 /// Rays from the surfaces of a scene, and the oracle's answers.
-struct Reference {
+struct SurfaceReference {
     std::string name;
     PreparedScene scene;
     std::vector<Ray<float>> rays;
@@ -25,15 +27,8 @@ struct Reference {
     std::vector<Hit> occluded;
 };
 
-Vec3d unit_vector(test::Random& random) {
-    while (true) {
-        const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-        if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
-    }
-}
-
 /// Where the rays of make_rays() hit, another ray leaves, to either side.
-void spawn_rays(Reference& r, std::size_t count) {
+void spawn_rays(SurfaceReference& r, std::size_t count) {
     const std::vector<Ray<float>> first = test::make_rays(r.scene, count, 31);
     std::vector<Hit> hits(first.size());
     std::vector<double> t(first.size());
@@ -44,21 +39,21 @@ void spawn_rays(Reference& r, std::size_t count) {
         test::Random random(i);
         const SurfacePoint<float> point =
             surface_point_of(view(r.scene), hits[i].primitive, first[i], NoSource{}, t[i]);
-        const Vec3d direction = unit_vector(random) * std::exp2(random.uniform(-20.0, 20.0));
+        const Vec3d direction = test::any_unit(random) * std::exp2(random.uniform(-20.0, 20.0));
         const SpawnedRay<float> spawned = spawn_ray(point, narrow(direction));
         r.rays.push_back(spawned.ray);
         r.sources.push_back(spawned.source);
     }
 }
 
-const std::vector<Reference>& references() {
-    static const std::vector<Reference> all = [] {
-        std::vector<Reference> list;
+const std::vector<SurfaceReference>& surface_references() {
+    static const std::vector<SurfaceReference> all = [] {
+        std::vector<SurfaceReference> list;
         const auto oracle = make_backend("oracle");
         std::vector<test::HardScene> scenes = test::hard_scenes();
         for (test::HardScene& of_one_kind : test::scenes_of_one_kind()) scenes.push_back(std::move(of_one_kind));
         for (const test::HardScene& parameters : scenes) {
-            Reference r{parameters.name, test::make_scene(parameters, 30), {}, {}, {}, {}, {}};
+            SurfaceReference r{parameters.name, test::make_scene(parameters, 30), {}, {}, {}, {}, {}};
             spawn_rays(r, parameters.count > 500 ? 5'000 : 60'000);
             const auto scene = oracle->load(r.scene);
             std::vector<double> t(r.rays.size());
@@ -82,7 +77,7 @@ const std::vector<Reference>& references() {
     return all;
 }
 
-std::string describe(const Reference& r, std::size_t i) {
+std::string describe(const SurfaceReference& r, std::size_t i) {
     char text[400];
     const Ray<float>& ray = r.rays[i];
     std::snprintf(text, sizeof(text), "scene '%s', ray %zu: origin %a %a %a direction %a %a %a leaves %u %s",
@@ -100,7 +95,8 @@ class SurfaceRays : public test::ExactBackend {
         std::vector<double> t;
         RenderCounters counters;
     };
-    static Answers ask(Backend& backend, const Reference& r, Tier tier, Coherence coherence = Coherence::unknown) {
+    static Answers ask(Backend& backend, const SurfaceReference& r, Tier tier,
+                       Coherence coherence = Coherence::unknown) {
         Answers a{
             std::vector<Hit>(r.rays.size()), std::vector<Hit>(r.rays.size()), std::vector<double>(r.rays.size()), {}};
         const auto scene = backend.load(r.scene, tier);
@@ -118,7 +114,7 @@ class SurfaceRays : public test::ExactBackend {
 
 TEST_P(SurfaceRays, AgreeWithTheOracle) {
     std::size_t inward = 0, outward = 0, own = 0, stopped = 0;
-    for (const Reference& r : references()) {
+    for (const SurfaceReference& r : surface_references()) {
         const Answers a = ask(*backend_, r, GetParam().tier);
         EXPECT_EQ(a.counters, RenderCounters{}) << r.name;
         for (std::size_t i = 0; i < r.rays.size(); ++i) {
@@ -142,7 +138,7 @@ TEST_P(SurfaceRays, GiveTheBitsOfTheLeastProcessor) {
     BackendOptions options;
     options.instruction_set = "x86-64-v2";
     const auto least = make_backend("cpu", options);
-    for (const Reference& r : references()) {
+    for (const SurfaceReference& r : surface_references()) {
         const Answers expected = ask(*least, r, GetParam().tier);
         for (const Coherence coherence : {Coherence::coherent, Coherence::incoherent}) {
             const Answers a = ask(*backend_, r, GetParam().tier, coherence);

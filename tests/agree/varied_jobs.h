@@ -9,8 +9,10 @@
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
+#include "support/film_of_the_oracle.h"
 #include "support/small_job.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
@@ -74,13 +76,12 @@ class VariedJobs : public ExactBackend {
     }
 
     void expect_films_near_the_oracle(const std::vector<VariedJob>& jobs) {
-        const auto oracle = make_backend("oracle");
         const bool precise = GetParam().tier == Tier::precise;
         for (const EffectScene& entry : effect_scenes()) {
             if (entry.effects.has_any(otherwise_in_the_oracle)) continue;
             const PreparedScene scene = prepare(entry.scene);
             for (const auto& [name, job] : jobs) {
-                const Film expected = oracle->render(oracle->load(scene, GetParam().tier), job).film;
+                const Film& expected = film_of_the_oracle(scene, name, job);
                 const FilmDifference difference = compare(backend_->render(load(scene), job).film, expected);
                 const std::string what = entry.name + ", " + name;
                 EXPECT_LE(difference.residual_rate(Tolerance::one_level), precise ? 5e-4 : 1e-2) << what;

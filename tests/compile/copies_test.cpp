@@ -10,6 +10,7 @@
 #include "support/scenes.h"
 #include "support/thread_limit.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/traced_job.h"
 
 namespace tandem {

@@ -5,6 +5,7 @@
 
 #include "support/random.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
 
 namespace tandem {

@@ -9,6 +9,7 @@
 #include "support/scenes.h"
 #include "support/thread_limit.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {

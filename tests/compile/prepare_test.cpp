@@ -1,8 +1,10 @@
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "support/scenes.h"
@@ -157,6 +159,31 @@ Mesh square() {
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     mesh.triangles = {0, 1, 2, 0, 2, 3};
     return mesh;
+}
+
+TEST(PrepareMesh, PrimitivesKnowTheirOwner) {
+    Scene scene = mesh_scene(square());
+    scene.materials.push_back(scene.materials[0]);
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.nodes.push_back(scene.nodes[1]);
+    scene.nodes[2].name = "second";
+    scene.nodes[2].geometry[0] = {MeshShape{1}, 1, {{{5, 0, 0}, {}, {1, 1, 1}}, {{0, 0, 5}, {}, {1, 1, 1}}}};
+    scene.nodes.push_back(scene.nodes[1]);
+    scene.nodes[3].name = "again";
+    scene.nodes[3].trs.translation = {0, 0, -5};
+    for (const std::uint64_t instanced_from : {1, 1000}) {  // kept once, and written out
+        const auto prepared = prepare_shared(scene, {.instanced_from = instanced_from});
+        ASSERT_EQ(prepared->instances.empty(), instanced_from > 1);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> faces;
+        for (std::uint32_t id = 0; id < 8; ++id) {
+            const PrimitiveOwner owner = owner_of(*prepared, id);
+            ++faces[{owner.node, owner.material}];
+        }
+        EXPECT_EQ(faces, (decltype(faces){{{1, 0}, 2}, {{2, 1}, 4}, {{3, 0}, 2}})) << instanced_from;
+        EXPECT_EQ(input_error([&] { static_cast<void>(owner_of(*prepared, 8)); }),
+                  "there is no primitive 8: the prepared scene has 8");
+        EXPECT_THROW(static_cast<void>(owner_of(*prepared, no_primitive)), InputError);
+    }
 }
 
 TEST(PrepareMesh, SharedVerticesHaveTheSameBits) {

@@ -7,6 +7,7 @@
 
 #include "support/scenes.h"
 #include "tandem/compile/prepare_textures.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/levels.h"
 #include "tandem/kernel/shapes/parametrisation.h"
 

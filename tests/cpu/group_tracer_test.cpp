@@ -8,6 +8,7 @@
 #include "support/bundles.h"
 #include "support/hard_scenes.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/scene/named_scenes.h"

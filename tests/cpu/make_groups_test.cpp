@@ -9,6 +9,7 @@
 #include "cpu/group_walk.h"
 #include "support/hard_scenes.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/make_node.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -11,6 +11,7 @@
 #include "cuda/device_scene.h"
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/collapse.h"
 #include "tandem/kernel/traversal/make_node.h"
 #include "tandem/scene/named_scenes.h"

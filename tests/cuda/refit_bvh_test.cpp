@@ -11,6 +11,7 @@
 
 #include "cuda/bvh_on_gpu.h"
 #include "support/random.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
 
 namespace tandem::cuda {

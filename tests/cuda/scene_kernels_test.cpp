@@ -19,7 +19,7 @@ namespace {
 constexpr int architecture = TANDEM_LTO_ARCHITECTURE > 90 ? TANDEM_LTO_ARCHITECTURE : 90;
 const std::uint32_t spheres = PrimitiveKinds::sphere;
 
-struct Linked {
+struct LinkedSize {
     int registers = 0, stack_bytes = 0;
     std::size_t code_bytes = 0;
 };
@@ -37,9 +37,9 @@ class SceneKernel : public ::testing::Test {
         scene.light_count = lights;
         return linked_facts(scene, effects, PathLimits{}, sampler, filter);
     }
-    /// Linked once for all tests of the program.
-    static const Linked& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
-        static std::map<std::pair<Structure, LinkedFacts>, Linked> known;
+    /// LinkedSize once for all tests of the program.
+    static const LinkedSize& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
+        static std::map<std::pair<Structure, LinkedFacts>, LinkedSize> known;
         const auto [place, is_new] = known.try_emplace({structure, facts});
         if (is_new) {
             const JitInput input = render_input(Tier::strict, structure, facts, architecture);
@@ -65,7 +65,7 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
                                                {Effect::anisotropy, Effect::microfacets}};
     nlohmann::ordered_json table = nlohmann::ordered_json::array();
     const auto write = [&](EffectMask effects) {
-        const Linked& kernel = linked(facts(effects));
+        const LinkedSize& kernel = linked(facts(effects));
         table.push_back({{"effects", to_string(effects)},
                          {"registers", kernel.registers},
                          {"stack_bytes", kernel.stack_bytes},
@@ -86,14 +86,14 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
         if (synchronising_effects.has(effect)) without = without | other;
         EXPECT_GT(code_bytes(without | effect), code_bytes(without)) << to_string(effect);
     }
-    const Linked everything = write(all_effects);
+    const LinkedSize everything = write(all_effects);
     EXPECT_EQ(everything.registers, most_registers(facts(all_effects)));
     EXPECT_GT(code_bytes(all_effects), 3 * code_bytes({}));
     // What a path carries from vertex to vertex, beside kernels that use the registers that they may. A GPU allocates
     // them in eights, so a kernel with up to seven fewer has no more warps.
     for (const Effect one :
          {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect, Effect::microfacets}) {
-        const Linked& alone = linked(facts(one));
+        const LinkedSize& alone = linked(facts(one));
         EXPECT_LE(alone.registers, most_registers(facts(one))) << to_string(one);
         EXPECT_GT(alone.registers, most_registers(facts(one)) - 8) << to_string(one);
         EXPECT_GT(everything.stack_bytes, 3 * alone.stack_bytes) << to_string(one);

@@ -8,6 +8,7 @@
 
 #include "gltf/files.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/image_codecs.h"
 
 namespace {

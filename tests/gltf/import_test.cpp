@@ -9,6 +9,7 @@
 #include "gltf/files.h"
 #include "support/thrown_message.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/image_io.h"
 
 namespace tandem {

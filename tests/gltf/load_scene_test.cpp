@@ -5,6 +5,7 @@
 
 #include "gltf/files.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/framing.h"
 

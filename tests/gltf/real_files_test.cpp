@@ -8,6 +8,7 @@
 #include "gltf/files.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

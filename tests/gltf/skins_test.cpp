@@ -3,6 +3,7 @@
 
 #include "gltf/files.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

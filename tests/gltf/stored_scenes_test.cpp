@@ -6,6 +6,7 @@
 #include "gltf/files.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/effects/names.h"
 #include "tandem/gltf/load_scene.h"
 

@@ -7,6 +7,7 @@
 #include "hard/corpus/error_bounds.h"
 #include "hard/corpus/hard_case.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
 
 namespace tandem::hard {
 namespace {

@@ -17,6 +17,7 @@
 #include "hard/corpus/exchange.h"
 #include "hard/corpus/npy.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/import.h"
 
 namespace tandem {

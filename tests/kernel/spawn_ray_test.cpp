@@ -6,19 +6,14 @@
 
 #include <cmath>
 
+#include "support/aim.h"
 #include "support/random.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
 namespace {
-
-Vec3d unit_vector(test::Random& random) {
-    while (true) {
-        const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-        if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
-    }
-}
 
 PreparedScene spheres(std::vector<Sphere> list) {
     PreparedScene scene;
@@ -40,7 +35,7 @@ PreparedScene one_body(const Shape& shape, const Trs& trs) {
 /// A point where a ray from the origin hits primitive 0, which lies around `towards`; nothing if it misses.
 std::optional<SurfacePoint<float>> seen_point(const SceneView& scene, const Vec3d& towards, double spread,
                                               test::Random& random) {
-    const Ray<float> ray = {{0, 0, 0}, narrow(towards + unit_vector(random) * (spread * random.uniform(0.0, 1.0)))};
+    const Ray<float> ray = {{0, 0, 0}, narrow(towards + test::any_unit(random) * (spread * random.uniform(0.0, 1.0)))};
     const Closest<float> hit = LoopTracer{scene}.closest(ray, NoSource{}, true);
     if (hit.primitive != 0) return std::nullopt;
     return surface_point(scene, ray, NoSource{}, hit, true);

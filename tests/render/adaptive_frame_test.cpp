@@ -6,6 +6,7 @@
 #include "support/input_error.h"
 #include "support/noise_backend.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/render/tile_windows.h"
 #include "tandem/render/tiled_film.h"

@@ -18,10 +18,10 @@ TileErrors tile_of(double variance, int samples) {
 }
 
 /// The mean error and the mean samples after the round.
-struct Film {
+struct RoundResult {
     double error = 0, samples = 0;
 };
-Film after(const std::vector<TileErrors>& tiles, const std::vector<int>& ends) {
+RoundResult after(const std::vector<TileErrors>& tiles, const std::vector<int>& ends) {
     ErrorSums sum;
     for (std::size_t i = 0; i < tiles.size(); ++i) sum += predicted(tiles[i], ends[i]);
     const double samples = std::accumulate(ends.begin(), ends.end(), 0.0);
@@ -59,7 +59,7 @@ TEST(Allotment, IsInProportionToTheStandardDeviation) {
                 tiles[i].samples = round.ends[i];
             }
         }
-        const Film film = after(tiles, round.ends);
+        const RoundResult film = after(tiles, round.ends);
         EXPECT_LE(film.error, wanted) << "seed " << seed;
         EXPECT_GE(film.error, 0.95 * wanted) << "seed " << seed;
         // parts are 1/3 or 1/2 apart, so the number is a little above the least

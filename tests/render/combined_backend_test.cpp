@@ -11,6 +11,7 @@
 #include "support/temporary_folder.h"
 #include "support/thrown_message.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/render/adaptive_frame.h"
 #include "tandem/render/checkpointed_frame.h"

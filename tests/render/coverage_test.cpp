@@ -6,6 +6,7 @@
 
 #include "support/noise_backend.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/flip.h"
 #include "tandem/render/adaptive_frame.h"
 #include "tandem/scene/named_scenes.h"

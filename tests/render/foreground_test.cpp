@@ -6,13 +6,14 @@
 #include <functional>
 
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/oracle/oracle.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {
 namespace {
 
-constexpr Vec3f black{0, 0, 0};
+constexpr Vec3f black_rgb{0, 0, 0};
 
 struct View {
     const char* name;
@@ -52,7 +53,7 @@ TEST_P(Foreground, IsWhatHidesTheBackground) {
                 EXPECT_EQ(seen.pixels[i], film.mean(i)) << x << ", " << y;
                 ++bodies;
             } else if (hits == 0) {
-                EXPECT_EQ(seen.pixels[i], black) << x << ", " << y;
+                EXPECT_EQ(seen.pixels[i], black_rgb) << x << ", " << y;
                 ++backgrounds;
             }
         }
@@ -84,7 +85,7 @@ TEST(ForegroundOfFilms, KnowsTheReachOfTheFilter) {
     const Film film = oracle->render(oracle->load(prepared, job.tier), job).film;
     const auto visible = [&](PixelFilter filter) {
         const FloatImage seen = Backdrop(prepared, job.width, job.height, filter).foreground(film);
-        return std::count_if(seen.pixels.begin(), seen.pixels.end(), [](const Vec3f& c) { return !(c == black); });
+        return std::count_if(seen.pixels.begin(), seen.pixels.end(), [](const Vec3f& c) { return !(c == black_rgb); });
     };
     EXPECT_EQ(visible(PixelFilter::gaussian), 0);
     EXPECT_GT(visible(PixelFilter::box), 5) << "the test can fail";
@@ -92,7 +93,7 @@ TEST(ForegroundOfFilms, KnowsTheReachOfTheFilter) {
 
 TEST(ForegroundOfFilms, OfABlackBackgroundIsEverything) {
     Scene scene = named_scene("paper");
-    scene.environment.bottom = scene.environment.top = black;
+    scene.environment.bottom = scene.environment.top = black_rgb;
     Film film(2, 1, 2);
     film.sums()[0] = {1, 2, 4};
     film.sums()[1] = {-0.25, 0, 1e-30};

@@ -4,6 +4,7 @@
 
 #include "support/crowded_scene.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem {

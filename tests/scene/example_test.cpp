@@ -1,6 +1,8 @@
 /// The example of docs/scene-format.md, compiled. A test in tests/gltf compares the two texts.
 #include <gtest/gtest.h>
 
+#include "tandem/compile/prepared_scene.h"
+
 // [example]
 #include "tandem/compile/prepare.h"
 

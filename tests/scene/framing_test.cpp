@@ -8,6 +8,7 @@
 
 #include "support/random.h"
 #include "support/scenes.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/turns.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/surface_reach.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -8,6 +8,7 @@
 #include "support/scenes.h"
 #include "support/thrown_message.h"
 #include "tandem/base/error.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"

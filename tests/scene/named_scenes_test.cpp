@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/scenes.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/load_scene.h"
 
 namespace tandem {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/scenes.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

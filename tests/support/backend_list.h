@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::test {
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tandem/base/error.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 
 namespace tandem::test {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/plane_film.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 #include "tandem/render/copy_window.h"
 

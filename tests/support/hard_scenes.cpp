@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::test {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 
 namespace tandem::test {

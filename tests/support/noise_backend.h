@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "support/random.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 #include "tandem/render/ready_frame.h"
 

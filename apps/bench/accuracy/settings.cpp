@@ -11,6 +11,7 @@
 #include "tandem/base/error.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/pixel_filter_names.h"
 #include "tandem/render/render_job.h"
 #include "tandem/render/sampler_names.h"

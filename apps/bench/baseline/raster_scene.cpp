@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tandem/base/error.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/icosphere.h"
 
 namespace tandem::bench {

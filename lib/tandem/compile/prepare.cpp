@@ -21,6 +21,7 @@
 #include "tandem/compile/place_mesh.h"
 #include "tandem/compile/place_solids.h"
 #include "tandem/compile/prepare_textures.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/compile/render_origin.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
@@ -369,6 +370,10 @@ PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
     check(scene);
     if (options.effects.off.empty()) return Preparer(scene, options).run();
     return Preparer(without_effects(scene, options.effects.off), options).run();
+}
+
+std::shared_ptr<const PreparedScene> prepare_shared(const Scene& scene, const PrepareOptions& options) {
+    return std::make_shared<const PreparedScene>(prepare(scene, options));
 }
 
 }  // namespace tandem

@@ -1,15 +1,18 @@
 /// Prepares an authored scene: flat arrays at one instant.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "tandem/compile/prepared_scene.h"
 #include "tandem/compile/render_settings.h"
 #include "tandem/effects/names.h"
 #include "tandem/scene/scene.h"
 
 namespace tandem {
+
+struct PreparedScene;  // its arrays: prepared_scene.h
 
 struct PrepareOptions {
     std::int32_t frame = 0;
@@ -36,6 +39,24 @@ void check(const Scene& scene);
 /// rounded, unlike that of a frame.
 /// Throws InputError as check() does, and if the camera is missing; EnvironmentError if the memory cannot hold the
 /// scene.
-[[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
+[[nodiscard]] std::shared_ptr<const PreparedScene> prepare_shared(const Scene& scene,
+                                                                  const PrepareOptions& options = {});
+
+/// Points from world space to render space, which is world space translated, and back. Directions, normals and t are
+/// the same in both. Metres.
+[[nodiscard]] Vec3d render_from_world(const PreparedScene& scene, const Vec3d& world);
+[[nodiscard]] Vec3d world_from_render(const PreparedScene& scene, const Vec3d& render);
+
+/// What a primitive was made from.
+struct PrimitiveOwner {
+    std::uint32_t node;      ///< index into Scene::nodes
+    std::uint32_t material;  ///< index into Scene::materials
+};
+/// Of the primitive with the id that a Hit or the plane `primitive` of a film has. Throws InputError if there is none.
+[[nodiscard]] PrimitiveOwner owner_of(const PreparedScene& scene, std::uint32_t primitive);
+
+/// SHA-256, in hexadecimal, of what determines the image: equal hashes mean equal images. A frame with motion blur has
+/// its own hash (render/motion_blur.h).
+[[nodiscard]] std::string scene_hash(const PreparedScene& scene);
 
 }  // namespace tandem

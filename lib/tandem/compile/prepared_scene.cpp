@@ -1,7 +1,12 @@
 #include "tandem/compile/prepared_scene.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "tandem/base/error.h"
 #include "tandem/base/sha256.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/kernel/view/scene_view.h"
 #include "tandem/math/fp_environment.h"
 
@@ -66,6 +71,28 @@ CameraView camera_view(const PreparedCamera& camera, int width, int height, doub
     return view;
 }
 
+Vec3d render_from_world(const PreparedScene& scene, const Vec3d& world) { return world - scene.origin; }
+
+Vec3d world_from_render(const PreparedScene& scene, const Vec3d& render) { return render + scene.origin; }
+
+PrimitiveOwner owner_of(const PreparedScene& scene, std::uint32_t primitive) {
+    const std::uint64_t count = primitive_count(scene) + instanced_face_count(scene.instances);
+    if (primitive >= count) {
+        throw InputError(fmt::format("there is no primitive {}: the prepared scene has {}", primitive, count));
+    }
+    if (primitive < primitive_count(scene)) return {scene.node_of[primitive], scene.material_of[primitive]};
+    // the last one whose first id is not greater; the ids ascend
+    const auto find = [&](const auto& list) {
+        const auto after = std::upper_bound(list.begin(), list.end(), primitive,
+                                            [](std::uint32_t id, const auto& entry) { return id < entry.first_id; });
+        return static_cast<std::size_t>(after - list.begin()) - 1;
+    };
+    const PreparedInstances& all = scene.instances;
+    return {all.node_of[find(all.instances)], all.meshes[find(all.meshes)].material};
+}
+
+// It reads everything that determines the image. It leaves out node_of and the numbers of dropped things, which only
+// serve messages; copies, which follow from the rest; and origin, effects, time and shutter.
 std::string scene_hash(const PreparedScene& scene) {
     Sha256 hash;
     const auto add = [&](const auto& array) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tandem/compile/copies.h"
+#include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_instances.h"
 #include "tandem/compile/prepared_textures.h"
 #include "tandem/kernel/bsdf/phong.h"
@@ -74,14 +75,6 @@ struct PreparedScene {
 /// Of the arrays; without the faces of instanced meshes.
 [[nodiscard]] std::size_t primitive_count(const PreparedScene& scene);
 
-/// Points from one space to the other; directions, normals and t are the same in both.
-[[nodiscard]] inline Vec3d render_from_world(const PreparedScene& scene, const Vec3d& world) {
-    return world - scene.origin;
-}
-[[nodiscard]] inline Vec3d world_from_render(const PreparedScene& scene, const Vec3d& render) {
-    return render + scene.origin;
-}
-
 /// The kernels' view of the arrays of `scene`, which must outlive it.
 [[nodiscard]] SceneView view(const PreparedScene& scene);
 
@@ -90,9 +83,7 @@ struct PreparedScene {
 /// coordinate_limit.
 [[nodiscard]] CameraView camera_view(const PreparedCamera& camera, int width, int height, double reach = 0);
 
-/// SHA-256, in hexadecimal, of everything above that determines the image: equal hashes mean equal images. It leaves
-/// out node_of and the numbers of dropped things, which only serve messages; copies, which follow from the rest; and
-/// origin, effects, time and shutter: a frame with motion blur has its own hash (render/motion_blur.h).
-[[nodiscard]] std::string scene_hash(const PreparedScene& scene);
+/// prepare_shared() by value, for code that reads the arrays.
+[[nodiscard]] PreparedScene prepare(const Scene& scene, const PrepareOptions& options = {});
 
 }  // namespace tandem

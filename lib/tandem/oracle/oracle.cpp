@@ -9,6 +9,7 @@
 
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/oracle/oracle_path.h"

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/ray.h"
 #include "tandem/render/backend.h"
 

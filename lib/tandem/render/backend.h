@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
 #include "tandem/images/display.h"
 #include "tandem/images/image.h"
@@ -21,6 +20,8 @@
 #include "tandem/render/trace_job.h"
 
 namespace tandem {
+
+struct PreparedScene;
 
 /// What one of several backends that work together has done so far (combined_backend.h).
 struct MemberWork {
@@ -97,12 +98,12 @@ class Backend {
 
     /// The same. A backend that reads scenes in the host's memory keeps this one instead of a copy.
     [[nodiscard]] virtual std::shared_ptr<ResidentScene> load_shared(const std::shared_ptr<const PreparedScene>& scene,
-                                                                     Tier tier) {
+                                                                     Tier tier = Tier::strict) {
         return load(*scene, tier);
     }
 
     /// Finds the nearest hits of rays in front of their origins (t > 0), or whether shadow rays are blocked
-    /// (trace_job.h). Rays are in render space; render_from_world() (compile/prepared_scene.h) converts points. Rays
+    /// (trace_job.h). Rays are in render space; render_from_world() (compile/prepare.h) converts points. Rays
     /// that are not traceable (math/ray.h) miss and are counted. Returns the seconds that tracing took, without copies.
     virtual double trace(ResidentScene& scene, const TraceJob& job) = 0;
     double trace(ResidentScene& scene, std::span<const Ray<float>> rays, std::span<Hit> hits) {

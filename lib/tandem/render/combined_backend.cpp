@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/combined_crew.h"
 
 namespace tandem {

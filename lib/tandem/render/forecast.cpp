@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/render/tile_windows.h"
 

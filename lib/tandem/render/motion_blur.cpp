@@ -8,6 +8,7 @@
 #include "tandem/base/seconds.h"
 #include "tandem/base/sha256.h"
 #include "tandem/compile/derive.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/motion.h"
@@ -100,6 +101,8 @@ FramePlan plan_frame(const Scene& scene, const PrepareOptions& options, const Re
     }
     return plan;
 }
+
+void FrameHash::add(const PreparedScene& instant) { hashes_.push_back(scene_hash(instant)); }
 
 std::string FrameHash::get() const {
     if (!is_blurred(plan_)) return hashes_.front();

@@ -42,7 +42,7 @@ class FrameHash {
   public:
     explicit FrameHash(const FramePlan& plan) : plan_(plan) {}
     /// Adds an instant; call it in the order of the instants.
-    void add(const PreparedScene& instant) { hashes_.push_back(scene_hash(instant)); }
+    void add(const PreparedScene& instant);
     /// The hash, after all instants have been added.
     [[nodiscard]] std::string get() const;
 

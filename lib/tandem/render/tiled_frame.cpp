@@ -10,6 +10,7 @@
 
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/math/fp_environment.h"
 
 namespace tandem {

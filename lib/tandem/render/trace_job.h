@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "tandem/kernel/shapes/ray_source.h"
+#include "tandem/kernel/shapes/source.h"
 #include "tandem/math/ray.h"
 #include "tandem/render/stats.h"
 
@@ -26,7 +26,7 @@ enum class Coherence {
 
 /// All spans except rays and hits may be empty; the others have as many elements.
 struct TraceJob {
-    std::span<const Ray<float>> rays;  ///< in render space (PreparedScene::origin)
+    std::span<const Ray<float>> rays;  ///< in render space (render_from_world())
     std::span<Hit> hits;
     std::span<const RaySource> sources{};  ///< the surfaces that the rays leave (kernel/spawn_ray.h)
     std::span<const RayEnd> ends{};        ///< not empty: shadow rays. A hit is {0, some_primitive}

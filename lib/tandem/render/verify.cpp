@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tandem/base/error.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/render/adaptive_frame.h"

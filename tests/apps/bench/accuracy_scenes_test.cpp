@@ -9,6 +9,7 @@
 #include "support/input_error.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::bench {
 namespace {

@@ -21,7 +21,7 @@ namespace {
 using test::contains;
 using test::input_error;
 
-SweepOptions small() {
+SweepOptions small_sweep() {
     SweepOptions options;
     options.tiers = {"strict"};
     options.axes = {"samples", "tessellation"};
@@ -41,17 +41,9 @@ std::vector<Kind> blocks_of(const Report& report) {
     return found;
 }
 
-double figure(const BenchmarkRow& row, const std::string& name) {
-    for (const auto& [key, value] : row.figures) {
-        if (key == name) return value;
-    }
-    ADD_FAILURE() << "no " << name;
-    return 0;
-}
-
 TEST(AccuracySweep, FillsTheReport) {
     Report report;
-    EXPECT_TRUE(run_sweep(small(), loop_source(), report)) << prose_of(report);
+    EXPECT_TRUE(run_sweep(small_sweep(), loop_source(), report)) << prose_of(report);
     ASSERT_EQ(report.rows.size(), 2U * 2 * 2) << "two backends, strict and a tessellation, two numbers of samples";
     for (const BenchmarkRow& row : report.rows) {
         EXPECT_EQ(row.seconds.size(), 8U) << row.label;
@@ -85,7 +77,7 @@ TEST(AccuracySweep, FillsTheReport) {
 }
 
 TEST(AccuracySweep, ATierFailsWhereItDecidesPixelsWrongly) {
-    SweepOptions options = small();
+    SweepOptions options = small_sweep();
     options.axes = {"tier"};
     options.tiers = {"strict", "fast", "precise"};
     options.samples = {16};
@@ -111,7 +103,7 @@ TEST(AccuracySweep, ATierFailsWhereItDecidesPixelsWrongly) {
 }
 
 TEST(AccuracySweep, TheAnswerIsAtTheTop) {
-    SweepOptions options = small();
+    SweepOptions options = small_sweep();
     options.seeds = 32;
     options.axes = {};
     options.samples = {1};
@@ -123,7 +115,7 @@ TEST(AccuracySweep, TheAnswerIsAtTheTop) {
 }
 
 TEST(AccuracySweep, MeasuresTheRungBelowAndADenoiser) {
-    SweepOptions options = small();
+    SweepOptions options = small_sweep();
     options.backends = {"cpu"};
     options.axes = {"rasterised", "denoised"};
     options.denoiser = TANDEM_STUB_DENOISER;
@@ -168,7 +160,7 @@ TEST(AccuracySweep, SaysWhatTheRungBelowLacksAndWhyThereIsNoDenoiser) {
 }
 
 TEST(AccuracySweep, ComparesAFilterWithReferencesOfTheSameFilter) {
-    SweepOptions options = small();
+    SweepOptions options = small_sweep();
     options.backends = {"cpu"};
     options.axes = {"filter"};
     options.samples = {256};
@@ -196,17 +188,16 @@ TEST(AccuracySweep, ComparesAFilterWithReferencesOfTheSameFilter) {
 }
 
 TEST(AccuracySweep, FailsIfABackendThatPromisesBitsHasOthers) {
-    const auto gpu_spoils = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
-    SweepOptions options = small();
+    SweepOptions options = small_sweep();
     options.axes = {};
     Report report;
-    EXPECT_FALSE(run_sweep(options, loop_source(gpu_spoils), report));
+    EXPECT_FALSE(run_sweep(options, loop_source(spoil_the_gpu), report));
     EXPECT_TRUE(contains(prose_of(report), "differ in a bit from those of cpu"));
 }
 
 TEST(AccuracySweep, RefusesOptionsThatMakeNoSense) {
     const auto refused = [](auto change) {
-        SweepOptions options = small();
+        SweepOptions options = small_sweep();
         change(options);
         Report report;
         return input_error([&] { (void)run_sweep(options, loop_source(), report); });

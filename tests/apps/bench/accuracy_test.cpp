@@ -10,7 +10,7 @@
 namespace tandem::bench {
 namespace {
 
-AccuracyOptions small() {
+AccuracyOptions small_accuracy() {
     AccuracyOptions options;
     options.scenes = {"named:paper"};
     options.tiers = {"strict"};
@@ -23,22 +23,21 @@ AccuracyOptions small() {
 
 TEST(Accuracy, HoldsOfRightBackends) {
     Report report;
-    EXPECT_TRUE(run_accuracy(small(), loop_source(), report)) << prose_of(report);
+    EXPECT_TRUE(run_accuracy(small_accuracy(), loop_source(), report)) << prose_of(report);
     // two backends; every kind easy and hard, and one frame
     EXPECT_EQ(report.rows.size(), 2 * (2 * primitive_kinds().size() + 1));
     for (const BenchmarkRow& row : report.rows) EXPECT_EQ(row.seconds.size(), 2U) << row.label;
 }
 
 TEST(Accuracy, FindsAWrongHitAndAWrongPixel) {
-    const auto gpu_spoils = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
     Report report;
-    EXPECT_FALSE(run_accuracy(small(), loop_source(gpu_spoils), report));
+    EXPECT_FALSE(run_accuracy(small_accuracy(), loop_source(spoil_the_gpu), report));
     EXPECT_NE(prose_of(report).find("cpu strict and cuda strict differ in a bit"), std::string::npos);
     EXPECT_NE(prose_of(report).find("1 pixels of cuda strict"), std::string::npos) << prose_of(report);
 }
 
 TEST(Accuracy, RefusesAnUnknownTier) {
-    AccuracyOptions options = small();
+    AccuracyOptions options = small_accuracy();
     options.tiers = {"sloppy"};
     Report report;
     EXPECT_THROW((void)run_accuracy(options, loop_source(), report), InputError);

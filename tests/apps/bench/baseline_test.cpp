@@ -12,6 +12,7 @@
 #include "tandem/base/error.h"
 #include "tandem/base/whole_file.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -5,17 +5,11 @@
 
 #include <algorithm>
 
+#include "loop_backend.h"
 #include "support/input_error.h"
 
 namespace tandem::bench {
 namespace {
-
-double figure(const BenchmarkRow& row, const std::string& name) {
-    const auto found =
-        std::find_if(row.figures.begin(), row.figures.end(), [&](const auto& entry) { return entry.first == name; });
-    EXPECT_NE(found, row.figures.end()) << name;
-    return found->second;
-}
 
 TEST(CoverageReport, HasEveryTrialOfEveryScene) {
     CoverageOptions options;

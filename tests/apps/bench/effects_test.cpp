@@ -20,7 +20,7 @@ namespace {
 
 const std::string glass = std::string(TANDEM_SCENES) + "/glass.gltf";
 
-EffectsOptions small_options() {
+EffectsOptions small_effects() {
     EffectsOptions options;
     options.scenes = {glass};
     options.backends = {"cpu"};
@@ -34,13 +34,6 @@ const BenchmarkRow* row_named(const Report& report, const std::string& label) {
     const auto row = std::find_if(report.rows.begin(), report.rows.end(),
                                   [&](const BenchmarkRow& one) { return one.label == label; });
     return row == report.rows.end() ? nullptr : &*row;
-}
-
-double figure(const BenchmarkRow& row, const std::string& name) {
-    for (const auto& [key, value] : row.figures) {
-        if (key == name) return value;
-    }
-    return -1;
 }
 
 TEST(EffectLedger, PlansEachEffectThatTheSceneNeeds) {
@@ -59,7 +52,7 @@ TEST(EffectLedger, ASceneWithoutEffectsHasNothingToLeaveOut) {
     const LedgerPlan plan = plan_ledger(load_scene("named:paper"));
     EXPECT_TRUE(plan.needs.empty());
     EXPECT_EQ(plan.arms.size(), 2U);
-    EffectsOptions options = small_options();
+    EffectsOptions options = small_effects();
     options.scenes = {"named:paper"};
     Report report;
     EXPECT_TRUE(run_effects(options, BackendSource{}, report)) << prose_of(report);
@@ -69,7 +62,7 @@ TEST(EffectLedger, ASceneWithoutEffectsHasNothingToLeaveOut) {
 
 TEST(EffectLedger, SaysWhatEachEffectChangedAndWhatWasDrawn) {
     Report report;
-    ASSERT_TRUE(run_effects(small_options(), BackendSource{}, report)) << prose_of(report);
+    ASSERT_TRUE(run_effects(small_effects(), BackendSource{}, report)) << prose_of(report);
     ASSERT_EQ(report.rows.size(), 9U);
     for (const char* effect : {"shadows", "refraction", "absorption", "nested_media"}) {
         const BenchmarkRow* row = row_named(report, std::string("cpu strict, without ") + effect);
@@ -100,7 +93,7 @@ TEST(EffectLedger, SaysWhatEachEffectChangedAndWhatWasDrawn) {
 
 TEST(EffectLedger, JsonAndPageHoldIt) {
     Report report;
-    ASSERT_TRUE(run_effects(small_options(), BackendSource{}, report));
+    ASSERT_TRUE(run_effects(small_effects(), BackendSource{}, report));
     const auto json = nlohmann::json::parse(to_json(report));
     const auto& row = json["rows"][2];
     EXPECT_EQ(row["label"], "cpu strict, without shadows");
@@ -122,7 +115,7 @@ TEST(EffectLedger, JsonAndPageHoldIt) {
 
 TEST(EffectLedger, PicturesAreAsTheSceneSaysAndMapsAsTheyAre) {
     Report report;
-    ASSERT_TRUE(run_effects(small_options(), BackendSource{}, report));
+    ASSERT_TRUE(run_effects(small_effects(), BackendSource{}, report));
     std::size_t grids = 0;
     for (const Block& block : report.blocks) {
         const auto* grid = std::get_if<PictureGrid>(&block);
@@ -141,19 +134,18 @@ TEST(EffectLedger, PicturesAreAsTheSceneSaysAndMapsAsTheyAre) {
 }
 
 TEST(EffectLedger, AnotherFilmOfAnotherBackendIsAnError) {
-    EffectsOptions options = small_options();
+    EffectsOptions options = small_effects();
     options.backends = {"cpu", "cuda"};
     Report equal, different;
     EXPECT_TRUE(run_effects(options, loop_source(), equal)) << prose_of(equal);
-    const auto gpu_spoils = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
-    EXPECT_FALSE(run_effects(options, loop_source(gpu_spoils), different));
+    EXPECT_FALSE(run_effects(options, loop_source(spoil_the_gpu), different));
     EXPECT_NE(prose_of(different).find("cpu strict, whole and cuda strict, whole differ"), std::string::npos)
         << prose_of(different);
     EXPECT_EQ(property_of(different, "equal"), "false");
 }
 
 TEST(EffectLedger, AnotherFilmOfTheKernelThatCarriesAllIsAnError) {
-    EffectsOptions options = small_options();
+    EffectsOptions options = small_effects();
     options.backends = {"cuda"};
     const auto spoils = [](const std::string&, const BackendOptions& made) {
         return made.specialise == Specialise::never;
@@ -168,17 +160,17 @@ TEST(EffectLedger, AnotherFilmOfTheKernelThatCarriesAllIsAnError) {
 }
 
 TEST(EffectLedger, RefusesWhatItCannotMeasure) {
-    EffectsOptions options = small_options();
+    EffectsOptions options = small_effects();
     Report report;
     options.scenes.clear();
     const auto refusal = [&] { return test::input_error([&] { (void)run_effects(options, loop_source(), report); }); };
     EXPECT_TRUE(test::contains(refusal(), "effects needs a scene: name glTF files"));
     options.scenes = {"named:nothing"};
     EXPECT_TRUE(test::contains(refusal(), "nothing"));
-    options = small_options();
+    options = small_effects();
     options.tiers = {"sloppy"};
     EXPECT_TRUE(test::contains(refusal(), "no accuracy tier 'sloppy'"));
-    options = small_options();
+    options = small_effects();
     EXPECT_THROW((void)run_effects(options, loop_source([](const auto&, const auto&) { return false; }, "cpu"), report),
                  EnvironmentError);
 }

@@ -6,6 +6,7 @@
 
 #include "ray_sets.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/scene/named_scenes.h"
 

@@ -12,7 +12,7 @@ namespace tandem::bench {
 namespace {
 
 /// Rays, a function, pictures.
-HardOptions small() {
+HardOptions small_hard() {
     HardOptions options;
     options.cases = {"A2", "B12", "G4", "I1"};
     options.tiers = {"strict"};
@@ -22,7 +22,7 @@ HardOptions small() {
 
 TEST(Hard, CorrectBackendsKeepTheErrorBounds) {
     Report report;
-    EXPECT_TRUE(run_hard(small(), loop_source(), report)) << prose_of(report);
+    EXPECT_TRUE(run_hard(small_hard(), loop_source(), report)) << prose_of(report);
     EXPECT_EQ(report.rows.size(), 7U) << "two backends, three cases; and one case on the host";
     EXPECT_EQ(property_of(report, "error bounds kept"), "7 of 7");
     EXPECT_NE(to_json(report).find("A2 A planet"), std::string::npos);
@@ -30,9 +30,8 @@ TEST(Hard, CorrectBackendsKeepTheErrorBounds) {
 }
 
 TEST(Hard, AWrongHitExceedsTheErrorBoundAndIsReproduced) {
-    const auto gpu_spoils = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
     Report report;
-    EXPECT_FALSE(run_hard(small(), loop_source(gpu_spoils), report));
+    EXPECT_FALSE(run_hard(small_hard(), loop_source(spoil_the_gpu), report));
     const std::string prose = prose_of(report);
     EXPECT_TRUE(test::contains(prose, "A2 cuda strict exceeds its error bound"));
     EXPECT_TRUE(test::contains(prose, "Ray<float>{{"));
@@ -41,7 +40,7 @@ TEST(Hard, AWrongHitExceedsTheErrorBoundAndIsReproduced) {
 
 TEST(Hard, BackendsThatAreNotThereAreNamed) {
     Report report;
-    HardOptions options = small();
+    HardOptions options = small_hard();
     EXPECT_TRUE(run_hard(options, loop_source([](const auto&, const auto&) { return false; }, "cuda"), report));
     EXPECT_TRUE(test::contains(prose_of(report), "Without cuda: it is left out in this test."));
     EXPECT_EQ(report.rows.size(), 4U);
@@ -49,7 +48,7 @@ TEST(Hard, BackendsThatAreNotThereAreNamed) {
 
 TEST(Hard, UnknownNamesAreRefused) {
     const auto refused = [](auto change) {
-        HardOptions options = small();
+        HardOptions options = small_hard();
         change(options);
         return test::input_error([&] {
             Report report;
@@ -70,7 +69,7 @@ TEST(Hard, UnknownNamesAreRefused) {
 
 TEST(Hard, ExportsForOthers) {
     test::TemporaryFolder folder;
-    HardOptions options = small();
+    HardOptions options = small_hard();
     options.export_folder = folder.file("corpus");
     Report report;
     EXPECT_TRUE(run_hard(options, loop_source(), report));

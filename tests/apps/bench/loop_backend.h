@@ -2,12 +2,15 @@
 /// pictures and its hits.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "backend_source.h"
 #include "tandem/base/seconds.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/ready_frame.h"
@@ -87,6 +90,14 @@ class LoopBackend final : public Backend {
     return source;
 }
 
+/// Which backends loop_source() spoils.
+[[nodiscard]] inline bool spoil_nothing(const std::string& /*name*/, const BackendOptions& /*options*/) {
+    return false;
+}
+[[nodiscard]] inline bool spoil_the_gpu(const std::string& name, const BackendOptions& /*options*/) {
+    return name == "cuda";
+}
+
 /// All callouts and paragraphs of a report, one after the other.
 [[nodiscard]] inline std::string prose_of(const Report& report) {
     std::string text;
@@ -103,6 +114,15 @@ class LoopBackend final : public Backend {
         if (key == name) return value;
     }
     return {};
+}
+
+/// A figure of a row; the test fails if it is not there.
+[[nodiscard]] inline double figure(const BenchmarkRow& row, const std::string& name) {
+    for (const auto& [key, value] : row.figures) {
+        if (key == name) return value;
+    }
+    ADD_FAILURE() << "no " << name;
+    return 0;
 }
 
 }  // namespace tandem::bench

@@ -12,7 +12,7 @@
 namespace tandem::bench {
 namespace {
 
-ParityOptions small_options() {
+ParityOptions small_parity() {
     ParityOptions options;
     options.scenes = {"named:paper", "named:mixed/20"};
     options.frames = {0, 2};
@@ -41,7 +41,7 @@ TEST(Parity, VariantsAreThreadsTilesAndInstructionSets) {
 
 TEST(Parity, HoldsForEqualBackendsAndGivesTheHashes) {
     Report report;
-    EXPECT_TRUE(run_parity(small_options(), loop_source(), report)) << prose_of(report);
+    EXPECT_TRUE(run_parity(small_parity(), loop_source(), report)) << prose_of(report);
     EXPECT_EQ(property_of(report, "equal"), "true");
     const std::string hash = property_of(report, "film named:paper, strict, frame 2");
     EXPECT_EQ(hash.size(), 64U);
@@ -52,7 +52,7 @@ TEST(Parity, HoldsForEqualBackendsAndGivesTheHashes) {
 }
 
 TEST(Parity, IsNotAskedOfATierWithoutIt) {
-    ParityOptions options = small_options();
+    ParityOptions options = small_parity();
     options.tiers = {"strict", "fast"};
     Report report;
     EXPECT_THROW((void)run_parity(options, loop_source(), report), InputError);
@@ -64,7 +64,7 @@ TEST(Parity, OneBitOfOneVariantBreaksIt) {
         return name == "cpu" && options.tile_size == 13;
     };
     Report report;
-    EXPECT_FALSE(run_parity(small_options(), loop_source(spoils), report));
+    EXPECT_FALSE(run_parity(small_parity(), loop_source(spoils), report));
     EXPECT_NE(prose_of(report).find("the films differ: cpu, tiles of 13."), std::string::npos) << prose_of(report);
     EXPECT_EQ(property_of(report, "equal"), "false");
 }
@@ -72,7 +72,7 @@ TEST(Parity, OneBitOfOneVariantBreaksIt) {
 TEST(Parity, BackendsThatDoNotPromiseBitsAreReportedOnly) {
     const auto spoils = [](const std::string& name, const BackendOptions&) { return name == "oracle"; };
     Report report;
-    EXPECT_TRUE(run_parity(small_options(), loop_source(spoils), report));
+    EXPECT_TRUE(run_parity(small_parity(), loop_source(spoils), report));
     const auto oracle = std::find_if(report.rows.begin(), report.rows.end(),
                                      [](const BenchmarkRow& row) { return row.backend == "oracle"; });
     ASSERT_NE(oracle, report.rows.end());
@@ -82,12 +82,12 @@ TEST(Parity, BackendsThatDoNotPromiseBitsAreReportedOnly) {
 TEST(Parity, WithoutAGpuItSaysSo) {
     Report report;
     EXPECT_TRUE(
-        run_parity(small_options(), loop_source([](const auto&, const auto&) { return false; }, "cuda"), report));
+        run_parity(small_parity(), loop_source([](const auto&, const auto&) { return false; }, "cuda"), report));
     EXPECT_NE(prose_of(report).find("it says nothing about a GPU"), std::string::npos);
 }
 
 TEST(Parity, BruteForceIsNotAskedForTheImpossible) {
-    ParityOptions options = small_options();
+    ParityOptions options = small_parity();
     options.scenes = {"named:spheres/2000"};
     options.frames = {0, 0};
     options.size = {500, 500};

@@ -9,6 +9,7 @@
 #include "loop_backend.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/scene/named_scenes.h"
 

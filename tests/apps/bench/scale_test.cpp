@@ -16,10 +16,7 @@
 namespace tandem::bench {
 namespace {
 
-const auto nothing = [](const std::string&, const BackendOptions&) { return false; };
-const auto the_gpu = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
-
-ScaleOptions small() {
+ScaleOptions small_scale() {
     ScaleOptions options;
     options.kinds = {"spheres", "triangles"};
     options.least = 2;
@@ -30,10 +27,10 @@ ScaleOptions small() {
 }
 
 TEST(Scale, MeasuresEverySizeBackendThreadsAndSetOfRays) {
-    ScaleOptions options = small();
+    ScaleOptions options = small_scale();
     options.threads = {1, 2};
     Report report;
-    EXPECT_TRUE(run_scale(options, loop_source(nothing), report)) << prose_of(report);
+    EXPECT_TRUE(run_scale(options, loop_source(spoil_nothing), report)) << prose_of(report);
     // 2 kinds, 2 and 20 primitives, cpu with 1 and with 2 threads and cuda, 4 sets
     ASSERT_EQ(report.rows.size(), 2U * 2 * 3 * 4);
     for (const BenchmarkRow& row : report.rows) {
@@ -45,7 +42,7 @@ TEST(Scale, MeasuresEverySizeBackendThreadsAndSetOfRays) {
 }
 
 TEST(Scale, MeasuresInstancesBesideTheSameWrittenOut) {
-    BackendSource source = loop_source(nothing);
+    BackendSource source = loop_source(spoil_nothing);
     source.make = [](const std::string&, const BackendOptions&) { return make_backend("cpu", {}); };
     const InstanceRateOptions options{.block = 8, .city_edge = 2, .ray_edge = 32, .repetitions = 2};
     Report report;
@@ -67,18 +64,18 @@ TEST(Scale, CountsHitsOfInstancesThatDiffer) {
     Report report;
     const InstanceRateOptions options{.block = 8, .city_edge = 2, .ray_edge = 6, .repetitions = 1};
     // this backend sees no instances
-    EXPECT_FALSE(run_instance_rates(options, loop_source(nothing), report));
+    EXPECT_FALSE(run_instance_rates(options, loop_source(spoil_nothing), report));
     EXPECT_NE(prose_of(report).find("hits differ from those of the faces written out"), std::string::npos);
 }
 
 TEST(Scale, CountsHitsThatDiffer) {
     Report report;
-    EXPECT_FALSE(run_scale(small(), loop_source(the_gpu), report));
+    EXPECT_FALSE(run_scale(small_scale(), loop_source(spoil_the_gpu), report));
     EXPECT_NE(prose_of(report).find("hits differ between backends"), std::string::npos) << prose_of(report);
 }
 
 TEST(Scale, StepsThroughTheNumbersOfPrimitives) {
-    ScaleOptions options = small();
+    ScaleOptions options = small_scale();
     options.kinds = {"spheres"};
     options.rays = {"shadow"};
     options.backends = {"cpu"};
@@ -86,7 +83,7 @@ TEST(Scale, StepsThroughTheNumbersOfPrimitives) {
     options.most = 10;
     options.steps = 2;
     Report report;
-    EXPECT_TRUE(run_scale(options, loop_source(nothing), report));
+    EXPECT_TRUE(run_scale(options, loop_source(spoil_nothing), report));
     ASSERT_EQ(report.rows.size(), 3U);
     EXPECT_EQ(report.rows[1].scene, "named:spheres/3, shadow rays");
 }
@@ -102,7 +99,7 @@ TEST(Scale, ABackendWithOneThreadDoesNotLimitOthers) {
 }
 
 TEST(Scale, MeasuresEveryNumberOfGpus) {
-    ScaleOptions options = small();
+    ScaleOptions options = small_scale();
     options.parts = {"rays", "frames"};
     options.kinds = {"spheres"};
     options.rays = {"coherent"};
@@ -111,7 +108,7 @@ TEST(Scale, MeasuresEveryNumberOfGpus) {
     options.scenes = {"named:spheres/3", "named:paper"};
     options.size = {20, 16};
     options.samples = 2;
-    BackendSource source = loop_source(nothing);
+    BackendSource source = loop_source(spoil_nothing);
     source.gpu_count = [] { return 2; };
     Report report;
     EXPECT_TRUE(run_scale(options, source, report)) << prose_of(report);
@@ -134,7 +131,7 @@ TEST(Scale, MeasuresEveryNumberOfGpus) {
 
 TEST(Scale, EfficiencyIsJudgedByTheFasterOneGpu) {
     GpuScaleOptions options{"named:paper", {2}, {20, 16}, 2, "strict", 5};
-    BackendSource source = loop_source(nothing);
+    BackendSource source = loop_source(spoil_nothing);
     Report report;
     const GpuScale scale = time_gpus(options, source, report);
     ASSERT_EQ(scale.steps.size(), 2U);
@@ -168,21 +165,21 @@ TEST(Scale, FitsExponents) {
 
 TEST(Scale, RefusesWhatItCannotMeasure) {
     Report report;
-    ScaleOptions options = small();
+    ScaleOptions options = small_scale();
     options.rays = {"sideways"};
-    EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
-    options = small();
+    EXPECT_THROW((void)run_scale(options, loop_source(spoil_nothing), report), InputError);
+    options = small_scale();
     options.most = 1;
-    EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
-    options = small();
+    EXPECT_THROW((void)run_scale(options, loop_source(spoil_nothing), report), InputError);
+    options = small_scale();
     options.gpus = {-1};
-    EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
-    options = small();
+    EXPECT_THROW((void)run_scale(options, loop_source(spoil_nothing), report), InputError);
+    options = small_scale();
     options.parts = {"frames"};
-    EXPECT_THROW((void)run_scale(options, loop_source(nothing, "cuda"), report), EnvironmentError);
-    options = small();
+    EXPECT_THROW((void)run_scale(options, loop_source(spoil_nothing, "cuda"), report), EnvironmentError);
+    options = small_scale();
     options.kinds = {"cones"};
-    EXPECT_THROW((void)run_scale(options, loop_source(nothing), report), InputError);
+    EXPECT_THROW((void)run_scale(options, loop_source(spoil_nothing), report), InputError);
 }
 
 }  // namespace

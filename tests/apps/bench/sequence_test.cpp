@@ -9,6 +9,7 @@
 #include "support/temporary_folder.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
 #include "tandem/images/image_io.h"
 #include "tandem/images/tone_curve.h"

@@ -8,9 +8,6 @@
 namespace tandem::bench {
 namespace {
 
-const auto nothing = [](const std::string&, const BackendOptions&) { return false; };
-const auto the_gpu = [](const std::string& name, const BackendOptions&) { return name == "cuda"; };
-
 VersusOptions small_frames() {
     VersusOptions options;
     options.size = {20, 18};
@@ -43,7 +40,7 @@ TEST(Versus, MeasuresEveryBackendInEveryRound) {
 
 TEST(Versus, UnequalPicturesAreNotCompared) {
     Report report;
-    EXPECT_FALSE(run_versus(small_frames(), loop_source(the_gpu), report));
+    EXPECT_FALSE(run_versus(small_frames(), loop_source(spoil_the_gpu), report));
     EXPECT_NE(prose_of(report).find("1 of 360 pixels differ between cpu and cuda."), std::string::npos)
         << prose_of(report);
 }
@@ -52,13 +49,13 @@ TEST(Versus, TheTierFastPromisesNoEqualPictures) {
     VersusOptions options = small_frames();
     options.tier = "fast";
     Report report;
-    EXPECT_TRUE(run_versus(options, loop_source(the_gpu), report));
+    EXPECT_TRUE(run_versus(options, loop_source(spoil_the_gpu), report));
     EXPECT_EQ(report.rows[0].tier, "fast");
     EXPECT_NE(prose_of(report).find("1 of 360 pixels differ"), std::string::npos) << "but they are compared";
     options = small_rays();
     options.tier = "fast";
     Report rays;
-    EXPECT_TRUE(run_versus(options, loop_source(the_gpu), rays));
+    EXPECT_TRUE(run_versus(options, loop_source(spoil_the_gpu), rays));
     EXPECT_EQ(rays.rows.size(), 3U) << "there is no second row of the tier fast";
     EXPECT_EQ(property_of(rays, "differing hits"), "1");
     options.tier = "best";
@@ -67,12 +64,12 @@ TEST(Versus, TheTierFastPromisesNoEqualPictures) {
 
 TEST(Versus, OneBackendStandsAloneAndNoneIsAnError) {
     Report report;
-    EXPECT_TRUE(run_versus(small_frames(), loop_source(nothing, "cuda"), report));
+    EXPECT_TRUE(run_versus(small_frames(), loop_source(spoil_nothing, "cuda"), report));
     EXPECT_NE(prose_of(report).find("nothing to compare its times with"), std::string::npos);
     VersusOptions options = small_frames();
     options.backends = {"cuda"};
     Report empty;
-    EXPECT_THROW((void)run_versus(options, loop_source(nothing, "cuda"), empty), EnvironmentError);
+    EXPECT_THROW((void)run_versus(options, loop_source(spoil_nothing, "cuda"), empty), EnvironmentError);
 }
 
 TEST(Versus, RaysAreCountedAndRawEmbreeStandsBeside) {
@@ -91,7 +88,7 @@ TEST(Versus, RaysAreCountedAndRawEmbreeStandsBeside) {
 
 TEST(Versus, OneDifferentHitIsFound) {
     Report report;
-    EXPECT_FALSE(run_versus(small_rays(), loop_source(the_gpu), report));
+    EXPECT_FALSE(run_versus(small_rays(), loop_source(spoil_the_gpu), report));
     EXPECT_EQ(property_of(report, "differing hits"), "1");
 }
 

@@ -11,6 +11,7 @@
 #include "support/thrown_message.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/images/exposure.h"
 #include "tandem/images/tone_curve.h"
 #include "tandem/scene/named_scenes.h"

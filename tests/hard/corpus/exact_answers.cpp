@@ -6,6 +6,7 @@
 
 #include "hard/corpus/answer.h"
 #include "support/exact_geometry.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/view/scene_view.h"
 
 namespace tandem::hard {

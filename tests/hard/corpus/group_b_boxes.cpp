@@ -11,6 +11,7 @@
 #include "support/exact_geometry.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::hard {
 

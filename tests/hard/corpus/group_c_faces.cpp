@@ -10,6 +10,7 @@
 #include "support/adversarial_triangles.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/icosphere.h"
 
 namespace tandem::hard {

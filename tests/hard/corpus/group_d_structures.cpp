@@ -7,6 +7,7 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::hard {

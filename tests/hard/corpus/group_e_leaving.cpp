@@ -10,6 +10,7 @@
 #include "hard/corpus/groups.h"
 #include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/bsdf/reflect.h"
 #include "tandem/kernel/bsdf/refract.h"
 #include "tandem/kernel/spawn_ray.h"

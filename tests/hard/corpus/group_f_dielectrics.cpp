@@ -9,6 +9,7 @@
 #include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/bsdf/fresnel.h"
 #include "tandem/kernel/bsdf/reflect.h"
 #include "tandem/kernel/media/medium_stack.h"

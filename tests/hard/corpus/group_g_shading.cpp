@@ -8,6 +8,7 @@
 #include "hard/corpus/ray_batches.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/bsdf/phong_lobe.h"
 
 namespace tandem::hard {

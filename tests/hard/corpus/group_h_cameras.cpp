@@ -11,6 +11,7 @@
 #include "hard/corpus/ray_batches.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/camera/camera.h"
 #include "tandem/kernel/sampler/dimensions.h"
 

@@ -9,6 +9,7 @@
 #include "hard/corpus/pictures.h"
 #include "hard/corpus/ray_batches.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/lights/environment.h"
 #include "tandem/render/pixel_job.h"
 

@@ -11,6 +11,7 @@
 #include "support/under_parent.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/named_scenes.h"

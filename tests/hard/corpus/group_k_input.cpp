@@ -14,6 +14,7 @@
 #include "support/temporary_folder.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/import.h"
 
 namespace tandem::hard {

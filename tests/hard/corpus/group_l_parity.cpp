@@ -13,6 +13,7 @@
 #include "support/hard_scenes.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::hard {

@@ -14,6 +14,7 @@
 #include "support/light_shares.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/lights/punctual_light.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/light_cone.h"

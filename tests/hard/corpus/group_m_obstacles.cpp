@@ -12,6 +12,7 @@
 #include "hard/corpus/ray_batches.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/motion_blur.h"
 #include "tandem/scene/icosphere.h"
 #include "tandem/scene/named_scenes.h"

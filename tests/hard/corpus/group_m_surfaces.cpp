@@ -10,6 +10,7 @@
 #include "support/polygon_forms.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::hard {
 

@@ -8,6 +8,7 @@
 #include "hard/corpus/groups.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem::hard {
 

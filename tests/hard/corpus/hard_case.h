@@ -10,6 +10,7 @@
 
 #include "hard/corpus/score.h"
 #include "support/random.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/render/backend.h"
 #include "tandem/scene/scene.h"
 

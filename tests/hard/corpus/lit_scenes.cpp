@@ -1,5 +1,6 @@
 #include "hard/corpus/lit_scenes.h"
 #include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepared_scene.h"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 
 #include "hard/corpus/hard_case.h"
 #include "support/aim.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/shapes/box.h"
 
 namespace tandem::hard {

@@ -15,13 +15,13 @@ namespace {
 using namespace test;
 
 /// A pair of directions of which wi is where the lobe reflects to, or anywhere.
-struct Case {
+struct LobeCase {
     double alpha_x, alpha_y;
     Vec3d wo, wi;
 };
-Case random_case(std::uint64_t number) {
+LobeCase random_case(std::uint64_t number) {
     Random random(number);
-    Case c{std::exp2(random.uniform(-13.0, 0.0)), std::exp2(random.uniform(-13.0, 0.0)), {}, {}};
+    LobeCase c{std::exp2(random.uniform(-13.0, 0.0)), std::exp2(random.uniform(-13.0, 0.0)), {}, {}};
     if (random.coin()) c.alpha_y = c.alpha_x;
     for (;;) {
         c.wo = direction(std::exp2(random.uniform(-12.0, 0.0)), random.uniform(0.0, 1.0));
@@ -32,14 +32,14 @@ Case random_case(std::uint64_t number) {
     }
 }
 
-long double textbook_fresnel(long double f0, const Case& c) {
+long double textbook_fresnel(long double f0, const LobeCase& c) {
     const LongVector o = unit(long_vector(c.wo)), h = unit(long_vector(c.wo) + long_vector(c.wi));
     return f0 + (1 - f0) * std::pow(1 - (o.x * h.x + o.y * h.y + o.z * h.z), 5.0L);
 }
 
 TEST(GgxReflection, IsThatOfTheTextbooks) {
     for (std::uint64_t number = 0; number < 100'000; ++number) {
-        const Case c = random_case(number);
+        const LobeCase c = random_case(number);
         const TextbookGgx textbook{c.alpha_x, c.alpha_y};
         const long double f = textbook.reflection(long_vector(c.wo), long_vector(c.wi));
         const long double pdf = textbook.pdf(long_vector(c.wo), long_vector(c.wi));
@@ -63,7 +63,7 @@ TEST(GgxReflection, IsThatOfTheTextbooks) {
 
 TEST(GgxReflection, TheFastTierIsNear) {
     for (std::uint64_t number = 0; number < 100'000; ++number) {
-        const Case c = random_case(number);
+        const LobeCase c = random_case(number);
         if (c.alpha_x < 0.01 || c.alpha_y < 0.01 || c.wo.z < 0.01 || c.wi.z < 0.01) continue;
         const GgxReflection<double> precise{{1, 0.5, 0.04}, 1, {c.alpha_x, c.alpha_y}};
         const GgxReflection<FastFloat> fast{{1, 0.5F, 0.04F}, 1, {FastFloat(c.alpha_x), FastFloat(c.alpha_y)}};

@@ -11,6 +11,7 @@
 #include "support/estimate.h"
 #include "support/random.h"
 #include "tandem/compile/environments.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/sampler/warp.h"
 #include "tandem/math/fast_float.h"
 

@@ -10,7 +10,7 @@
 namespace tandem {
 namespace {
 
-constexpr double infinity = HUGE_VAL;
+constexpr double infinite = HUGE_VAL;
 
 TEST(Mis, AgreesWithTheFormulas) {
     for (std::uint64_t number = 0; number < 10'000; ++number) {
@@ -32,11 +32,11 @@ TEST(Mis, ZeroAndInfiniteDensitiesHaveAWeight) {
         EXPECT_EQ(heuristic(0, 0), 0);
         EXPECT_EQ(heuristic(0, 1), 0);
         EXPECT_EQ(heuristic(1, 0), 1);
-        EXPECT_EQ(heuristic(0, infinity), 0);
-        EXPECT_EQ(heuristic(infinity, 0), 1);
-        EXPECT_EQ(heuristic(infinity, 1), 1);
-        EXPECT_EQ(heuristic(1, infinity), 0);
-        EXPECT_EQ(heuristic(infinity, infinity), 0.5);
+        EXPECT_EQ(heuristic(0, infinite), 0);
+        EXPECT_EQ(heuristic(infinite, 0), 1);
+        EXPECT_EQ(heuristic(infinite, 1), 1);
+        EXPECT_EQ(heuristic(1, infinite), 0);
+        EXPECT_EQ(heuristic(infinite, infinite), 0.5);
         EXPECT_EQ(heuristic(1e308, 1e308), 0.5) << "the sum overflows";
         EXPECT_EQ(heuristic(4e-324, 4e-324), 0.5) << "the square underflows";
         EXPECT_EQ(heuristic(1e300, 1e-300), 1);

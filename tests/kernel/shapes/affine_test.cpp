@@ -8,6 +8,7 @@
 #include "support/adversarial_rays.h"
 #include "support/exact_geometry.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 
 namespace tandem {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/adversarial_rays.h"
+#include "support/case_name.h"
 #include "support/exact_geometry.h"
 
 namespace tandem {
@@ -61,31 +62,26 @@ TEST_P(BoxAgainstOracle, DecidesRightAndIsWithinOneUlp) {
     EXPECT_GT(hits, 100) << "the generator has lost its aim";
 }
 
-std::string kind_name(const testing::TestParamInfo<int>& info) {
-    std::string name = test::box_kinds[info.param];
-    std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-    return name;
-}
 INSTANTIATE_TEST_SUITE_P(Kinds, BoxAgainstOracle, testing::Range(0, static_cast<int>(std::size(test::box_kinds))),
-                         kind_name);
+                         [](const auto& info) { return test::case_name(test::box_kinds[info.param]); });
 
-const Box unit = {{-1, -1, -1}, {1, 1, 1}};
+const Box unit_box = {{-1, -1, -1}, {1, 1, 1}};
 
 TEST(Box, RayInThePlaneOfAFaceHits) {
     for (const float side : {-1.0F, 1.0F}) {
         for (const float zero : {0.0F, -0.0F}) {
             double t = 0;
-            ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{side, 0, -3}, {zero, zero, 1}}), t));
+            ASSERT_TRUE(first_hit<float>(cross_box(unit_box, Ray<float>{{side, 0, -3}, {zero, zero, 1}}), t));
             EXPECT_EQ(t, 2.0);
             const float outside = std::nextafter(side, 2 * side);
-            EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{outside, 0, -3}, {zero, zero, 1}}), t));
+            EXPECT_FALSE(first_hit<float>(cross_box(unit_box, Ray<float>{{outside, 0, -3}, {zero, zero, 1}}), t));
         }
     }
 }
 
 TEST(Box, TieAtACornerGoesToTheLowestAxis) {
     const Ray<float> ray = {{-3, -3, -3}, {1, 1, 1}};
-    const auto crossing = cross_box(unit, ray);
+    const auto crossing = cross_box(unit_box, ray);
     EXPECT_EQ(crossing.near_axis, 0U);
     EXPECT_EQ(crossing.far_axis, 0U);
     EXPECT_EQ(face_normal(record_hit<float>(crossing, widen(ray.direction), false)), (Vec3d{-1, 0, 0}));
@@ -93,16 +89,16 @@ TEST(Box, TieAtACornerGoesToTheLowestAxis) {
 
 TEST(Box, OriginOnAFace) {
     double t = 0;
-    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
-    ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
+    EXPECT_FALSE(first_hit<float>(cross_box(unit_box, Ray<float>{{1, 0, 0}, {1, 0.5F, 0}}), t)) << "outward";
+    ASSERT_TRUE(first_hit<float>(cross_box(unit_box, Ray<float>{{1, 0, 0}, {-1, 0, 0}}), t)) << "inward";
     EXPECT_EQ(t, 2.0);
-    ASSERT_TRUE(first_hit<float>(cross_box(unit, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along: to the edge";
+    ASSERT_TRUE(first_hit<float>(cross_box(unit_box, Ray<float>{{1, 0, 0}, {0, 1, 0}}), t)) << "along: to the edge";
     EXPECT_EQ(t, 1.0);
 }
 
 TEST(Box, OriginInsideReportsTheExitWithAnOutwardNormal) {
     const Ray<float> ray = {{0, 0, 0}, {0, -2, 0.5F}};
-    const auto crossing = cross_box(unit, ray);
+    const auto crossing = cross_box(unit_box, ray);
     double t = 0;
     ASSERT_TRUE(first_hit<float>(crossing, t));
     EXPECT_EQ(t, 0.5);
@@ -117,13 +113,13 @@ TEST(Box, NanAndInfinityMiss) {
             Ray<float> ray = {{0.5F, 0.25F, -3}, {0, 0, 1}};
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             double t = 0;
-            EXPECT_FALSE(is_traceable(ray) && first_hit<float>(cross_box(unit, ray), t)) << i << " is " << bad;
+            EXPECT_FALSE(is_traceable(ray) && first_hit<float>(cross_box(unit_box, ray), t)) << i << " is " << bad;
         }
     }
     double t = 0;
     EXPECT_FALSE(first_hit<float>(cross_box(Box{{nan, -1, -1}, {1, 1, 1}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}), t));
-    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{0, 0, -3}, {0, nan, 1}}), t));
-    EXPECT_FALSE(first_hit<float>(cross_box(unit, Ray<float>{{nan, 0, -3}, {0, 0, 1}}), t));
+    EXPECT_FALSE(first_hit<float>(cross_box(unit_box, Ray<float>{{0, 0, -3}, {0, nan, 1}}), t));
+    EXPECT_FALSE(first_hit<float>(cross_box(unit_box, Ray<float>{{nan, 0, -3}, {0, 0, 1}}), t));
 }
 
 }  // namespace

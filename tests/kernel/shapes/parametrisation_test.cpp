@@ -6,19 +6,18 @@
 
 #include <cmath>
 
+#include "support/aim.h"
 #include "support/random.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/shapes/tangent_frame.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {
 namespace {
 
+using test::any_unit;
 using test::Random;
-
-Vec3d any_unit(Random& random) {
-    return normalize(Vec3d{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)});
-}
 
 /// The coordinates where a line at `target` first meets the body from the side of `outside`; it must.
 template <class Body>

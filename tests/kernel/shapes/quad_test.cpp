@@ -11,7 +11,7 @@ namespace {
 
 using test::Random;
 
-const Quad unit = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const Quad unit_quad = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 /// Flat, folded, and crossed over itself.
 Quad any_quad(Random& random) {
@@ -75,7 +75,7 @@ TEST(Quad, CoordinatesRunAlongItsEdges) {
     };
     for (const Vec3f& p : {Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{1, 1, 0}, Vec3f{0, 1, 0}, Vec3f{0.75F, 0.25F, 0},
                            Vec3f{0.25F, 0.75F, 0}, Vec3f{0.5F, 0.5F, 0}}) {
-        EXPECT_EQ(at(unit, p.x, p.y), Vec3d(widen(p)));
+        EXPECT_EQ(at(unit_quad, p.x, p.y), Vec3d(widen(p)));
     }
     const Quad kite = {{0, 0, 0}, {2, -1, 0}, {4, 0, 0}, {2, 3, 0}};
     EXPECT_EQ(at(kite, 2, 0), Vec3d(0.5, 0.5, 0));  // the middle of the diagonal

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "support/aim.h"
 #include "support/exact_geometry.h"
 #include "support/random.h"
 
@@ -17,16 +18,9 @@ using test::BigVector;
 
 constexpr std::uint32_t own_id = 7;
 
-Vec3d unit_vector(test::Random& random) {
-    while (true) {
-        const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-        if (dot(v, v) > 0.01 && dot(v, v) < 1) return normalize(v);
-    }
-}
-
 /// A unit direction with the given cosine against `normal`.
 Vec3d with_cosine(const Vec3d& normal, double cosine, test::Random& random) {
-    const Vec3d across = normalize(cross(normal, unit_vector(random)));
+    const Vec3d across = normalize(cross(normal, test::any_unit(random)));
     return normal * cosine + across * std::sqrt((1 - cosine) * (1 + cosine));
 }
 
@@ -53,9 +47,9 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
     int inward = 0, outward = 0, coarse = 0;
     for (std::uint64_t number = 0; number < 20'000; ++number) {
         test::Random random(number);
-        const Sphere sphere = {narrow(unit_vector(random) * GetParam().distance),
+        const Sphere sphere = {narrow(test::any_unit(random) * GetParam().distance),
                                static_cast<float>(GetParam().radius)};
-        const Vec3d normal = unit_vector(random);
+        const Vec3d normal = test::any_unit(random);
         const double magnitude = number % 5 == 0 ? 0 : std::exp2(random.uniform(-24.0, 0.0));
         const double cosine = number % 2 == 0 ? magnitude : -magnitude;
         const Ray<float> ray = {narrow(widen(sphere.centre) + normal * widen(sphere.radius)),
@@ -93,7 +87,7 @@ class BoxSurface : public testing::TestWithParam<Place> {};
 TEST_P(BoxSurface, IsLeftOutwardAndCrossedInward) {
     for (std::uint64_t number = 0; number < 20'000; ++number) {
         test::Random random(number);
-        const Vec3d centre = unit_vector(random) * GetParam().distance;
+        const Vec3d centre = test::any_unit(random) * GetParam().distance;
         const auto half = [&] { return GetParam().radius * random.uniform(0.1, 1.0); };
         const Vec3d extent = {half(), half(), half()};
         const Box box = {narrow(centre - extent), narrow(centre + extent)};

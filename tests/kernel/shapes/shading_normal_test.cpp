@@ -8,21 +8,22 @@
 namespace tandem {
 namespace {
 
-const Triangle unit = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const Triangle right_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 Ray<float> down(float x, float y, float side = 1) { return {{x, y, side}, {0, 0, -side}}; }
 
 TEST(ShadingNormal, WithoutNormalsIsTheFacesOwn) {
-    EXPECT_EQ(shading_normal(unit, nullptr, down(0.25F, 0.25F), true), Vec3d(0, 0, 1));
-    EXPECT_EQ(shading_normal(unit, nullptr, down(0.25F, 0.25F, -1), true), Vec3d(0, 0, 1)) << "from behind too";
+    EXPECT_EQ(shading_normal(right_triangle, nullptr, down(0.25F, 0.25F), true), Vec3d(0, 0, 1));
+    EXPECT_EQ(shading_normal(right_triangle, nullptr, down(0.25F, 0.25F, -1), true), Vec3d(0, 0, 1))
+        << "from behind too";
 }
 
 TEST(ShadingNormal, IsThatOfACornerAtTheCorner) {
     const Vec3f normals[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    EXPECT_EQ(shading_normal(unit, normals, down(0, 0), true), Vec3d(1, 0, 0));
-    EXPECT_EQ(shading_normal(unit, normals, down(1, 0), true), Vec3d(0, 1, 0));
-    EXPECT_EQ(shading_normal(unit, normals, down(0, 1), true), Vec3d(0, 0, 1));
-    const Vec3d middle = shading_normal(unit, normals, down(0.5F, 0), true);
+    EXPECT_EQ(shading_normal(right_triangle, normals, down(0, 0), true), Vec3d(1, 0, 0));
+    EXPECT_EQ(shading_normal(right_triangle, normals, down(1, 0), true), Vec3d(0, 1, 0));
+    EXPECT_EQ(shading_normal(right_triangle, normals, down(0, 1), true), Vec3d(0, 0, 1));
+    const Vec3d middle = shading_normal(right_triangle, normals, down(0.5F, 0), true);
     EXPECT_NEAR(middle.x, std::sqrt(0.5), 1e-15);
     EXPECT_NEAR(middle.y, std::sqrt(0.5), 1e-15);
     EXPECT_EQ(middle.z, 0);
@@ -30,13 +31,13 @@ TEST(ShadingNormal, IsThatOfACornerAtTheCorner) {
 
 TEST(ShadingNormal, OppositeNormalsFallBackToTheFacesOwn) {
     const Vec3f normals[] = {{1, 0, 0}, {-1, 0, 0}, {1, 0, 0}};
-    EXPECT_EQ(shading_normal(unit, normals, down(0.5F, 0), true), Vec3d(0, 0, 1));
+    EXPECT_EQ(shading_normal(right_triangle, normals, down(0.5F, 0), true), Vec3d(0, 0, 1));
     const Vec3f none[] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    EXPECT_EQ(shading_normal(unit, none, down(0.25F, 0.25F), true), Vec3d(0, 0, 1));
+    EXPECT_EQ(shading_normal(right_triangle, none, down(0.25F, 0.25F), true), Vec3d(0, 0, 1));
 }
 
 TEST(ShadingNormal, OfADoubleSidedFaceTurnsToTheRay) {
-    Triangle face = unit;
+    Triangle face = right_triangle;
     face.attributes.sides = FaceSides::double_sided;
     EXPECT_EQ(shading_normal(face, nullptr, down(0.25F, 0.25F, 1), true), Vec3d(0, 0, 1));
     EXPECT_EQ(shading_normal(face, nullptr, down(0.25F, 0.25F, -1), true), Vec3d(0, 0, -1));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/adversarial_rays.h"
+#include "support/case_name.h"
 #include "support/exact_geometry.h"
 #include "tandem/kernel/shapes/crossing.h"
 
@@ -60,13 +61,8 @@ TEST_P(SphereAgainstOracle, DecidesRightAndIsWithinOneUlp) {
     RecordProperty("worst_ulp", std::to_string(worst));
 }
 
-std::string kind_name(const testing::TestParamInfo<int>& info) {
-    std::string name = test::sphere_kinds[info.param];
-    std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-    return name;
-}
 INSTANTIATE_TEST_SUITE_P(Kinds, SphereAgainstOracle, testing::Range(0, static_cast<int>(std::size(test::sphere_kinds))),
-                         kind_name);
+                         [](const auto& info) { return test::case_name(test::sphere_kinds[info.param]); });
 
 TEST(Sphere, TangentLineHitsOnceAtTheTouchingPoint) {
     const Sphere unit = {{0, 0, 0}, 1};

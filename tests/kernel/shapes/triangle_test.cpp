@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/adversarial_triangles.h"
+#include "support/case_name.h"
 #include "support/exact_geometry.h"
 
 namespace tandem {
@@ -99,21 +100,17 @@ TEST_P(TriangleAgainstOracle, DecidesRightForRaysInDouble) {
     }
 }
 
-std::string kind_name(const testing::TestParamInfo<int>& info) {
-    std::string name = test::triangle_kinds[info.param];
-    std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-    return name;
-}
 INSTANTIATE_TEST_SUITE_P(Kinds, TriangleAgainstOracle,
-                         testing::Range(0, static_cast<int>(std::size(test::triangle_kinds))), kind_name);
+                         testing::Range(0, static_cast<int>(std::size(test::triangle_kinds))),
+                         [](const auto& info) { return test::case_name(test::triangle_kinds[info.param]); });
 
-const Triangle unit = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const Triangle unit_triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
 TEST(Triangle, LeavesOutWhatIsTooFar) {
     const Ray<float> ray = {{0.25F, 0.25F, 1}, {0, 0, -2}};
     double t = 0;
-    EXPECT_FALSE(first_hit(unit, ray, t, true, 0.49));
-    EXPECT_TRUE(first_hit(unit, ray, t, true, 0.5)) << "at the same t ids decide";
+    EXPECT_FALSE(first_hit(unit_triangle, ray, t, true, 0.49));
+    EXPECT_TRUE(first_hit(unit_triangle, ray, t, true, 0.5)) << "at the same t ids decide";
 }
 
 TEST(Triangle, IsClosedAndHasTwoSides) {
@@ -121,24 +118,25 @@ TEST(Triangle, IsClosedAndHasTwoSides) {
         for (const Vec3f& at : {Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0.5F, 0.5F, 0},
                                 Vec3f{0, 0.25F, 0}, Vec3f{0.125F, 0, 0}, Vec3f{0.25F, 0.25F, 0}}) {
             double t = 0;
-            EXPECT_TRUE(first_hit(unit, Ray<float>{{at.x, at.y, side}, {0, 0, -2 * side}}, t)) << at.x << " " << at.y;
+            EXPECT_TRUE(first_hit(unit_triangle, Ray<float>{{at.x, at.y, side}, {0, 0, -2 * side}}, t))
+                << at.x << " " << at.y;
             EXPECT_EQ(t, 0.5);
         }
         const float beyond = std::nextafter(0.5F, 1.0F);
         double t = 0;
-        EXPECT_FALSE(first_hit(unit, Ray<float>{{0.5F, beyond, side}, {0, 0, -side}}, t));
-        EXPECT_FALSE(first_hit(unit, Ray<float>{{-0x1p-149F, 0.5F, side}, {0, 0, -side}}, t));
+        EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{0.5F, beyond, side}, {0, 0, -side}}, t));
+        EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{-0x1p-149F, 0.5F, side}, {0, 0, -side}}, t));
     }
 }
 
 TEST(Triangle, OriginInThePlaneAndLinesInThePlaneMiss) {
     double t = 0;
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0}, {0, 0, 1}}, t));
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0}, {0.3F, 0, -1e-20F}}, t));
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{-1, 0.25F, 0}, {1, 0, 0}}, t));
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{-1, 0, 0}, {1, 0, 0}}, t)) << "along an edge";
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 1}, {0, 0, 1}}, t)) << "behind";
-    EXPECT_TRUE(first_hit(unit, Ray<float>{{0.25F, 0.25F, 0x1p-149F}, {0, 0, -1}}, t));
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{0.25F, 0.25F, 0}, {0, 0, 1}}, t));
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{0.25F, 0.25F, 0}, {0.3F, 0, -1e-20F}}, t));
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{-1, 0.25F, 0}, {1, 0, 0}}, t));
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{-1, 0, 0}, {1, 0, 0}}, t)) << "along an edge";
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{0.25F, 0.25F, 1}, {0, 0, 1}}, t)) << "behind";
+    EXPECT_TRUE(first_hit(unit_triangle, Ray<float>{{0.25F, 0.25F, 0x1p-149F}, {0, 0, -1}}, t));
     EXPECT_EQ(t, 0x1p-149);
 }
 
@@ -177,8 +175,8 @@ TEST(Triangle, DegeneracyIsExact) {
 }
 
 TEST(Triangle, NormalIsCounterClockwise) {
-    EXPECT_EQ(triangle_normal(unit.v0, unit.v1, unit.v2), Vec3d(0, 0, 1));
-    EXPECT_EQ(triangle_normal(unit.v0, unit.v2, unit.v1), Vec3d(0, 0, -1));
+    EXPECT_EQ(triangle_normal(unit_triangle.v0, unit_triangle.v1, unit_triangle.v2), Vec3d(0, 0, 1));
+    EXPECT_EQ(triangle_normal(unit_triangle.v0, unit_triangle.v2, unit_triangle.v1), Vec3d(0, 0, -1));
 }
 
 TEST(Triangle, NanAndInfinityMiss) {
@@ -189,12 +187,12 @@ TEST(Triangle, NanAndInfinityMiss) {
             Ray<float> ray = {{0.25F, 0.25F, -3}, {0, 0, 1}};
             (i < 3 ? ray.origin : ray.direction)[i % 3] = bad;
             double t = 0;
-            EXPECT_FALSE(is_traceable(ray) && first_hit(unit, ray, t)) << i << " is " << bad;
+            EXPECT_FALSE(is_traceable(ray) && first_hit(unit_triangle, ray, t)) << i << " is " << bad;
         }
     }
     double t = 0;
     EXPECT_FALSE(first_hit(Triangle{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}}, Ray<float>{{0, 0, -3}, {0, 0, 1}}, t));
-    EXPECT_FALSE(first_hit(unit, Ray<float>{{0, nan, -3}, {0, 0, 1}}, t));
+    EXPECT_FALSE(first_hit(unit_triangle, Ray<float>{{0, nan, -3}, {0, 0, 1}}, t));
 }
 
 TEST(Triangle, BoundsHoldTheCorners) {

@@ -15,7 +15,7 @@ using test::Big;
 using test::BigVector;
 using test::Random;
 
-constexpr std::uint64_t rays_per_kind = 10000;
+constexpr std::uint64_t cases_per_kind = 10000;
 
 struct Counts {
     int hits = 0, sure = 0, misses = 0, sure_misses = 0;
@@ -145,13 +145,13 @@ Counts check_cases(int kinds, std::uint64_t rays, const char* name, const Make& 
 }
 
 TEST(HitInterval, OfSpheres) {
-    const Counts counts = check_cases(static_cast<int>(std::size(test::sphere_kinds)), rays_per_kind, "sphere_case",
+    const Counts counts = check_cases(static_cast<int>(std::size(test::sphere_kinds)), cases_per_kind, "sphere_case",
                                       [](int kind, std::uint64_t number) { return test::sphere_case(kind, number); });
     expect_sharp(counts, 0.9, 0.9);
 }
 
 TEST(HitInterval, OfBoxes) {
-    const Counts counts = check_cases(static_cast<int>(std::size(test::box_kinds)), rays_per_kind, "box_case",
+    const Counts counts = check_cases(static_cast<int>(std::size(test::box_kinds)), cases_per_kind, "box_case",
                                       [](int kind, std::uint64_t number) { return test::box_case(kind, number); });
     expect_sharp(counts, 0.9, 0.9);
 }
@@ -159,7 +159,7 @@ TEST(HitInterval, OfBoxes) {
 TEST(HitInterval, OfTriangles) {
     const auto make = [](int kind, std::uint64_t number) { return test::triangle_case(kind, number); };
     const Counts counts =
-        check_cases(static_cast<int>(std::size(test::triangle_kinds)), rays_per_kind, "triangle_case", make);
+        check_cases(static_cast<int>(std::size(test::triangle_kinds)), cases_per_kind, "triangle_case", make);
     expect_sharp(counts, 0.5, 0.7);  // a third of the rays aims at edges
 }
 
@@ -176,7 +176,7 @@ TEST(HitInterval, OfQuads) {
         const Vec3f v3 = random.coin() ? v0 + (v2 - v1) : v1 + (v2 - v1) * random.uniform(-1.0F, 2.0F);
         return QuadCase{{v0, v1, v2, v3}, c.ray};
     };
-    const Counts counts = check_cases(static_cast<int>(std::size(test::triangle_kinds)), rays_per_kind / 2,
+    const Counts counts = check_cases(static_cast<int>(std::size(test::triangle_kinds)), cases_per_kind / 2,
                                       "quad from triangle_case", make);
     expect_sharp(counts, 0.5, 0.5);
 }
@@ -216,15 +216,15 @@ BodyCase<Body> body_case(int kind, std::uint64_t number) {
 }
 
 TEST(HitInterval, OfEllipsoids) {
-    const Counts counts = check_cases(4, 2 * rays_per_kind, "body_case<Ellipsoid>", [](int kind, std::uint64_t number) {
-        return body_case<Ellipsoid>(kind, number);
-    });
+    const Counts counts =
+        check_cases(4, 2 * cases_per_kind, "body_case<Ellipsoid>",
+                    [](int kind, std::uint64_t number) { return body_case<Ellipsoid>(kind, number); });
     expect_sharp(counts, 0.6, 0.4);  // half of the rays aim at edges or graze
 }
 
 TEST(HitInterval, OfParallelepipeds) {
     const auto make = [](int kind, std::uint64_t number) { return body_case<Parallelepiped>(kind, number); };
-    const Counts counts = check_cases(4, 2 * rays_per_kind, "body_case<Parallelepiped>", make);
+    const Counts counts = check_cases(4, 2 * cases_per_kind, "body_case<Parallelepiped>", make);
     expect_sharp(counts, 0.6, 0.4);  // half of the rays aim at edges or graze
 }
 

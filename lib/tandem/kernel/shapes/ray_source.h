@@ -10,16 +10,9 @@
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/shapes/quad.h"
+#include "tandem/kernel/shapes/source.h"
 
 namespace tandem {
-
-/// The source of a ray. no_primitive for a ray that does not start on a surface.
-template <class Real>
-struct Source {
-    UInt<Real> primitive = UInt<Real>(no_primitive);
-    Mask<Real> inside = Mask<Real>(false);  ///< it leaves inward: direction . outward normal < 0
-};
-using RaySource = Source<float>;
 
 /// Converts a caller's source to the types of a tier. `Real` of one lane.
 template <class Real>

@@ -1,0 +1,28 @@
+/// Films of the oracle that several test cases compare with.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "tandem/backends/make_backend.h"
+#include "tandem/compile/prepare.h"
+
+namespace tandem::test {
+
+/// The oracle's film of a scene. It is kept for the other cases of the test suite, which must give one name to equal jobs
+/// alone: so the instruction sets of a case that runs TOGETHER (tests/CMakeLists.txt) share it.
+inline const Film& film_of_the_oracle(const PreparedScene& scene, const std::string& name, const RenderJob& job) {
+    static std::map<std::string, Film> films;
+    const std::string suite = ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+    const auto [place, is_new] =
+        films.try_emplace(suite + '\n' + name + '\n' + to_string(job.tier) + '\n' + scene_hash(scene));
+    if (is_new) {
+        const auto oracle = make_backend("oracle");
+        place->second = oracle->render(oracle->load(scene, job.tier), job).film;
+    }
+    return place->second;
+}
+
+}  // namespace tandem::test
