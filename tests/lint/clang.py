@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks that clang++ takes every source outside tests/, the CPU's kernels once per tier.
 
-The build compiles them with g++ alone, and lint.headers instantiates few templates. clang++ only parses the files and
-generates no code.
+The build compiles them with g++ alone and, with TANDEM_UNITY, together; lint.headers instantiates few templates. clang++ only
+parses the files, each alone, and generates no code.
 
 usage: clang.py ROOT BUILD
 """
@@ -15,7 +15,7 @@ import shlex
 import subprocess
 import sys
 
-from lint import Report, WARNINGS, compile_commands
+from lint import Report, WARNINGS, compile_commands, is_parsed_alone
 
 KEPT = re.compile(r"-[DI]\S|-std=|-march=|-ffp-contract=")
 TIER = re.compile(r"-DTANDEM_KERNEL_TIER=(\w+)")
@@ -33,7 +33,7 @@ def main():
     report = Report()
     sources = {}
     for path, command in compile_commands(build, root):
-        if path.endswith(".cpp") and not path.startswith("tests/") and not (root / path).is_relative_to(build):
+        if is_parsed_alone(path, root, build):
             tier = TIER.search(command)
             sources[path, tier.group(1) if tier else ""] = arguments_of(command)  # of the last instruction set
 

@@ -74,4 +74,31 @@ def compile_commands(build, root):
     for entry in json.loads(commands.read_text()):
         path = pathlib.Path(entry["directory"], entry["file"]).resolve()
         if path.is_relative_to(root):
-            yield path.relative_to(root).as_posix(), entry["command"]
+            for source in compiled_together(path) or [path]:
+                if source.is_relative_to(root):
+                    yield source.relative_to(root).as_posix(), entry["command"]
+
+
+def compiled_together(path):
+    """The sources that CMake includes in one of its own, if `path` is one (TANDEM_UNITY)."""
+    if "/Unity/" not in path.as_posix():
+        return []
+    return [pathlib.Path(name).resolve() for name in re.findall(r'^#include "(.*)"$', path.read_text(), re.M)]
+
+
+def is_parsed_alone(path, root, build):
+    """Does lint.clang parse this source? All of them outside tests/."""
+    return path.endswith(".cpp") and not path.startswith("tests/") and not (root / path).is_relative_to(build)
+
+
+def first_includes(source, root):
+    """The headers of lib/ that a source reads before anything else: the one that its first directive includes, the one
+    that this header's first directive includes, and so on. They compile alone if the source does."""
+    while True:
+        directives = re.findall(r"^\s*#\s*(?!pragma)(\w+)\s*(.*)$", source.read_text(), re.M)
+        if not directives or directives[0][0] != "include" or not directives[0][1].startswith('"'):
+            return
+        source = root / "lib" / directives[0][1].split('"')[1]
+        if not source.exists():
+            return
+        yield source

@@ -21,6 +21,24 @@ class Comments(unittest.TestCase):
         self.assertEqual(text.count("\n"), code.count("\n"))
 
 
+class FirstIncludes(unittest.TestCase):
+    def first_includes(self, **files):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "lib")
+            folder.mkdir()
+            for stem, text in files.items():
+                (folder / f"{stem}.h").write_text(text)
+            return [path.stem for path in lint.first_includes(folder / "source.h", folder.parent)]
+
+    def test_follow_the_first_directive_of_each_file(self):
+        self.assertEqual(self.first_includes(source='/// Text.\n#pragma once\n\n#include "a.h"\n#include "c.h"\n',
+                                             a='#include "b.h"\n', b="#include <cmath>\n", c=""), ["a", "b"])
+
+    def test_end_at_a_condition_a_macro_or_a_foreign_header(self):
+        for first in ("#if 0\n", "#define A\n", "#include <cmath>\n", '#include "missing.h"\n'):
+            self.assertEqual(self.first_includes(source=first + '#include "a.h"\n', a=""), [], first)
+
+
 class FastMath(unittest.TestCase):
     def test_flags(self):
         for flag in ("-ffast-math", "-Ofast", "--use_fast_math", "-use_fast_math", "-ffp-contract=fast", "--fmad=true"):
