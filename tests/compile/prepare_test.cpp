@@ -162,26 +162,33 @@ Mesh square() {
 }
 
 TEST(PrepareMesh, PrimitivesKnowTheirOwner) {
-    Scene scene = mesh_scene(square());
+    constexpr std::uint32_t faces = 64;  // as many as a mesh must have to be kept once, and eight instances
+    Mesh mesh = square();
+    while (mesh.triangles.size() < 3 * faces) mesh.triangles.insert(mesh.triangles.end(), {0, 1, 2, 0, 2, 3});
+    Scene scene = mesh_scene(mesh);
     scene.materials.push_back(scene.materials[0]);
     scene.meshes.push_back(scene.meshes[0]);
-    scene.nodes.push_back(scene.nodes[1]);
-    scene.nodes[2].name = "second";
-    scene.nodes[2].geometry[0] = {MeshShape{1}, 1, {{{5, 0, 0}, {}, {1, 1, 1}}, {{0, 0, 5}, {}, {1, 1, 1}}}};
-    scene.nodes.push_back(scene.nodes[1]);
-    scene.nodes[3].name = "again";
-    scene.nodes[3].trs.translation = {0, 0, -5};
-    for (const std::uint64_t instanced_from : {1, 1000}) {  // kept once, and written out
+    const auto second = static_cast<std::uint32_t>(scene.nodes.size()), again = second + 1;
+    scene.nodes.resize(second + 2, scene.nodes[1]);
+    for (const std::uint32_t node : {1U, second}) {
+        for (int k = 0; k < 8; ++k) scene.nodes[node].geometry[0].instances.push_back({.translation = {1.0 * k, 0, 0}});
+    }
+    scene.nodes[second].name = "second";
+    scene.nodes[second].geometry[0].shape = MeshShape{1};
+    scene.nodes[second].geometry[0].material = 1;
+    scene.nodes[again].name = "again";
+    for (const std::uint64_t instanced_from : {1U, 100'000U}) {  // kept once, and written out
         const auto prepared = prepare_shared(scene, {.instanced_from = instanced_from});
         ASSERT_EQ(prepared->instances.empty(), instanced_from > 1);
-        std::map<std::pair<std::uint32_t, std::uint32_t>, int> faces;
-        for (std::uint32_t id = 0; id < 8; ++id) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> counts;
+        for (std::uint32_t id = 0; id < 17 * faces; ++id) {
             const PrimitiveOwner owner = owner_of(*prepared, id);
-            ++faces[{owner.node, owner.material}];
+            ++counts[{owner.node, owner.material}];
         }
-        EXPECT_EQ(faces, (decltype(faces){{{1, 0}, 2}, {{2, 1}, 4}, {{3, 0}, 2}})) << instanced_from;
-        EXPECT_EQ(input_error([&] { static_cast<void>(owner_of(*prepared, 8)); }),
-                  "there is no primitive 8: the prepared scene has 8");
+        const decltype(counts) right = {{{1, 0}, 8 * faces}, {{second, 1}, 8 * faces}, {{again, 0}, faces}};
+        EXPECT_EQ(counts, right) << instanced_from;
+        EXPECT_EQ(input_error([&] { static_cast<void>(owner_of(*prepared, 17 * faces)); }),
+                  "there is no primitive 1088: the prepared scene has 1088");
         EXPECT_THROW(static_cast<void>(owner_of(*prepared, no_primitive)), InputError);
     }
 }
