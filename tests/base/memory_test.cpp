@@ -28,6 +28,11 @@ TEST(RequiredMemory, IsRefusedWithWhatItIsFor) {
         message,
         "a scene of 7 spheres needs at least 1.5 GiB of GPU memory, but 1.0 GiB are free; make it smaller, or use a "
         "machine with more");
+    EXPECT_EQ(
+        test::thrown_message<EnvironmentError>(
+            [] { require_memory(gibibyte, gibibyte / 2048, "a scene", "GPU memory"); }),
+        "a scene needs at least 1.0 GiB of GPU memory, but 0.5 MiB are free; make it smaller, or use a machine with "
+        "more");
     EXPECT_THROW(require_memory(std::size_t{1} << 60, "a scene"), EnvironmentError);
 }
 

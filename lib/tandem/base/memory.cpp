@@ -58,11 +58,15 @@ std::optional<std::size_t> available_memory() {
 
 void require_memory(std::size_t needed, std::size_t available, const std::string& what, const std::string& where) {
     if (needed <= available) return;
-    const auto gibibytes = [](std::size_t bytes) { return static_cast<double>(bytes) / (1 << 30); };
-    throw EnvironmentError(fmt::format(
-        "{} needs at least {:.1f} GiB of {}, but {:.1f} GiB are free; make it smaller, or use a machine with "
-        "more",
-        what, gibibytes(needed), where, gibibytes(available)));
+    const auto text = [](std::size_t bytes) {
+        constexpr std::size_t mebibyte = std::size_t{1} << 20, gibibyte = std::size_t{1} << 30;
+        const bool is_small = bytes < gibibyte;
+        return fmt::format("{:.1f} {}", static_cast<double>(bytes) / (is_small ? mebibyte : gibibyte),
+                           is_small ? "MiB" : "GiB");
+    };
+    throw EnvironmentError(
+        fmt::format("{} needs at least {} of {}, but {} are free; make it smaller, or use a machine with more", what,
+                    text(needed), where, text(available)));
 }
 
 void require_memory(std::size_t needed, const std::string& what) {
