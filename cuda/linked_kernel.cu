@@ -70,8 +70,8 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
                                                               std::uint32_t height, Vec3d* __restrict__ sums,
                                                               DeviceCounters* __restrict__ counters) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_SHORT_PATHS) && __CUDACC_VER_MAJOR__ >= 13
-    // Registers that do not suffice are kept in shared memory first, which is otherwise unused: up to 1.15 times as
-    // fast (docs/performance.md, "Registers of kernels for long paths").
+    // Spills registers to shared memory first, which is otherwise unused (docs/performance.md, "Registers of kernels
+    // for long paths").
     asm volatile(".pragma \"enable_smem_spilling\";");
 #endif
 #if defined(TANDEM_SHORT_PATHS)

@@ -22,28 +22,26 @@ FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|
 
 
 def units_of(source):
-    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt, without those whose code others have:
-    the linked kernel in strict alone, for few solids and for a hierarchy, whose leaves have the code of the loop;
-    kernels that trace rays and first hits of instances in strict, since rays are float in precise too."""
+    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone.
+    Kernels that trace rays: the nearest hits of each tier, and the other queries of strict."""
     if source.name == "compiled_facts.cu":
         return []  # numbers
     if source.name == "trace.cu":
-        asked = [("nearest", tier) for tier in ("strict", "fast")]
+        asked = [("nearest", tier) for tier in ("strict", "precise", "fast")]
         asked += [(ask, "strict") for ask in ("nearest_from_surface", "occluded")]
         return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_ASK={ask}", f"-DTANDEM_TRACE_TIER={tier}"])
                 for ask, tier in asked]
     if source.name == "trace_instanced.cu":
-        return [(source, ["-DTANDEM_SHORT_PATHS=1", "-DTANDEM_TRACE_TIER=strict"])]
+        return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_TIER={tier}"]) for tier in ("strict", "precise")]
     if source.name == "first_hits.cu":
         tracers = [("with_tracer", tier) for tier in ("strict", "precise", "fast")]
-        tracers += [("with_instanced_tracer", "strict")]
+        tracers += [("with_instanced_tracer", tier) for tier in ("strict", "precise")]
         return [(source, [f"-DTANDEM_FIRST_HITS_TIER={tier}", "-DTANDEM_FIRST_HITS_NAME=first_hits_here",
                           f"-DTANDEM_FIRST_HITS_TRACERS={with_tracers}"]) for with_tracers, tier in tracers]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
-            for tracer, short in (("ConstantMemoryTracer", []), ("ConstantMemoryTracer", ["-DTANDEM_SHORT_PATHS=1"]),
-                                  ("DeferringBvhTracer", []))]
+            for tracer in ("ConstantMemoryTracer", "LoopTracer", "DeferringBvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
 
 
 def main():

@@ -11,8 +11,8 @@
 
 namespace tandem::test {
 
-/// The oracle's film of a scene. It is kept for the other cases of the test suite, which must give one name to equal
-/// jobs alone: so the instruction sets of a case that runs TOGETHER (tests/CMakeLists.txt) share it.
+/// The oracle's film of a scene, rendered once per test suite: the instruction sets of a case that runs TOGETHER
+/// (tests/CMakeLists.txt) share it. `name`: of the job; within a suite and a tier, jobs of one name must be equal.
 inline const Film& film_of_the_oracle(const PreparedScene& scene, const std::string& name, const RenderJob& job) {
     static std::map<std::string, Film> films;
     const std::string suite = ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
