@@ -37,7 +37,7 @@ class SceneKernel : public ::testing::Test {
         scene.light_count = lights;
         return linked_facts(scene, effects, PathLimits{}, sampler, filter);
     }
-    /// LinkedSize once for all tests of the program.
+    /// Linked once for all tests of the program.
     static const LinkedSize& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
         static std::map<std::pair<Structure, LinkedFacts>, LinkedSize> known;
         const auto [place, is_new] = known.try_emplace({structure, facts});
