@@ -38,16 +38,29 @@ class SceneKernel : public ::testing::Test {
         return linked_facts(scene, effects, PathLimits{}, sampler, filter);
     }
     /// Linked once for all tests of the program.
-    static const LinkedSize& linked(const LinkedFacts& facts, Structure structure = Structure::few) {
-        static std::map<std::pair<Structure, LinkedFacts>, LinkedSize> known;
+    static const std::vector<std::byte>& cubin(const LinkedFacts& facts, Structure structure) {
+        static std::map<std::pair<Structure, LinkedFacts>, std::vector<std::byte>> known;
         const auto [place, is_new] = known.try_emplace({structure, facts});
-        if (is_new) {
-            const JitInput input = render_input(Tier::strict, structure, facts, architecture);
-            const auto cubin = link(input);
-            const auto of = cubin_facts(cubin, input.kernel);
-            place->second = {of->registers, of->stack_bytes, of->code.size()};
-        }
+        if (is_new) place->second = link(render_input(Tier::strict, structure, facts, architecture));
         return place->second;
+    }
+    static LinkedSize linked(const LinkedFacts& facts, Structure structure = Structure::few) {
+        const JitInput input = render_input(Tier::strict, structure, facts, architecture);
+        const auto of = cubin_facts(cubin(facts, structure), input.kernel);
+        return {of->registers, of->stack_bytes, of->code.size()};
+    }
+    /// How often the whole of a linked cubin, with the functions that its kernel calls, has a constant.
+    static int occurrences(std::uint32_t constant, const LinkedFacts& facts, Structure structure) {
+        const std::vector<std::byte>& code = cubin(facts, structure);
+        int found = 0;
+        for (std::size_t at = 0; at + sizeof constant <= code.size(); at += sizeof constant) {
+            found += std::memcmp(code.data() + at, &constant, sizeof constant) == 0 ? 1 : 0;
+        }
+        return found;
+    }
+    /// Of one that only the Sobol samplers use: the first factor of the nested permutation (kernel/sampler/sobol.h).
+    static int sobol_constants(const LinkedFacts& facts, Structure structure) {
+        return occurrences(0x3D20ADEAU, facts, structure);
     }
 };
 
@@ -65,7 +78,7 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
                                                {Effect::anisotropy, Effect::microfacets}};
     nlohmann::ordered_json table = nlohmann::ordered_json::array();
     const auto write = [&](EffectMask effects) {
-        const LinkedSize& kernel = linked(facts(effects));
+        const LinkedSize kernel = linked(facts(effects));
         table.push_back({{"effects", to_string(effects)},
                          {"registers", kernel.registers},
                          {"stack_bytes", kernel.stack_bytes},
@@ -93,7 +106,7 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
     // them in eights, so a kernel with up to seven fewer has no more warps.
     for (const Effect one :
          {Effect::reflection, Effect::refraction, Effect::cutouts, Effect::indirect, Effect::microfacets}) {
-        const LinkedSize& alone = linked(facts(one));
+        const LinkedSize alone = linked(facts(one));
         EXPECT_LE(alone.registers, most_registers(facts(one))) << to_string(one);
         EXPECT_GT(alone.registers, most_registers(facts(one)) - 8) << to_string(one);
         EXPECT_GT(everything.stack_bytes, 3 * alone.stack_bytes) << to_string(one);
@@ -115,21 +128,6 @@ TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
     EXPECT_GT(bytes([](SceneView& s) { s.triangle_count = 1; }), plain);
     EXPECT_GT(bytes([](SceneView& s) { s.quad_count = 1; }), plain);
     EXPECT_GT(bytes([](SceneView& s) { s.light_count = 1; }), plain);
-}
-
-/// How often the whole of a linked cubin, with the functions that its kernel calls, has a constant.
-int occurrences(std::uint32_t constant, const LinkedFacts& facts, Structure structure) {
-    const std::vector<std::byte> cubin = link(render_input(Tier::strict, structure, facts, architecture));
-    int found = 0;
-    for (std::size_t at = 0; at + sizeof constant <= cubin.size(); at += sizeof constant) {
-        found += std::memcmp(cubin.data() + at, &constant, sizeof constant) == 0 ? 1 : 0;
-    }
-    return found;
-}
-
-/// Of one that only the Sobol samplers use: the first factor of the nested permutation (kernel/sampler/sobol.h).
-int sobol_constants(const LinkedFacts& facts, Structure structure) {
-    return occurrences(0x3D20ADEAU, facts, structure);
 }
 
 TEST_F(SceneKernel, HasNoCodeForSamplersThatTheJobHasNot) {

@@ -53,12 +53,18 @@ class Patterns(unittest.TestCase):
         import pathlib
         import sys
         self.modules = {}
-        for name in ("sources", "objects", "ptx"):
+        for name in ("sources", "objects", "ptx", "includes"):
             path = pathlib.Path(__file__).with_name(name + ".py")
             source = path.read_text().rsplit("\nmain()", 1)[0]
             module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, None))
             exec(compile(source, str(path), "exec"), module.__dict__)  # without running it
             self.modules[name] = module
+
+    def test_names_without_their_headers(self):
+        lacking = self.modules["includes"].lacking
+        code = "std::vector<std::size_t> a; std::ours b; fmt::format(); my::fmt::c d;"
+        self.assertEqual(list(lacking(code, {"vector", "fmt/core.h"})), [])
+        self.assertEqual(list(lacking(code, {"string"})), [("std::vector", "vector"), ("fmt::", "fmt/...")])
 
     def test_libm_calls(self):
         pattern = self.modules["sources"].LIBM

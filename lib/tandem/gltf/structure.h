@@ -1,6 +1,8 @@
 /// glTF's rules across properties: versions, the node hierarchy, views within buffers, accessors within views.
 #pragma once
 
+#include <cstdint>
+
 #include "tandem/gltf/document.h"
 
 namespace tandem::gltf {

@@ -6,6 +6,7 @@
 #include <csetjmp>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 #include "tandem/images/decode_checks.h"
 #include "tandem/images/fast_deflate.h"

@@ -1,5 +1,7 @@
 #include "tandem/images/portable_map.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tandem/images/decode_checks.h"

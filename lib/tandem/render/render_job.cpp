@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
 #include "tandem/base/error.h"
 #include "tandem/render/sampler_names.h"

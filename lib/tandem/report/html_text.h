@@ -1,6 +1,7 @@
 /// Escaping for HTML and SVG, and page templates.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>

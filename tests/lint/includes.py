@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Checks that a source outside tests/ includes what it names of other libraries, itself or through our own headers.
+
+No compiler does: the build compiles files together (TANDEM_UNITY), lint.clang parses them after a precompiled header, and
+a header of the standard library includes others that another release does not.
+
+usage: includes.py ROOT
+"""
+
+import functools
+import pathlib
+import re
+import sys
+
+from lint import Report, files, without_comments
+
+ROOMS = ("lib", "cpu", "apps", "cuda")
+FOLDERS = [pathlib.PurePath(name) for name in ("lib", ".", "apps", "apps/bench")]  # of include paths
+
+# The headers that declare a name; any of them will do. Names that many headers declare, such as std::size_t, are left out.
+NAMES = {
+    "algorithm": "adjacent_find all_of any_of binary_search clamp copy_if copy_n count count_if equal fill fill_n find find_if "
+                 "find_if_not for_each includes lower_bound max max_element min min_element minmax_element mismatch "
+                 "none_of nth_element partition replace reverse rotate sort stable_partition stable_sort transform "
+                 "unique upper_bound",
+    "array": "array",
+    "atomic": "atomic atomic_ref memory_order_relaxed",
+    "bit": "bit_cast bit_ceil countl_zero countr_zero endian popcount rotl",
+    "charconv": "from_chars to_chars",
+    "chrono": "chrono",
+    "cmath": "acos asin atan atan2 cbrt ceil cos erf exp exp2 floor fmax fmin fmod hypot ilogb isfinite isinf isnan ldexp "
+             "llround log log10 log1p log2 lround nan nanf nextafter pow rint round signbit sin sqrt tan",
+    "concepts": "convertible_to integral invocable same_as",
+    "condition_variable": "condition_variable",
+    "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t uintptr_t",
+    "cstdio": "fclose fflush fopen fprintf fputs fread fwrite printf puts snprintf",
+    "cstdlib": "aligned_alloc exit free getenv malloc strtoull system",
+    "cstring": "memcmp memcpy memset strcmp strerror strlen",
+    "deque": "deque",
+    "exception": "current_exception exception_ptr make_exception_ptr rethrow_exception",
+    "filesystem": "filesystem",
+    "fstream": "ifstream ofstream",
+    "functional": "function less",
+    "future": "async future launch shared_future",
+    "limits": "numeric_limits",
+    "map": "map multimap",
+    "memory": "default_delete enable_shared_from_this make_shared make_unique shared_ptr unique_ptr weak_ptr",
+    "mutex": "call_once lock_guard mutex once_flag unique_lock",
+    "numbers": "numbers",
+    "numeric": "accumulate iota",
+    "optional": "nullopt optional",
+    "queue": "priority_queue",
+    "regex": "regex sregex_iterator",
+    "set": "multiset set",
+    "span": "as_bytes span",
+    "sstream": "istringstream ostringstream",
+    "stdexcept": "logic_error runtime_error",
+    "string": "getline stod stoi stoul string to_string",
+    "string_view": "string_view",
+    "system_error": "errc error_code generic_category system_error",
+    "thread": "jthread thread this_thread",
+    "tuple": "tie tuple tuple_cat",
+    "type_traits": "conditional_t decay_t is_arithmetic_v is_floating_point_v is_integral_v is_same_v is_trivially_copyable_v "
+                   "remove_reference_t type_identity_t",
+    "unordered_set": "unordered_set",
+    "utility": "as_const exchange forward index_sequence make_index_sequence move pair swap",
+    "variant": "get_if holds_alternative variant visit",
+    "vector": "vector",
+}
+DECLARED_BY = {name: header for header, names in NAMES.items() for name in names.split()}
+# Headers whose own functions return or fill what another declares.
+BRINGS = {"charconv": "system_error", "filesystem": "system_error"}
+# Namespaces of other libraries, and the folder of their headers.
+LIBRARIES = {"CLI": "CLI/", "Imf": "OpenEXR/", "fmt": "fmt/", "nlohmann": "nlohmann/", "tbb": "tbb/"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")', re.M)
+
+
+@functools.cache
+def reached(root, path):
+    """The headers of other libraries that a file includes, itself or through our own files."""
+    here = pathlib.PurePath(path)
+    found, seen, ours = set(), {here}, [here]
+    while ours:
+        here = ours.pop()
+        for foreign, own in INCLUDE.findall((root / here).read_text()):
+            if foreign:
+                found.update({foreign, BRINGS.get(foreign, foreign)})
+            for folder in (here.parent, *FOLDERS) if own else ():
+                place = folder / own
+                if place not in seen and (root / place).is_file():
+                    seen.add(place)
+                    ours.append(place)
+    return found
+
+
+def lacking(code, headers):
+    """(name, header) of what the code names and these headers do not declare."""
+    for name in sorted(set(re.findall(r"\bstd::(\w+)", code))):
+        if name in DECLARED_BY and DECLARED_BY[name] not in headers:
+            yield f"std::{name}", DECLARED_BY[name]
+    for namespace, folder in LIBRARIES.items():
+        if re.search(rf"(?<![\w:]){namespace}::", code) and not any(header.startswith(folder) for header in headers):
+            yield f"{namespace}::", f"{folder}..."
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    report = Report()
+    checked = [(path, text) for path, text in files(root, ROOMS, {".h", ".cpp", ".cu"})]
+    for path, text in checked:
+        for name, header in lacking(without_comments(text), reached(root, path)):
+            report.add(path, f"names {name}, and neither it nor what it includes of ours includes <{header}>")
+    report.finish(f"{len(checked)} files")
+
+
+main()
