@@ -47,6 +47,9 @@ def main():
             tier = TIER.search(command)
             sources[path, tier.group(1) if tier else ""] = arguments_of(command)  # of the last instruction set
 
+    if not sources:
+        sys.exit(f"{build}/compile_commands.json names no source under {root}: give the folder that was configured with it")
+
     def common(source):
         return tuple(argument for argument in sources[source] if COMMON.match(argument))
 
