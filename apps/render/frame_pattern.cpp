@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <regex>
 
 #include "tandem/base/error.h"

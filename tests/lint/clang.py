@@ -22,7 +22,7 @@ import tempfile
 from lint import Report, WARNINGS, compile_commands, is_parsed_alone
 
 KEPT = re.compile(r"-[DI]\S|-std=|-march=|-ffp-contract=")
-# What a precompiled header and the source that begins with it must have in common.
+# The arguments in which the precompiled header and a source that begins with it must agree.
 COMMON = re.compile(r"-std=|-march=|-ffp-contract=|-DFMT_|-DNDEBUG")
 PRECOMPILED = ("algorithm", "array", "atomic", "charconv", "chrono", "cmath", "cstring", "deque", "filesystem", "fstream",
                "functional", "future", "limits", "map", "memory", "mutex", "numbers", "numeric", "optional", "set", "span",
@@ -36,6 +36,19 @@ def arguments_of(command):
     words = shlex.split(command)
     return [part for word, following in zip(words, words[1:] + [""])
             for part in ([word, following] if word == "-isystem" else [word] if KEPT.match(word) else [])]
+
+
+def precompile(arguments, folder):
+    """The precompiled header, in the folder, of the libraries that are installed."""
+    header = pathlib.Path(folder, "libraries.pch")
+    # Without -fpch-instantiate-templates each source would instantiate the templates of these headers again.
+    result = subprocess.run(
+        ["clang++", "-x", "c++-header", "-fpch-instantiate-templates", *WARNINGS, *arguments, "-", "-o", header],
+        input="".join(f"#if __has_include(<{name}>)\n#include <{name}>\n#endif\n" for name in PRECOMPILED),
+        capture_output=True, text=True)
+    if result.returncode:
+        sys.exit(f"clang++ does not compile the headers of other libraries:\n{result.stderr[:2000]}")
+    return header
 
 
 def main():
@@ -56,13 +69,7 @@ def main():
     usual, _ = collections.Counter(map(common, sources)).most_common(1)[0]
 
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        header = pathlib.Path(folder, "libraries.pch")
-        # Without -fpch-instantiate-templates each source would instantiate the templates of these headers again.
-        precompiled = subprocess.run(
-            ["clang++", "-x", "c++-header", "-fpch-instantiate-templates", *WARNINGS, *usual, "-", "-o", header],
-            input="".join(f"#include <{name}>\n" for name in PRECOMPILED), capture_output=True, text=True)
-        if precompiled.returncode:
-            sys.exit(f"clang++ does not compile the headers of other libraries:\n{precompiled.stderr[:2000]}")
+        header = precompile(usual, folder)
 
         def parse(source):
             begin = ["-include-pch", header] if common(source) == usual else []

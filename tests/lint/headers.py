@@ -2,7 +2,7 @@
 """Compiles every header under lib/ alone, with clang++ or, without it, g++.
 
 clang++ comes first because the build compiles the same headers with g++ already. With it, headers that a source reads before
-anything else are left out: lint.clang parses that source.
+anything else are left out: lint.clang parses that source, and lint.includes finds what they lack of other libraries.
 
 usage: headers.py ROOT BUILD
 """

@@ -93,7 +93,8 @@ def is_parsed_alone(path, root, build):
 
 def first_includes(source, root):
     """The headers of lib/ that a source reads before anything else: the one that its first directive includes, the one
-    that this header's first directive includes, and so on. They compile alone if the source does."""
+    that this header's first directive includes, and so on. They compile alone if the source does, but for headers of other
+    libraries, which lint.clang precompiles and lint.includes checks."""
     while True:
         directives = re.findall(r"^\s*#\s*(?!pragma)(\w+)\s*(.*)$", source.read_text(), re.M)
         if not directives or directives[0][0] != "include" or not directives[0][1].startswith('"'):

@@ -61,10 +61,20 @@ class Patterns(unittest.TestCase):
             self.modules[name] = module
 
     def test_names_without_their_headers(self):
-        lacking = self.modules["includes"].lacking
-        code = "std::vector<std::size_t> a; std::ours b; fmt::format(); my::fmt::c d;"
-        self.assertEqual(list(lacking(code, {"vector", "fmt/core.h"})), [])
-        self.assertEqual(list(lacking(code, {"string"})), [("std::vector", "vector"), ("fmt::", "fmt/...")])
+        def found(code, *headers):
+            return [finding.split()[1].rstrip(",") for finding in self.modules["includes"].lacking(code, set(headers))]
+        code = "std::vector<std::size_t> a; fmt::format(); my::fmt::c d;"
+        self.assertEqual(found(code, "vector", "fmt/core.h"), [])
+        self.assertEqual(found(code, "string"), ["std::vector", "fmt::"])
+        self.assertEqual(found("std::unheard_of b;", "vector"), ["std::unheard_of"])
+
+    def test_headers_are_reached_through_our_own(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "lib")
+            folder.mkdir()
+            (folder / "a.h").write_text('#include "b.h"\n')
+            (folder / "b.h").write_text('#include "a.h"\n#include <charconv>\n')
+            self.assertEqual(self.modules["includes"].reached(pathlib.Path(name), "lib/a.h"), {"charconv", "system_error"})
 
     def test_libm_calls(self):
         pattern = self.modules["sources"].LIBM

@@ -1,8 +1,8 @@
 #include "tandem/images/portable_map.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "tandem/images/decode_checks.h"
 

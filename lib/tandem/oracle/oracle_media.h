@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "tandem/kernel/media/medium_stack.h"  // for no_medium alone
