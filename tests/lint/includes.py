@@ -7,6 +7,7 @@ header, and which other headers a header of the standard library includes depend
 usage: includes.py ROOT
 """
 
+import functools
 import pathlib
 import re
 import sys
@@ -85,21 +86,25 @@ LIBRARIES = {"CLI": "CLI/", "Imf": "OpenEXR/", "fmt": "fmt/", "nlohmann": "nlohm
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")', re.M)
 
 
+@functools.cache
+def included(root, path):
+    """(headers of other libraries, our own files) that the #include lines of a file name."""
+    lines = INCLUDE.findall((root / path).read_text())
+    places = [folder / own for _, own in lines if own for folder in (path.parent, *FOLDERS)]
+    return {foreign for foreign, _ in lines if foreign}, [place for place in places if (root / place).is_file()]
+
+
 def reached(root, path):
     """The headers of other libraries that a file includes, itself or through our own files."""
-    here = pathlib.PurePath(path)
-    found, seen, ours = set(), {here}, [here]
+    found, seen, ours = set(), set(), [pathlib.PurePath(path)]
     while ours:
         here = ours.pop()
-        for foreign, own in INCLUDE.findall((root / here).read_text()):
-            if foreign:
-                found.update({foreign, BRINGS.get(foreign, foreign)})
-            for folder in (here.parent, *FOLDERS) if own else ():
-                place = folder / own
-                if place not in seen and (root / place).is_file():
-                    seen.add(place)
-                    ours.append(place)
-    return found
+        if here not in seen:
+            seen.add(here)
+            foreign, own = included(root, here)
+            found |= foreign
+            ours += own
+    return found | {BRINGS[header] for header in found if header in BRINGS}
 
 
 def lacking(code, headers):
