@@ -20,9 +20,10 @@ else()
   target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v2>)
 endif()
 
-# What is not timed compiles faster with -O1: called by folders whose code does not compute pictures.
-macro(tandem_optimise_little)
-  string(REPLACE "-O3" "-O1" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+# tandem_optimise(LEVEL): what is not timed compiles faster with -O1 or -O0. Called by folders whose code does not compute
+# pictures.
+macro(tandem_optimise level)
+  string(REPLACE "-O3" "${level}" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 endmacro()
 
 # Warnings and sanitizers; not exported.

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "support/bundles.h"
 #include "support/hard_scenes.h"
@@ -43,91 +47,119 @@ struct Structure {
     Bvh bvh;
 };
 
-/// Same nearest hit of the ray; from there, same nearest hit of a ray that leaves the surface, and same shadow.
+/// Where rays onwards from a hit end that is at t, as distances to ask with: before it, at it, behind it.
+std::array<double, 5> distances_around(double t) { return {0.5 * t, t, t * (1 + 1e-15), 1.0, 1e300}; }
+
+/// What the loop over all primitives says of a ray: its nearest hit, what lies behind it as if all were masked there,
+/// and the nearest hit and the shadow of a ray that leaves the surface.
+struct Answers {
+    Answers(const LoopTracer& one_by_one, const Ray<float>& asked)
+        : ray(asked), nearest(one_by_one.closest(ray, NoSource{}, true)) {
+        if (nearest.primitive == no_primitive) return;
+        PathSource<float> path;
+        for (path.last_masked = nearest; path.last_masked.primitive != no_primitive;) {
+            behind.push_back(path.last_masked = one_by_one.closest(ray, path, true));
+        }
+        precise = one_by_one.closest(to_real<double>(ray), NoSource{}, true);
+        const SurfacePoint<float> point = surface_point(one_by_one.scene, ray, NoSource{}, nearest, true);
+        const SpawnedRay<float> out = spawn_ray(point, Vec3f{ray.direction.y, -ray.direction.x, ray.direction.z});
+        if (!is_traceable(out.ray)) return;
+        spawned = out;
+        onwards = one_by_one.closest(out.ray, out.source, true);
+        onwards_as_path = one_by_one.closest(out.ray, PathSource<float>{out.source}, true);
+        ShadowSource<float> source;
+        static_cast<RaySource&>(source) = out.source;
+        const std::array distances = distances_around(onwards.t);
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            occluded[i] = one_by_one.occluded(out.ray, distances[i], source, true);
+        }
+        source.light = onwards.primitive;
+        occluded_to_light = one_by_one.occluded(out.ray, 1e300, source, true);
+    }
+
+    Ray<float> ray;
+    Closest<float> nearest;
+    std::vector<Closest<float>> behind;  ///< from near to far, the last one without a primitive
+    Closest<double> precise;
+    std::optional<SpawnedRay<float>> spawned;  ///< what follows is of this ray
+    Closest<float> onwards, onwards_as_path;
+    std::array<bool, 5> occluded{};  ///< up to each of distances_around(onwards.t)
+    bool occluded_to_light = false;
+};
+
+template <class Real>
+void expect_equal(const Closest<Real>& actual, const Closest<Real>& expected, const std::string& what) {
+    ASSERT_EQ(actual.primitive, expected.primitive) << what;
+    ASSERT_EQ(bits_of(actual.t), bits_of(expected.t)) << what;
+}
+
 template <class Tracer>
-void expect_same(const Tracer& tracer, const LoopTracer& one_by_one, const Ray<float>& ray, const std::string& what) {
-    const Closest<float> a = tracer.closest(ray, NoSource{}, true);
-    const Closest<float> b = one_by_one.closest(ray, NoSource{}, true);
-    ASSERT_EQ(a.primitive, b.primitive) << what;
-    ASSERT_EQ(bits_of(a.t), bits_of(b.t)) << what;
-    if (b.primitive == no_primitive) return;
-    // through all surfaces, as if they were masked there
+void expect_same(const Tracer& tracer, const Answers& expected, const std::string& what) {
+    const Ray<float>& ray = expected.ray;
+    ASSERT_NO_FATAL_FAILURE(expect_equal(tracer.closest(ray, NoSource{}, true), expected.nearest, what));
+    if (expected.nearest.primitive == no_primitive) return;
     PathSource<float> path;
-    for (path.last_masked = b; path.last_masked.primitive != no_primitive;) {
-        const Closest<float> next = one_by_one.closest(ray, path, true);
-        const Closest<float> same = tracer.closest(ray, path, true);
-        ASSERT_EQ(same.primitive, next.primitive) << what << ", through masks";
-        ASSERT_EQ(bits_of(same.t), bits_of(next.t)) << what << ", through masks";
+    path.last_masked = expected.nearest;
+    for (const Closest<float>& next : expected.behind) {
+        ASSERT_NO_FATAL_FAILURE(expect_equal(tracer.closest(ray, path, true), next, what + ", through masks"));
         path.last_masked = next;
     }
-    const Ray<double> wide = to_real<double>(ray);
-    const Closest<double> precise = one_by_one.closest(wide, NoSource{}, true);
-    const Closest<double> e = tracer.closest(wide, NoSource{}, true);
-    ASSERT_EQ(e.primitive, precise.primitive) << what << ", precise";
-    ASSERT_EQ(bits_of(e.t), bits_of(precise.t)) << what << ", precise";
-    const SurfacePoint<float> point = surface_point(one_by_one.scene, ray, NoSource{}, b, true);
-    const Vec3f back = {ray.direction.y, -ray.direction.x, ray.direction.z};
-    const SpawnedRay<float> spawned = spawn_ray(point, back);
-    if (!is_traceable(spawned.ray)) return;
-    const Closest<float> c = tracer.closest(spawned.ray, spawned.source, true);
-    const Closest<float> d = one_by_one.closest(spawned.ray, spawned.source, true);
-    const PathSource<float> onwards = {spawned.source};
-    const Closest<float> f = tracer.closest(spawned.ray, onwards, true);
-    ASSERT_EQ(f.primitive, one_by_one.closest(spawned.ray, onwards, true).primitive) << what << ", onwards as a path";
-    for (const double farthest : {0.5 * f.t, f.t, f.t * (1 + 1e-15), 1.0, 1e300}) {
-        const Closest<float> bounded = tracer.closest(spawned.ray, onwards, true, farthest);
-        if (f.t < farthest) {
-            ASSERT_EQ(bounded.primitive, f.primitive) << what << ", up to " << farthest;
-            ASSERT_EQ(bits_of(bounded.t), bits_of(f.t)) << what << ", up to " << farthest;
+    ASSERT_NO_FATAL_FAILURE(
+        expect_equal(tracer.closest(to_real<double>(ray), NoSource{}, true), expected.precise, what + ", precise"));
+    if (!expected.spawned) return;
+    const Ray<float>& out = expected.spawned->ray;
+    const RaySource& from = expected.spawned->source;
+    ASSERT_NO_FATAL_FAILURE(expect_equal(tracer.closest(out, from, true), expected.onwards, what + ", onwards"));
+    const PathSource<float> onwards = {from};
+    const Closest<float> found = tracer.closest(out, onwards, true);
+    ASSERT_EQ(found.primitive, expected.onwards_as_path.primitive) << what << ", onwards as a path";
+    for (const double farthest : distances_around(found.t)) {
+        const Closest<float> bounded = tracer.closest(out, onwards, true, farthest);
+        if (found.t < farthest) {
+            ASSERT_EQ(bounded.primitive, found.primitive) << what << ", up to " << farthest;
+            ASSERT_EQ(bits_of(bounded.t), bits_of(found.t)) << what << ", up to " << farthest;
         } else {
             ASSERT_EQ(bits_of(bounded.t), bits_of(farthest)) << what << ", up to " << farthest;
         }
     }
-    ASSERT_EQ(c.primitive, d.primitive) << what << ", onwards";
-    ASSERT_EQ(bits_of(c.t), bits_of(d.t)) << what << ", onwards";
     ShadowSource<float> source;
-    static_cast<RaySource&>(source) = spawned.source;
-    for (const double t_max : {0.5 * d.t, d.t, d.t * (1 + 1e-15), 1.0, 1e300}) {
-        ASSERT_EQ(tracer.occluded(spawned.ray, t_max, source, true),
-                  one_by_one.occluded(spawned.ray, t_max, source, true))
-            << what << ", until " << t_max;
-        ASSERT_EQ(one_by_one.occluded(spawned.ray, t_max, source, true), d.t < t_max) << what << ", until " << t_max;
+    static_cast<RaySource&>(source) = from;
+    const std::array distances = distances_around(expected.onwards.t);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        const double t_max = distances[i];
+        ASSERT_EQ(tracer.occluded(out, t_max, source, true), expected.occluded[i]) << what << ", until " << t_max;
+        ASSERT_EQ(expected.occluded[i], expected.onwards.t < t_max) << what << ", until " << t_max;
     }
-    source.light = d.primitive;
-    ASSERT_EQ(tracer.occluded(spawned.ray, 1e300, source, true), one_by_one.occluded(spawned.ray, 1e300, source, true))
-        << what << ", to a light";
+    source.light = expected.onwards.primitive;
+    ASSERT_EQ(tracer.occluded(out, 1e300, source, true), expected.occluded_to_light) << what << ", to a light";
 }
 
-/// For a scene of these kinds alone.
+/// For a scene of these kinds alone, a tracer that knows no other.
 template <std::uint32_t kinds>
-void expect_same_of_kinds(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
-    const auto tracer = structure.tracer<Decisions::behind_walk, kinds>();
-    const LoopTracer one_by_one = {view(structure.scene)};
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!is_traceable(rays[i])) continue;
-        expect_same(tracer, one_by_one, rays[i], name + ", ray " + std::to_string(i) + ", one kind");
-        if (::testing::Test::HasFatalFailure()) return;
-    }
+void expect_same_of_kinds(const Structure& structure, const Answers& expected, const std::string& what) {
+    expect_same(structure.tracer<Decisions::behind_walk, kinds>(), expected, what + ", one kind");
 }
 
 void expect_same_as_loop(const Structure& structure, const std::vector<Ray<float>>& rays, const std::string& name) {
     const auto in_leaves = structure.tracer();
     const auto behind_walk = structure.tracer<Decisions::behind_walk>();
-    const LoopTracer one_by_one = {view(structure.scene)};
+    const SceneView scene = view(structure.scene);
+    const LoopTracer one_by_one = {scene};
+    const std::size_t count = primitive_count(scene);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!is_traceable(rays[i])) continue;
         const std::string what = name + ", ray " + std::to_string(i);
-        expect_same(in_leaves, one_by_one, rays[i], what);
-        expect_same(behind_walk, one_by_one, rays[i], what + ", decided behind the walk");
+        const Answers expected(one_by_one, rays[i]);
+        expect_same(in_leaves, expected, what);
+        expect_same(behind_walk, expected, what + ", decided behind the walk");
+        if (structure.scene.spheres.size() == count) {
+            expect_same_of_kinds<PrimitiveKinds::sphere>(structure, expected, what);
+        } else if (structure.scene.triangles.size() == count) {
+            expect_same_of_kinds<PrimitiveKinds::triangle>(structure, expected, what);
+        } else if (structure.scene.parallelepipeds.size() == count) {
+            expect_same_of_kinds<PrimitiveKinds::parallelepiped>(structure, expected, what);
+        }
         if (::testing::Test::HasFatalFailure()) return;
-    }
-    const std::size_t count = primitive_count(view(structure.scene));
-    if (structure.scene.spheres.size() == count) {
-        expect_same_of_kinds<PrimitiveKinds::sphere>(structure, rays, name);
-    } else if (structure.scene.triangles.size() == count) {
-        expect_same_of_kinds<PrimitiveKinds::triangle>(structure, rays, name);
-    } else if (structure.scene.parallelepipeds.size() == count) {
-        expect_same_of_kinds<PrimitiveKinds::parallelepiped>(structure, rays, name);
     }
 }
 
@@ -315,9 +347,11 @@ TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
     tracer.bvh.stack_overflows = behind_walk.bvh.stack_overflows = &overflows;
     const LoopTracer one_by_one = {view(structure.scene)};
     for (const float x : {0.0F, 0.5F, 0.999F, 1.5F}) {
-        expect_same(tracer, one_by_one, {{x, 0, 0}, {0, 0, -1}}, "x = " + std::to_string(x));
-        expect_same(tracer, one_by_one, {{x, 0, -1000}, {0, 0, 1}}, "from behind, x = " + std::to_string(x));
-        expect_same(behind_walk, one_by_one, {{x, 0, 0}, {0, 0, -1}}, "behind the walk, x = " + std::to_string(x));
+        const Answers expected(one_by_one, {{x, 0, 0}, {0, 0, -1}});
+        expect_same(tracer, expected, "x = " + std::to_string(x));
+        expect_same(behind_walk, expected, "behind the walk, x = " + std::to_string(x));
+        const Answers from_behind(one_by_one, {{x, 0, -1000}, {0, 0, 1}});
+        expect_same(tracer, from_behind, "from behind, x = " + std::to_string(x));
     }
     EXPECT_GT(overflows, 0U);
     tracer.bvh.stack_overflows = nullptr;  // need not be counted
@@ -348,7 +382,7 @@ TEST(ConstantMemoryTracer, GivesTheBitsOfTheLoop) {
         const LoopTracer one_by_one = {scene_view};
         for (const Ray<float>& ray : test::make_rays(scene, 50'000, 8)) {
             if (!is_traceable(ray)) continue;
-            expect_same(few, one_by_one, ray, "few");
+            expect_same(few, Answers(one_by_one, ray), "few");
             if (HasFatalFailure()) return;
         }
     }
