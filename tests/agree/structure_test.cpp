@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/bundles.h"
@@ -47,7 +49,7 @@ struct Structure {
     Bvh bvh;
 };
 
-/// Where rays onwards from a hit end that is at t, as distances to ask with: before it, at it, behind it.
+/// Limits to ask with around a hit at t: before it, at it and just behind it; then one near and one far, whatever t is.
 std::array<double, 5> distances_around(double t) { return {0.5 * t, t, t * (1 + 1e-15), 1.0, 1e300}; }
 
 /// What the loop over all primitives says of a ray: its nearest hit, what lies behind it as if all were masked there,

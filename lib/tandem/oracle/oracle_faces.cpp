@@ -15,7 +15,7 @@ template <class Number>
 struct Vector3 {
     Number x, y, z;
 };
-/// For doubles rounded once, after the subtraction: then the error is relative to the difference.
+/// Doubles are rounded once, after the subtraction, so that the error is relative to the difference.
 template <class Number>
 Vector3<Number> difference(const Vector& a, const Vector& b) {
     using Operand = std::conditional_t<std::is_same_v<Number, double>, Real, Number>;
