@@ -65,7 +65,8 @@ struct Crossing {
 
 /// Whether doubles show that a line misses. Each factor of a volume has an error of at most 2 units of 2^-53, and the
 /// sums and products of a determinant add at most 6: 12 units of the magnitude together, a tenth of what is allowed
-/// here. Numbers so small that products could underflow, or so large that they overflow, show nothing.
+/// here (tests/agree/oracle_faces_test.cpp). Numbers so small that products could underflow, or so large that they
+/// overflow, show nothing.
 bool surely_misses(const Crossing<double>& rough) {
     return rough.magnitude > 1e-200 && rough.magnitude < 1e300 && rough.passes_by(rough.magnitude * 0x1p-46);
 }
