@@ -7,6 +7,7 @@
 
 #include "cuda/block_shape.h"
 #include "cuda/specialise.h"
+#include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/kernel/surface_lobes.h"
 
@@ -104,6 +105,17 @@ int most_registers(Tier tier, EffectMask effects) {
     return lights_diffuse_paths || effects.has_any(effects_of_local_lobes) ? for_12_warps : for_16_warps;
 }
 
+/// For a tier that TANDEM_COMPILED_TIERS leaves out.
+std::string why_not_compiled(Tier tier) {
+    std::string text = fmt::format(
+        "this build has no kernels compiled ahead of time for the tier {0} (TANDEM_COMPILED_TIERS). Choose another "
+        "tier, "
+        "let kernels be linked for the scene (--specialise always), or add {0} to -DTANDEM_COMPILED_TIERS",
+        to_string(tier));
+    if (!why_jit_unavailable().empty()) text += ". None can be linked here: " + why_jit_unavailable();
+    return text;
+}
+
 /// With more lights than this their number is not a constant, since the loop over them would not be unrolled anyway.
 constexpr std::uint32_t most_linked_lights = 4;
 
@@ -150,17 +162,25 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
     return input;
 }
 
+// The functions of a tier that is not compiled do not exist; only discarded statements name them.
 std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant) {
     if (structure == Structure::instanced) {
         if (tier == Tier::precise) {
-            return variant == 0 ? compiled_plain_instanced_precise() : compiled_full_instanced_precise();
+            if constexpr (TANDEM_IS_COMPILED_precise) {
+                return variant == 0 ? compiled_plain_instanced_precise() : compiled_full_instanced_precise();
+            }
+        } else if constexpr (TANDEM_IS_COMPILED_strict) {
+            return variant == 0 ? compiled_plain_instanced_strict() : compiled_full_instanced_strict();
         }
-        return variant == 0 ? compiled_plain_instanced_strict() : compiled_full_instanced_strict();
+        return {};
     }
     switch (tier) {
-#define TANDEM_TIER(name, promise) \
-    case Tier::name:               \
-        return variant == 0 ? TANDEM_COMPILED(plain, name) : TANDEM_COMPILED(full, name);
+#define TANDEM_TIER(name, promise)                                                            \
+    case Tier::name:                                                                          \
+        if constexpr (TANDEM_IS_COMPILED_##name) {                                            \
+            return variant == 0 ? TANDEM_COMPILED(plain, name) : TANDEM_COMPILED(full, name); \
+        }                                                                                     \
+        break;
 #define TANDEM_COMPILED(variant, name)                                                            \
     (structure == Structure::few ? compiled_##variant##_few_##name()                              \
      : structure == Structure::loop                                                               \
@@ -208,6 +228,7 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
     if (kernel == nullptr) {
         const EffectMask effects = variants[variant].effects;
         const std::span<const std::byte> code = compiled_code(tier, structure, faces, variant);
+        if (code.empty()) throw EnvironmentError(why_not_compiled(kernel_tier(tier, structure)));
         const int registers = most_registers(kernel_tier(tier, structure), effects);
         kernel.reset(new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects), "rendering"});
     }

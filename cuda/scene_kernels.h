@@ -25,7 +25,8 @@ namespace tandem::cuda {
 [[nodiscard]] JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, int architecture);
 
 /// The kernel that was linked when Tandem was built, with the effects of `variants[variant]`, for scenes with faces
-/// (has_faces()) or without: a fat binary for CMAKE_CUDA_ARCHITECTURES.
+/// (has_faces()) or without: a fat binary for CMAKE_CUDA_ARCHITECTURES. Empty for a tier that TANDEM_COMPILED_TIERS
+/// leaves out.
 [[nodiscard]] std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant);
 
 /// A render kernel on the GPU.
@@ -48,8 +49,8 @@ class SceneKernels {
     /// Not safe from several threads at once.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
-    /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode. Not for several
-    /// threads at once.
+    /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode, and
+    /// EnvironmentError if the build lacks the tier. Not for several threads at once.
     [[nodiscard]] const SceneKernel& compiled(Tier tier, const DeviceSceneView& scene, std::size_t variant);
 
   private:

@@ -1,6 +1,7 @@
 // The kernels that are linked when Tandem is built: their machine code is what a link at load would give. No GPU.
 #include <cuda_runtime_api.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,6 +10,7 @@
 #include "cuda/machine_code.h"
 #include "cuda/scene_kernels.h"
 #include "cuda/toy_input.h"
+#include "tandem/base/error.h"
 #include "tandem/base/whole_file.h"
 
 namespace tandem::cuda {
@@ -31,6 +33,11 @@ Code code_of(std::span<const std::byte> cubin, const std::string& kernel) {
     const CubinFacts facts = cubin_facts(cubin, kernel).value();
     return {count(facts.code, Operation::ffma), count(facts.code, Operation::dfma), count(facts.code, Operation::mufu),
             facts.registers, facts.stack_bytes};
+}
+
+/// Is the tier in TANDEM_COMPILED_TIERS?
+bool is_compiled(Tier tier) {
+    return fmt::format(" {} ", TANDEM_COMPILED_TIERS).find(fmt::format(" {} ", to_string(tier))) != std::string::npos;
 }
 
 class CompiledKernels : public ::testing::Test {
@@ -59,6 +66,7 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
         GTEST_SKIP() << jit_version() << " is not of the release that built Tandem";
 
     const auto expect_equal = [](Tier tier, std::size_t variant) {
+        if (!is_compiled(tier)) return;
         const std::string name = fmt::format("{}_few_{}", variants[variant].name, to_string(tier));
         const LinkedFacts facts = facts_of_any_scene(variants[variant].effects, ConstantMemoryTracer::kinds);
         const JitInput input = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE);
@@ -73,6 +81,7 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
 // The limits in cuda/CMakeLists.txt are those of a link at load.
 TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
     const auto expect_within = [](Tier tier) {
+        if (!is_compiled(tier)) return;
         const LinkedFacts facts = facts_of_any_scene(variants[1].effects, ConstantMemoryTracer::kinds);
         const int most = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE).registers;
         const int used = compiled(fmt::format("cuda/compiled_full_few_{}", to_string(tier)), "tandem_render").registers;
@@ -85,6 +94,7 @@ TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
 }
 
 TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
+    if (!is_compiled(Tier::strict) || !is_compiled(Tier::fast)) GTEST_SKIP() << "only " TANDEM_COMPILED_TIERS;
     // Where margins cover fused operations, the exact tiers use them and fast does not: for intervals in hierarchies,
     // and for few primitives without effects (kernel/certain_light.h).
     for (const char* scenes : {"few", "loop", "loop_bodies"}) {
@@ -97,16 +107,38 @@ TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
     }
 }
 
-TEST(CompiledCode, IsThereForEverySceneAndTheFactsLeaveEverythingOpen) {
+TEST(CompiledCode, IsThereForEverySceneOfATierThatIsCompiled) {
+    const auto expect_code = [](Tier tier, Structure structure, bool faces, std::size_t variant) {
+        const bool draws_as_strict = tier == Tier::fast && structure == Structure::instanced;
+        EXPECT_EQ(compiled_code(tier, structure, faces, variant).empty(),
+                  !is_compiled(draws_as_strict ? Tier::strict : tier))
+            << to_string(tier) << " " << variants[variant].name;
+    };
     for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh, Structure::instanced}) {
         for (const bool faces : {false, true}) {
             for (std::size_t variant = 0; variant < std::size(variants); ++variant) {
-#define TANDEM_TIER(name, promise) EXPECT_FALSE(compiled_code(Tier::name, structure, faces, variant).empty());
+#define TANDEM_TIER(name, promise) expect_code(Tier::name, structure, faces, variant);
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
             }
         }
     }
+}
+
+TEST(CompiledCode, OfATierThatIsNotCompiledIsAnErrorThatSaysWhatToDo) {
+    if (is_compiled(Tier::precise)) GTEST_SKIP() << "the tier precise is compiled";
+    SceneKernels kernels(TANDEM_LTO_ARCHITECTURE);
+    try {
+        (void)kernels.compiled(Tier::precise, DeviceSceneView{}, 0);
+        FAIL() << "there is a kernel";
+    } catch (const EnvironmentError& error) {
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("ahead of time for the tier precise (TANDEM_COMPILED_TIERS)"));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("add precise to -DTANDEM_COMPILED_TIERS"));
+    }
+}
+
+TEST(CompiledCode, IsShorterWithFewerFacts) {
+    if (!is_compiled(Tier::strict)) GTEST_SKIP() << "only " TANDEM_COMPILED_TIERS;
     const auto full = [](bool faces) { return compiled_code(Tier::strict, Structure::bvh, faces, 1).size(); };
     EXPECT_LT(full(false), full(true));
     EXPECT_LT(compiled_code(Tier::strict, Structure::bvh, true, 0).size(), full(true));
