@@ -105,15 +105,12 @@ int most_registers(Tier tier, EffectMask effects) {
     return lights_diffuse_paths || effects.has_any(effects_of_local_lobes) ? for_12_warps : for_16_warps;
 }
 
-/// For a tier that TANDEM_COMPILED_TIERS leaves out.
-std::string why_not_compiled(Tier tier) {
-    std::string text = fmt::format(
-        "this build has no kernels compiled ahead of time for the tier {0} (TANDEM_COMPILED_TIERS). Choose another "
-        "tier, "
-        "let kernels be linked for the scene (--specialise always), or add {0} to -DTANDEM_COMPILED_TIERS",
-        to_string(tier));
-    if (!why_jit_unavailable().empty()) text += ". None can be linked here: " + why_jit_unavailable();
-    return text;
+/// For a tier that TANDEM_COMPILED_TIERS leaves out. `why_not_linked`: empty if a kernel could be linked for the scene.
+EnvironmentError not_compiled(Tier tier, const std::string& why_not_linked) {
+    return EnvironmentError(fmt::format(
+        "this build has no kernels compiled ahead of time for the tier {0} (TANDEM_COMPILED_TIERS){1}. Choose another "
+        "tier, link kernels for the scene (--specialise always), or build with {0} in TANDEM_COMPILED_TIERS",
+        to_string(tier), why_not_linked.empty() ? "" : ", and none can be linked for the scene: " + why_not_linked));
 }
 
 /// With more lights than this their number is not a constant, since the loop over them would not be unrolled anyway.
@@ -212,6 +209,10 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
+            if (compiled_code(tier, structure, has_faces(scene.scene), 0).empty()) {
+                kernels_.erase(place);
+                throw not_compiled(kernel_tier(tier, structure), error.what());
+            }
             warn(fmt::format("a kernel compiled ahead of time is used, because none can be linked for the scene: {}",
                              error.what()));
         }
@@ -228,7 +229,7 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
     if (kernel == nullptr) {
         const EffectMask effects = variants[variant].effects;
         const std::span<const std::byte> code = compiled_code(tier, structure, faces, variant);
-        if (code.empty()) throw EnvironmentError(why_not_compiled(kernel_tier(tier, structure)));
+        if (code.empty()) throw not_compiled(kernel_tier(tier, structure), why_jit_unavailable());
         const int registers = most_registers(kernel_tier(tier, structure), effects);
         kernel.reset(new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects), "rendering"});
     }

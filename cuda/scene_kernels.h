@@ -46,7 +46,7 @@ class SceneKernels {
         double seconds = 0;                   ///< to link or to fetch it; 0 if it was loaded already
         std::string warning;                  ///< why there is no kernel, or why the cache failed; reported once
     };
-    /// Not safe from several threads at once.
+    /// Not safe from several threads at once. Throws EnvironmentError if none can be linked and compiled() has none.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
     /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode, and

@@ -78,6 +78,31 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
     expect_equal(Tier::strict, 1);
 }
 
+TEST_F(CompiledKernels, OfTiersThatAreNotCompiledCanBeLinked) {
+    if (!why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
+    if (is_compiled(Tier::strict) && is_compiled(Tier::precise) && is_compiled(Tier::fast))
+        GTEST_SKIP() << "all tiers are compiled";
+    const auto expect_kernels = [](Tier tier) {
+        if (is_compiled(tier)) return;
+        for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh, Structure::instanced}) {
+            const std::uint32_t kinds = structure == Structure::few         ? ConstantMemoryTracer::kinds
+                                        : structure == Structure::instanced ? InstancedTracer::kinds
+                                                                            : PrimitiveKinds::all;
+            for (const KernelVariant& variant : variants) {
+                const JitInput input = render_input(tier, structure, facts_of_any_scene(variant.effects, kinds),
+                                                    TANDEM_COMPILED_ARCHITECTURE);
+                const int registers = code_of(link(input), input.kernel).registers;
+                EXPECT_GT(registers, 0) << to_string(tier) << " " << variant.name;
+                const int most = input.registers > 0 ? input.registers : 255;  // of a thread, on every GPU
+                EXPECT_LE(registers, most) << to_string(tier) << " " << variant.name;
+            }
+        }
+    };
+#define TANDEM_TIER(name, promise) expect_kernels(Tier::name);
+#include "tandem/render/tiers.def"
+#undef TANDEM_TIER
+}
+
 // The limits in cuda/CMakeLists.txt are those of a link at load.
 TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
     const auto expect_within = [](Tier tier) {
@@ -125,15 +150,30 @@ TEST(CompiledCode, IsThereForEverySceneOfATierThatIsCompiled) {
     }
 }
 
+/// What the function throws; "" if nothing.
+template <class Function>
+std::string error_of(const Function& function) {
+    try {
+        function();
+    } catch (const EnvironmentError& error) {
+        return error.what();
+    }
+    return "";
+}
+
 TEST(CompiledCode, OfATierThatIsNotCompiledIsAnErrorThatSaysWhatToDo) {
     if (is_compiled(Tier::precise)) GTEST_SKIP() << "the tier precise is compiled";
-    SceneKernels kernels(TANDEM_LTO_ARCHITECTURE);
-    try {
-        (void)kernels.compiled(Tier::precise, DeviceSceneView{}, 0);
-        FAIL() << "there is a kernel";
-    } catch (const EnvironmentError& error) {
-        EXPECT_THAT(error.what(), ::testing::HasSubstr("ahead of time for the tier precise (TANDEM_COMPILED_TIERS)"));
-        EXPECT_THAT(error.what(), ::testing::HasSubstr("add precise to -DTANDEM_COMPILED_TIERS"));
+    using ::testing::HasSubstr;
+    constexpr int no_gpu_of_this_kind = 1;
+    SceneKernels kernels(no_gpu_of_this_kind);
+    const std::string error = error_of([&] { (void)kernels.compiled(Tier::precise, DeviceSceneView{}, 0); });
+    EXPECT_THAT(error, HasSubstr("no kernels compiled ahead of time for the tier precise (TANDEM_COMPILED_TIERS)"));
+    EXPECT_THAT(error, HasSubstr("build with precise in TANDEM_COMPILED_TIERS"));
+
+    // and where the link fails, which the first call must not make the second forget
+    for (int call = 0; call < 2; ++call) {
+        EXPECT_THAT(error_of([&] { (void)kernels.find(Tier::precise, DeviceSceneView{}, LinkedFacts{}); }),
+                    HasSubstr("(TANDEM_COMPILED_TIERS), and none can be linked for the scene: "));
     }
 }
 
