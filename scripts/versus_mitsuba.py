@@ -2,11 +2,13 @@
 """Times whitted.gltf on the CPU beside the same scene in Mitsuba 3, in turns, and prints the ratio of their rates.
 
   scripts/versus_mitsuba.py [--render build/release/bin/tandem-render] [--tier strict] [--variant scalar_rgb]
-                         [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER]
+                         [--threads N] [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER] [--json FILE]
 
-Needs a Python with the package mitsuba (`pip install mitsuba`). Both trace paths with next-event estimation. What
-differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends paths after 8 vertices, Tandem
-after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both images.
+Needs a Python with the packages mitsuba and numpy (`pip install mitsuba numpy`); the llvm variants also need LLVM's
+shared library (Debian: libllvm14). Ends with status 77 if one of them is missing. The two take turns, after a first
+round that does not count. Both trace paths with next-event estimation. What differs: Mitsuba's materials have no Phong
+highlights; its glass does not absorb; it ends paths after 8 vertices, Tandem after 8 reflections, 16 refractions or 4
+diffuse bounces. `--pictures` writes both images, `--json` the seconds of each round.
 """
 
 import argparse
@@ -20,10 +22,12 @@ import tempfile
 import time
 
 try:
+    import drjit as dr
     import mitsuba as mi
     import numpy as np
 except ImportError as error:
-    sys.exit(f"versus_mitsuba: {error}; install it with 'pip install mitsuba numpy'")
+    print(f"versus_mitsuba: {error}; install it with 'pip install mitsuba numpy'", file=sys.stderr)
+    sys.exit(77)
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -105,31 +109,45 @@ def main():
     parser.add_argument("--render", default=os.path.join(ROOT, "build", "release", "bin", "tandem-render"))
     parser.add_argument("--tier", default="strict", help="of Tandem (docs/tiers.md)")
     parser.add_argument("--variant", default="scalar_rgb")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of each; default: all of the machine")
     parser.add_argument("--size", default="500x450")
     parser.add_argument("--spp", type=int, default=16)
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--pictures")
+    parser.add_argument("--json", help="for the seconds of each round")
     options = parser.parse_args()
     width, height = (int(n) for n in options.size.split("x"))
     if not os.access(options.render, os.X_OK):
         sys.exit(f"versus_mitsuba: there is no program {options.render}; build it, or name it with --render")
-    mi.set_variant(options.variant)
+    try:
+        mi.set_variant(options.variant)
+        dr.set_thread_count(options.threads)
+        mi.Float(0) + 1  # llvm variants load LLVM only now
+    except (ImportError, RuntimeError) as error:
+        print(f"versus_mitsuba: Mitsuba cannot run {options.variant} here: {error}", file=sys.stderr)
+        sys.exit(77)
     scene = mitsuba_scene(width, height, options.spp)
     samples = width * height * options.spp
     ours, theirs = [], []
     with tempfile.TemporaryDirectory() as folder:
         picture = os.path.join(options.pictures or folder, "tandem.png")
         command = [options.render, os.path.join(ROOT, "assets", "scenes", "whitted.gltf"), "-o", picture, "--size", options.size]
-        command += ["--spp", str(options.spp), "--sampler", "random", "--backend", "cpu", "--tier", options.tier, "--exposure", "0", "--force", "--quiet", "--json", "-"]
-        for _ in range(options.repetitions):
+        command += ["--spp", str(options.spp), "--sampler", "random", "--backend", "cpu", "--tier", options.tier, "--exposure", "0", "--threads", str(options.threads), "--force", "--quiet", "--json", "-"]
+        for turn in range(-1, options.repetitions):
             frame = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["frames"][0]
-            ours.append(frame["seconds"]["render"])
             start = time.perf_counter()
             image = mi.render(scene, spp=options.spp)
             np.array(image)  # waits
-            theirs.append(time.perf_counter() - start)
+            seconds = time.perf_counter() - start
+            if turn < 0:  # warms up: an llvm variant compiles its kernel
+                continue
+            ours.append(frame["seconds"]["render"])
+            theirs.append(seconds)
     if options.pictures:
         mi.util.write_bitmap(os.path.join(options.pictures, "mitsuba.png"), image)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"tandem": ours, "mitsuba": theirs, "samples": samples, "version": mi.__version__, "variant": frame["variant"]}, file)
     mine, other = samples / statistics.median(ours), samples / statistics.median(theirs)
     print(f"Tandem, {options.tier}, {frame['variant']}: {mine / 1e6:.3f} M samples/s")
     print(f"Mitsuba {mi.__version__}, {options.variant}: {other / 1e6:.3f} M samples/s")

@@ -15,9 +15,6 @@ struct FirstPictureOptions {
     int repetitions = 5;
 };
 
-/// The path of tandem-render beside the running program; empty if it is not there.
-[[nodiscard]] std::string renderer_beside();
-
 /// Wall-clock seconds from starting the program, with its default settings, until it has written a PNG file and ended.
 /// One run before those that count fills the cache of kernels. Its phases, as the program reports them, are beside the
 /// time; those of different threads overlap. Throws EnvironmentError if the program fails.

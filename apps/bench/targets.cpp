@@ -11,11 +11,13 @@
 #include <thread>
 
 #include "baseline/naive_renderer.h"
+#include "beside_mitsuba.h"
 #include "first_picture.h"
 #include "frame_timing.h"
 #include "gpu_scale.h"
 #include "instance_rates.h"
 #include "output.h"
+#include "run_program.h"
 #include "second_rays.h"
 #include "sequence.h"
 #include "tandem/base/error.h"
@@ -33,6 +35,7 @@ namespace {
 constexpr const char* million_spheres = "named:spheres/1000000";
 constexpr const char* million_boxes = "named:boxes/1000000";
 constexpr const char* ten_million_spheres = "named:spheres/10000000";
+constexpr int mitsuba_threads = 2;
 
 /// The glTF files in a folder, in the order of their names.
 std::vector<std::string> gltf_files(const std::string& folder) {
@@ -177,6 +180,18 @@ class TargetRun {
         result.verdict = result.measured >= result.required ? Verdict::met : Verdict::missed;
     }
 
+    /// Samples per second of whitted.gltf in strict on the CPU, divided by those of a variant of Mitsuba.
+    void beside_mitsuba(TargetResult& result, const char* variant) {
+        const std::string program = find_renderer(result);
+        if (program.empty()) return;
+        const BesideMitsuba times = time_beside_mitsuba(
+            {options_.mitsuba_script, program, variant, options_.folder, mitsuba_threads, options_.repetitions});
+        result.why_not = times.why_not;
+        if (!times.why_not.empty()) return;
+        add_rows({times.rows.begin(), times.rows.end()});
+        finish(result, ratio_of_medians(times.rows[0].seconds, times.rows[1].seconds));
+    }
+
     /// Primitives per second of a build on the GPU whose memory is there from the build before.
     void gpu_build(TargetResult& result) {
         const std::unique_ptr<Backend> gpu = make("cuda", {.refits_hierarchies = false});
@@ -204,11 +219,8 @@ class TargetRun {
 
     /// Seconds from the start of tandem-render until its picture is written.
     void gpu_first_picture(TargetResult& result) {
-        const std::string program = renderer_beside();
-        if (program.empty()) {
-            result.why_not = "not run: there is no tandem-render beside this program";
-            return;
-        }
+        const std::string program = find_renderer(result);
+        if (program.empty()) return;
         BenchmarkRow row =
             time_first_picture({program, ten_million_spheres, "cuda", options_.folder, options_.repetitions});
         (void)make("cuda", {});  // only now: a driver at work makes the others start faster
@@ -274,6 +286,13 @@ class TargetRun {
         std::unique_ptr<Backend> backend = source_.make(name, options);
         describe_backend(*backend, report_);
         return backend;
+    }
+
+    /// Empty if tandem-render is not there; then `result` says so.
+    static std::string find_renderer(TargetResult& result) {
+        std::string program = renderer_beside();
+        if (program.empty()) result.why_not = "not run: there is no tandem-render beside this program";
+        return program;
     }
 
     /// Times frames of a scene in each tier, in turns, after one round of warm-up.
@@ -488,6 +507,15 @@ std::vector<Target> all_targets(int cores) {
                 on_gpu ? "GPU" : "CPU"),
             1.10, on_gpu ? 1 : 0,
             [backend](TargetRun& run, TargetResult& result) { run.frame_price(result, backend); }));
+    }
+    for (const auto& [suffix, variant, rate] :
+         {std::tuple{"scalar", "scalar_rgb", 6.0}, {"llvm", "llvm_ad_rgb", 2.5}}) {
+        targets.push_back(
+            target(fmt::format("cpu-mitsuba-{}", suffix),
+                   fmt::format("whitted.gltf, CPU, {} threads, strict: at least {} times the sample rate of "
+                               "Mitsuba 3's {}",
+                               mitsuba_threads, rate, variant),
+                   rate, 0, [name = variant](TargetRun& run, TargetResult& r) { run.beside_mitsuba(r, name); }));
     }
     targets.push_back(target("gpu-build", "Ten million spheres, GPU (H200), build: at least 1 G spheres/s", 1e9, 1,
                              [](TargetRun& run, TargetResult& result) { run.gpu_build(result); }));

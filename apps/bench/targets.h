@@ -19,7 +19,8 @@ struct TargetOptions {
     int scale_samples = 64;
     int ray_edge = 2048;
     int repetitions = 7;
-    std::string scenes = "assets/scenes";               ///< the folder of the scenes whose frames are timed
+    std::string scenes = "assets/scenes";  ///< the folder of the scenes whose frames are timed
+    std::string mitsuba_script = "scripts/versus_mitsuba.py";
     int gpu_frame_samples = 64, cpu_frame_samples = 4;  ///< of those frames, whose size is `size`
     std::string folder = "out/targets";                 ///< for the images of the animation
 };

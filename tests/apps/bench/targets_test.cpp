@@ -53,7 +53,9 @@ TEST(Targets, IdsAreUniqueAndFollowTheCores) {
                            "gpu-city-random",
                            "gpu-whitted",
                            "gpu-frame-price",
-                           "cpu-frame-price"}) {
+                           "cpu-frame-price",
+                           "cpu-mitsuba-scalar",
+                           "cpu-mitsuba-llvm"}) {
         EXPECT_TRUE(ids.contains(id)) << id;
     }
     EXPECT_EQ(list_targets(16).size(), list_targets(2).size() + 1) << "two cores cannot show what 16 threads do";

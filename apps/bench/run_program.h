@@ -1,0 +1,16 @@
+/// Runs other programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tandem::bench {
+
+/// Runs a program, by path or by its name in PATH, to its end; its output goes where that of this program goes. Returns
+/// its exit status. Throws EnvironmentError if it cannot be started or ends by a signal.
+[[nodiscard]] int run_program(std::vector<std::string> words);
+
+/// The path of tandem-render beside the running program; empty if it is not there.
+[[nodiscard]] std::string renderer_beside();
+
+}  // namespace tandem::bench
