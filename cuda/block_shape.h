@@ -15,7 +15,7 @@ inline constexpr unsigned int block_width = 16;
 inline constexpr unsigned int block_height = 8;
 inline constexpr unsigned int block_threads = block_width * block_height;
 
-// One block of the kernels with a queue fills a multiprocessor: it has as many threads as the kernel's registers allow,
+// The blocks of a kernel with a queue fill a multiprocessor: together they have as many threads as its registers allow,
 // at most these.
 inline constexpr unsigned int most_queue_threads = 512;
 
@@ -32,7 +32,7 @@ inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
 }
 /// Of the current GPU.
 [[nodiscard]] unsigned int multiprocessor_count();
-/// One block per multiprocessor of the current GPU, as large as the kernel allows.
-[[nodiscard]] RenderGrid pixel_queue(const void* kernel);
+/// So many blocks for each multiprocessor of the current GPU, together as large as one block of the kernel may be.
+[[nodiscard]] RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocessor);
 
 }  // namespace tandem::cuda

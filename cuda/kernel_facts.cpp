@@ -26,14 +26,18 @@ cudaFuncAttributes attributes_of(const void* kernel) {
 
 unsigned int multiprocessor_count() { return static_cast<unsigned int>(fact(cudaDevAttrMultiProcessorCount)); }
 
-RenderGrid pixel_queue(const void* kernel) {
-    return {dim3(multiprocessor_count()),
-            std::min(most_queue_threads, static_cast<unsigned int>(attributes_of(kernel).maxThreadsPerBlock))};
+RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocessor) {
+    constexpr unsigned int warp = 32;
+    const unsigned int threads =
+        std::min(most_queue_threads, static_cast<unsigned int>(attributes_of(kernel).maxThreadsPerBlock));
+    return {dim3(multiprocessor_count() * blocks_per_multiprocessor),
+            std::max(threads / blocks_per_multiprocessor / warp, 1U) * warp};
 }
 
 KernelFacts kernel_facts(const void* kernel) {
     const cudaFuncAttributes attributes = attributes_of(kernel);
-    // as it is launched: from its launch bounds, or as its registers allow
+    // as it is launched, from its launch bounds or as its registers allow; several blocks of a queue have as many
+    // threads
     const int threads = std::min(attributes.maxThreadsPerBlock, static_cast<int>(most_queue_threads));
     int blocks = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cuda/block_shape.h"
+#include "cuda/cubin_facts.h"
 #include "cuda/specialise.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
@@ -191,6 +192,13 @@ std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool fa
     return {};
 }
 
+// Measured on an H200 (docs/performance.md, "Blocks of kernels for long paths"). Exact tiers have much code that few
+// threads run, so more of it may exceed the caches.
+unsigned int queue_blocks(Tier tier, std::size_t code_bytes) {
+    const std::size_t most = tier == Tier::fast ? 90'000 : 150'000;
+    return code_bytes > 0 && code_bytes <= most ? 2 : 1;
+}
+
 SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
 
 SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts) {
@@ -205,7 +213,9 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
         try {
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), has_queue(facts),
+            const auto cubin = cubin_facts(made.cubin, kernel_name);
+            const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, cubin ? cubin->code.size() : 0) : 0;
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks,
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
@@ -231,15 +241,17 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
         const std::span<const std::byte> code = compiled_code(tier, structure, faces, variant);
         if (code.empty()) throw not_compiled(kernel_tier(tier, structure), why_jit_unavailable());
         const int registers = most_registers(kernel_tier(tier, structure), effects);
-        kernel.reset(new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects), "rendering"});
+        // with all effects the code is too large for two blocks
+        kernel.reset(
+            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, "rendering"});
     }
     return *kernel;
 }
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
-    const RenderGrid grid =
-        kernel.has_queue ? pixel_queue(kernel.code.function()) : thread_per_pixel(job.width, height);
+    const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
+                                                    : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };

@@ -29,10 +29,16 @@ namespace tandem::cuda {
 /// leaves out.
 [[nodiscard]] std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant);
 
+/// The number of blocks on a multiprocessor for a kernel with a queue. The threads of a block wait for each other, so
+/// with two blocks one works while the other waits. But then two stages of the code are in use at once, so it pays only
+/// for code that is not much larger than the instruction caches. `code_bytes`: 0 if not known.
+[[nodiscard]] unsigned int queue_blocks(Tier tier, std::size_t code_bytes);
+
 /// A render kernel on the GPU.
 struct SceneKernel {
     LoadedCode code;
-    bool has_queue;     ///< its threads take pixels from a queue (cuda/render_thread.h)
+    /// Its blocks on a multiprocessor, if its threads take pixels from a queue (cuda/render_thread.h); else 0.
+    unsigned int queue_blocks;
     const char* doing;  ///< as with LoadedCode::launch()
 };
 
