@@ -1,6 +1,7 @@
 // Several GPUs as one backend. A machine with one GPU is tested with two backends on it.
 #include <gtest/gtest.h>
 
+#include "support/compiled_tiers.h"
 #include "support/effect_scenes.h"
 #include "support/faulty_backend.h"
 #include "support/input_error.h"
@@ -33,7 +34,8 @@ class SeveralGpus : public testing::Test {
         std::vector<CombinedMember> members;
         for (std::size_t i = 0; i < faults.size(); ++i) {
             BackendOptions options;
-            options.specialise = Specialise::never;
+            const bool all = test::is_compiled(Tier::strict) && test::is_compiled(Tier::precise);
+            options.specialise = all ? Specialise::never : Specialise::always;
             auto gpu = make_backend("cuda:" + std::to_string(i % gpus), options);
             members.push_back(
                 {"GPU " + std::to_string(i), std::make_unique<test::FaultyBackend>(std::move(gpu), faults[i])});

@@ -10,6 +10,7 @@
 #include "cuda/machine_code.h"
 #include "cuda/scene_kernels.h"
 #include "cuda/toy_input.h"
+#include "support/compiled_tiers.h"
 #include "tandem/base/error.h"
 #include "tandem/base/whole_file.h"
 
@@ -33,11 +34,6 @@ Code code_of(std::span<const std::byte> cubin, const std::string& kernel) {
     const CubinFacts facts = cubin_facts(cubin, kernel).value();
     return {count(facts.code, Operation::ffma), count(facts.code, Operation::dfma), count(facts.code, Operation::mufu),
             facts.registers, facts.stack_bytes};
-}
-
-/// Is the tier in TANDEM_COMPILED_TIERS?
-bool is_compiled(Tier tier) {
-    return fmt::format(" {} ", TANDEM_COMPILED_TIERS).find(fmt::format(" {} ", to_string(tier))) != std::string::npos;
 }
 
 class CompiledKernels : public ::testing::Test {

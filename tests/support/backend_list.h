@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/compiled_tiers.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepared_scene.h"
 
@@ -31,9 +32,8 @@ inline void PrintTo(const Renderer& renderer, std::ostream* out) {
             options.instruction_set = set;
             list.push_back({"cpu", options, tier});
         }
-        // tests that draw many small scenes do not wait for a kernel for each; tests/agree/specialised_test.cpp does
-        BackendOptions ahead_of_time;
-        ahead_of_time.specialise = Specialise::never;
+        BackendOptions ahead_of_time;  // tests/agree/specialised_test.cpp links kernels
+        ahead_of_time.specialise = without_waiting(tier);
         list.push_back({"cuda", ahead_of_time, tier});
     }
     return list;
