@@ -5,10 +5,10 @@
                          [--threads N] [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER] [--json FILE]
 
 Needs a Python with the packages mitsuba and numpy (`pip install mitsuba numpy`); the llvm variants also need LLVM's
-shared library (Debian: libllvm14). Ends with status 77 if one of them is missing. The two take turns, after a first
-round that does not count. Both trace paths with next-event estimation. What differs: Mitsuba's materials have no Phong
-highlights; its glass does not absorb; it ends paths after 8 vertices, Tandem after 8 reflections, 16 refractions or 4
-diffuse bounces. `--pictures` writes both images, `--json` the seconds of each round.
+shared library (Debian: libllvm14). The two take turns, after a first round that does not count. Both trace paths with
+next-event estimation. What differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends
+paths after 8 vertices, Tandem after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both images,
+`--json` the seconds of each round.
 """
 
 import argparse
@@ -26,8 +26,7 @@ try:
     import mitsuba as mi
     import numpy as np
 except ImportError as error:
-    print(f"versus_mitsuba: {error}; install it with 'pip install mitsuba numpy'", file=sys.stderr)
-    sys.exit(77)
+    sys.exit(f"versus_mitsuba: {error}; install it with 'pip install mitsuba numpy'")
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -124,8 +123,7 @@ def main():
         dr.set_thread_count(options.threads)
         mi.Float(0) + 1  # llvm variants load LLVM only now
     except (ImportError, RuntimeError) as error:
-        print(f"versus_mitsuba: Mitsuba cannot run {options.variant} here: {error}", file=sys.stderr)
-        sys.exit(77)
+        sys.exit(f"versus_mitsuba: Mitsuba cannot run {options.variant} here: {error}")
     scene = mitsuba_scene(width, height, options.spp)
     samples = width * height * options.spp
     ours, theirs = [], []

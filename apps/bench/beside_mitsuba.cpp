@@ -7,15 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "run_program.h"
-#include "tandem/base/error.h"
 
 namespace tandem::bench {
-
-namespace {
-
-constexpr int not_there = 77;  ///< the script's status if Mitsuba or a library that it needs is missing
-
-}  // namespace
 
 BesideMitsuba time_beside_mitsuba(const BesideMitsubaOptions& options) {
     BesideMitsuba result;
@@ -28,12 +21,11 @@ BesideMitsuba time_beside_mitsuba(const BesideMitsubaOptions& options) {
     const int status = run_program({"python3", options.script, "--render", options.renderer, "--variant",
                                     options.variant, "--threads", fmt::format("{}", options.threads), "--repetitions",
                                     fmt::format("{}", options.repetitions), "--json", times});
-    if (status == not_there) {
-        result.why_not =
-            fmt::format("not run: Mitsuba's {} is not there; the message above says what is missing", options.variant);
+    if (status != 0) {
+        result.why_not = fmt::format("not run: python3 with {} for {} ended with status {}; its message is above",
+                                     options.script, options.variant, status);
         return result;
     }
-    if (status != 0) throw EnvironmentError(fmt::format("'python3 {}' failed with status {}", options.script, status));
     const nlohmann::json measured = nlohmann::json::parse(std::ifstream(times));
     std::filesystem::remove(times);
     const auto fill = [&](BenchmarkRow& row, const char* program) {

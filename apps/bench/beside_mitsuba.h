@@ -22,8 +22,7 @@ struct BesideMitsuba {
     std::array<BenchmarkRow, 2> rows;  ///< Mitsuba, Tandem in strict
 };
 
-/// Runs the script, which times both in turns. Throws EnvironmentError if it fails; if Mitsuba is not there, it only
-/// says so.
+/// Runs the script, which times both in turns, with python3.
 [[nodiscard]] BesideMitsuba time_beside_mitsuba(const BesideMitsubaOptions& options);
 
 }  // namespace tandem::bench

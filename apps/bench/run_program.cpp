@@ -1,14 +1,10 @@
 #include "run_program.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
-
-#include "tandem/base/error.h"
 
 namespace tandem::bench {
 
@@ -20,10 +16,8 @@ int run_program(std::vector<std::string> words) {
     pid_t child = 0;
     int status = 0;
     const int error = ::posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ);
-    if (error != 0 || ::waitpid(child, &status, 0) != child || !WIFEXITED(status)) {
-        throw EnvironmentError(fmt::format("'{}' failed; run it to see why", fmt::join(words, " ")));
-    }
-    return WEXITSTATUS(status);
+    if (error != 0 || ::waitpid(child, &status, 0) != child) return 127;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 std::string renderer_beside() {

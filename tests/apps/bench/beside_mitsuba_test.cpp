@@ -5,9 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "run_program.h"
 #include "support/temporary_folder.h"
-#include "support/thrown_message.h"
-#include "tandem/base/error.h"
 
 namespace tandem::bench {
 namespace {
@@ -39,19 +38,20 @@ with open(words[-1], "w") as file:
     EXPECT_TRUE(std::filesystem::is_empty(folder.file("there"))) << "its file is removed";
 }
 
-TEST(BesideMitsuba, WithoutMitsubaNothingIsMeasured) {
+TEST(BesideMitsuba, AScriptThatFailsOrIsNotThereLeavesTheTargetOpen) {
     const test::TemporaryFolder folder;
-    EXPECT_EQ(time_beside_mitsuba(options_with(folder, "raise SystemExit(77)")).why_not,
-              "not run: Mitsuba's scalar_rgb is not there; the message above says what is missing");
+    const BesideMitsuba failed = time_beside_mitsuba(options_with(folder, "raise SystemExit(3)"));
+    EXPECT_EQ(failed.why_not, "not run: python3 with " + folder.file("script.py") +
+                                  " for scalar_rgb ended with status 3; its message is above");
+    EXPECT_TRUE(failed.rows[0].seconds.empty());
     EXPECT_EQ(time_beside_mitsuba({"/nowhere/script.py", "", "", "", 2, 1}).why_not,
               "not run: there is no /nowhere/script.py here");
 }
 
-TEST(BesideMitsuba, AScriptThatFailsIsAnErrorThatNamesIt) {
-    const test::TemporaryFolder folder;
-    const auto message =
-        test::thrown_message<EnvironmentError>([&] { (void)time_beside_mitsuba(options_with(folder, "exit(3)")); });
-    EXPECT_NE(message.find("script.py' failed with status 3"), std::string::npos) << message;
+TEST(RunProgram, TellsHowAProgramEnded) {
+    EXPECT_EQ(run_program({"sh", "-c", "exit 5"}), 5);
+    EXPECT_EQ(run_program({"/nowhere/program"}), 127);
+    EXPECT_EQ(run_program({"sh", "-c", "kill -9 $$"}), 128 + 9);
 }
 
 }  // namespace
