@@ -1,4 +1,5 @@
-/// The thread layout of kernels: one thread per pixel, or as many as the GPU can hold, which take pixels from a queue.
+/// The thread layout of render kernels: one thread per pixel, several threads per pixel, or as many as the GPU can
+/// hold, which take pixels from a queue.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -25,10 +26,39 @@ inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
 
 struct RenderGrid {
     dim3 blocks;
-    unsigned int threads;
+    dim3 threads;
 };
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
-    return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), block_threads};
+    return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), dim3(block_threads)};
+}
+
+/// How many threads share a pixel, a power of two: so many that few are idle, at most every fifth, when the samples do
+/// not divide evenly. More than 8 were not faster (docs/performance.md, "Threads of a warp share pixels").
+inline constexpr unsigned int most_sharing_threads = 8;
+[[nodiscard]] constexpr unsigned int sharing_threads(std::uint32_t samples) {
+    unsigned int threads = most_sharing_threads;
+    while (std::uint64_t{(samples - 1) / threads + 1} * threads * 4 > std::uint64_t{samples} * 5) threads /= 2;
+    return threads;
+}
+
+/// The pixels of a warp if `threads` share each, a power of two up to 32: a square of them, or two side by side.
+struct SharedTile {
+    unsigned int width, height;
+};
+[[nodiscard]] __host__ __device__ constexpr SharedTile shared_tile(unsigned int threads) {
+    SharedTile tile = {8, 4};
+    for (unsigned int halved = 1; halved < threads; halved *= 2) {
+        (tile.width > tile.height ? tile.width : tile.height) /= 2;
+    }
+    return tile;
+}
+
+/// Blocks of four warps, whose tiles are side by side and above each other (cuda/shared_pixel.h).
+inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
+    const unsigned int threads = sharing_threads(samples);
+    const SharedTile tile = shared_tile(threads);
+    return {dim3(blocks_for(width, 2 * tile.width), blocks_for(height, 2 * tile.height)),
+            dim3(threads, block_threads / threads)};
 }
 /// Of the current GPU.
 [[nodiscard]] unsigned int multiprocessor_count();

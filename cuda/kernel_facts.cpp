@@ -31,7 +31,7 @@ RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocesso
     const unsigned int threads =
         std::min(most_queue_threads, static_cast<unsigned int>(attributes_of(kernel).maxThreadsPerBlock));
     return {dim3(multiprocessor_count() * blocks_per_multiprocessor),
-            std::max(threads / blocks_per_multiprocessor / warp, 1U) * warp};
+            dim3(std::max(threads / blocks_per_multiprocessor / warp, 1U) * warp)};
 }
 
 KernelFacts kernel_facts(const void* kernel) {

@@ -75,7 +75,7 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
     asm volatile(".pragma \"enable_smem_spilling\";");
 #endif
 #if defined(TANDEM_SHORT_PATHS)
-    render_one<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
+    render_short<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #else
     render_queue<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #endif

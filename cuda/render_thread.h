@@ -1,22 +1,30 @@
-/// The work of a thread of a render kernel: one pixel, or several one after the other.
+/// The work of a thread of a render kernel: one pixel, a part of its samples, or several pixels one after the other.
 #pragma once
 
 #include "cuda/block_shape.h"
 #include "cuda/block_threads.h"
 #include "cuda/kernels.h"
+#include "cuda/shared_pixel.h"
 #include "tandem/kernel/certain_pixel.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/kernel/pixel_culling.h"
 
 namespace tandem::cuda {
 
+/// `thread`: the number of this thread in its block.
+template <class Effects, class Real>
+__device__ __forceinline__ void count(const PixelSum<Real>& pixel, unsigned int thread,
+                                      DeviceCounters* __restrict__ counters) {
+    if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
+    if (pixel.tally.lost_media != 0) atomicAdd(&counters->lost_media, pixel.tally.lost_media);
+    if (counts_rays<Effects>()) atomicAdd(&counters->rays[thread % ray_counters], pixel.tally.rays);
+}
+
 template <class Effects, class Real>
 __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at, Vec3d* __restrict__ sums,
                                      DeviceCounters* __restrict__ counters) {
     sums[at] = pixel.sum;
-    if (pixel.invalid != 0) atomicAdd(&counters->invalid_samples, pixel.invalid);
-    if (pixel.tally.lost_media != 0) atomicAdd(&counters->lost_media, pixel.tally.lost_media);
-    if (counts_rays<Effects>()) atomicAdd(&counters->rays[threadIdx.x % ray_counters], pixel.tally.rays);
+    count<Effects>(pixel, threadIdx.x, counters);
 }
 
 /// The slots of primitives that camera rays of a warp's tile may hit: each thread asks for one, in double. Worth its
@@ -51,25 +59,32 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
     return render_pixel<Effects, Real>(culled, tracer.scene, job, x, y, true, BlockThreads<Effects>());
 }
 
-/// One pixel, for paths of one vertex and little code.
-template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                           Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+/// Paths of one vertex among few solids: one pixel.
+template <class Effects, class Real>
+__device__ __forceinline__ void render_short(const ConstantMemoryTracer& tracer, const PixelJob& job,
+                                             std::uint32_t height, Vec3d* __restrict__ sums,
+                                             DeviceCounters* __restrict__ counters) {
     const unsigned int warp = threadIdx.x / 32;
     const unsigned int lane = threadIdx.x % 32;
     const std::uint32_t left = blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width;
     const std::uint32_t top = blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height;
     const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
-    std::uint32_t slots = 0;
-    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
+    const std::uint32_t slots = slots_in_tile<Effects>(tracer, job, left, top);
     if (x >= job.width || y >= height) return;
-    PixelSum<Real> pixel;
-    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
-        pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
-    } else {
-        pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
-    }
+    const PixelSum<Real> pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
+}
+
+/// Paths of one vertex otherwise: a pixel that this thread shares with others.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                             Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    const SharedPixel pixel = shared_pixel();
+    const bool is_inside = pixel.x < job.width && pixel.y < height;
+    const PixelSum<Real> result = render_shared<Effects, Real>(tracer, job, pixel, is_inside);
+    if (!is_inside) return;
+    if (pixel.thread == 0) sums[static_cast<std::size_t>(pixel.y) * job.width + pixel.x] = result.sum;
+    count<Effects>(result, threadIdx.y * pixel.threads + pixel.thread, counters);
 }
 
 /// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The

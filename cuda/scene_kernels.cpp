@@ -251,7 +251,8 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
-                                                    : thread_per_pixel(job.width, height);
+                            : structure_of(scene) == Structure::few ? thread_per_pixel(job.width, height)
+                                                                    : shared_pixels(job.width, height, job.samples);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
     };

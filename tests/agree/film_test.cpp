@@ -54,6 +54,25 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
     }
 }
 
+/// On a GPU so many threads share a pixel as its samples divide evenly among (cuda/shared_pixel.h).
+TEST_P(FilmBits, OfAnyNumberOfSamplesAreThoseOfTheLeastProcessor) {
+    BackendOptions least;
+    least.instruction_set = "x86-64-v2";
+    RenderJob few = job();
+    few.width = 37;
+    few.height = 23;
+    const PreparedScene scene = prepare(named_scene("mixed/500"), {.frame = 11, .camera = ""});
+    const auto resident = load(scene);
+    for (const int samples : {1, 2, 3, 4, 6, 7, 8, 9, 10, 12, 15, 16, 17, 20, 33}) {
+        few.samples = samples;
+        const Film expected = render_with("cpu", least, scene, few);
+        const RenderResult result = backend_->render(resident, few);
+        EXPECT_EQ(film_hash(result.film), film_hash(expected)) << samples << " samples";
+        EXPECT_EQ(result.stats.counters, RenderCounters{}) << samples << " samples";
+        EXPECT_EQ(result.stats.rays, result.film.pixel_count() * static_cast<std::uint64_t>(samples));
+    }
+}
+
 TEST_P(FilmBits, GiveTheLevelsOfAnImage) {
     RenderJob one = job();
     for (const char* name : {"paper", "mixed/500"}) {

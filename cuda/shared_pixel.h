@@ -1,0 +1,59 @@
+/// One pixel whose samples several neighbouring threads of a warp compute.
+///
+/// Rays through one pixel differ less than rays through a tile of pixels. So the threads of a warp visit the same nodes
+/// of a hierarchy, and fewer of them wait for others (docs/performance.md, "Threads of a warp share pixels").
+#pragma once
+
+#include "cuda/block_shape.h"
+#include "cuda/block_threads.h"
+#include "tandem/kernel/pixel.h"
+
+namespace tandem::cuda {
+
+/// A pixel of the window, and the number of this thread among those that share it.
+struct SharedPixel {
+    std::uint32_t x, y;
+    std::uint32_t thread, threads;
+};
+
+/// The pixel of this thread in a launch of shared_pixels(). It may be beyond the window.
+__device__ __forceinline__ SharedPixel shared_pixel() {
+    const SharedTile tile = shared_tile(blockDim.x);
+    const std::uint32_t pixels = tile.width * tile.height;
+    const std::uint32_t warp = threadIdx.y / pixels, within = threadIdx.y % pixels;
+    return {(blockIdx.x * 2 + warp % 2) * tile.width + within % tile.width,
+            (blockIdx.y * 2 + warp / 2) * tile.height + within / tile.width, threadIdx.x, blockDim.x};
+}
+
+/// The sum over the samples of a pixel, if it is inside the window. Each of its threads follows the path of one sample
+/// at a time, and all add the radiances of these in the order of the samples, so the sum has the bits that one thread
+/// would give. `invalid` and `tally` are those of this thread's samples. All threads of a warp must call it.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, const PixelJob& job,
+                                                        const SharedPixel& pixel, bool is_inside) {
+    constexpr unsigned int warp = 0xFFFFFFFFU;
+    SampleId<Real> id = sample_of<Real>(job, pixel.x, pixel.y, job.first_sample);
+    const PixelRays<Real> rays = rays_of_pixel<Real>(job, pixel.x, pixel.y);
+    PixelSum<Real> result;
+    for (std::uint32_t first = 0; first < job.samples; first += pixel.threads) {
+        const std::uint32_t sample = first + pixel.thread;
+        const bool is_active = is_inside && sample < job.samples;
+        id.sample = job.first_sample + sample;
+        // also where no sample is left: the tracers want all threads of a warp
+        PixelSum<Real> own;
+        add(sample_radiance<Effects>(tracer, tracer.scene, job, rays, id, is_active, BlockThreads<Effects>(),
+                                     result.tally),
+            own);
+        if (is_active) result.invalid += own.invalid;
+        const std::uint32_t end = min(pixel.threads, job.samples - first);
+        for (std::uint32_t i = 0; i < end; ++i) {
+            const auto of = [&](double channel) {
+                return __shfl_sync(warp, channel, static_cast<int>(i), static_cast<int>(pixel.threads));
+            };
+            result.sum = result.sum + Vec3d{of(own.sum.x), of(own.sum.y), of(own.sum.z)};
+        }
+    }
+    return result;
+}
+
+}  // namespace tandem::cuda
