@@ -24,6 +24,11 @@ inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
 }
 
+// A warp with a queue of its own (cuda/shared_queue.h) hands out sets of so many samples, and begins a set only if
+// fewer than so many wait for their last samples.
+inline constexpr unsigned int set_size = 32;
+inline constexpr unsigned int waiting_sets = 8;
+
 struct RenderGrid {
     dim3 blocks;
     dim3 threads;
@@ -35,7 +40,7 @@ inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
 /// How many threads share a pixel, a power of two: so many that few are idle, at most every fifth, when the samples do
 /// not divide evenly. More than 8 were not faster (docs/performance.md, "Threads of a warp share pixels").
 inline constexpr unsigned int most_sharing_threads = 8;
-[[nodiscard]] constexpr unsigned int sharing_threads(std::uint32_t samples) {
+[[nodiscard]] __host__ __device__ constexpr unsigned int sharing_threads(std::uint32_t samples) {
     unsigned int threads = most_sharing_threads;
     while (std::uint64_t{(samples - 1) / threads + 1} * threads * 4 > std::uint64_t{samples} * 5) threads /= 2;
     return threads;

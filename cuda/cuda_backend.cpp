@@ -36,6 +36,7 @@ using namespace cuda;
 struct FrameMemory {
     Buffer<DeviceMemory> film;
     Buffer<DeviceMemory> one_sample;  ///< one sample of each pixel, if squares of samples are added
+    Buffer<DeviceMemory> radiances;   ///< of samples that are not in the film yet
     Buffer<DeviceMemory> levels;      ///< of 8 bits, if they are asked for
     Buffer<DeviceMemory> counters;
     Buffer<PinnedMemory> counters_on_host;
@@ -323,6 +324,8 @@ class CudaBackend final : public Backend {
         }
         const SceneKernel& kernel =
             linked.kernel != nullptr ? *linked.kernel : kernels_->compiled(job.tier, resident.view(), variant);
+        const std::size_t waiting_bytes = radiance_bytes(kernel, resident.view());
+        memory->radiances.reserve(waiting_bytes);
         compute.wait_for(resident.uploaded());
         memory->render_start.record(compute.get());
         check(cudaMemsetAsync(memory->counters.data(), 0, counter_bytes, compute.get()), "clearing counters");
@@ -331,7 +334,8 @@ class CudaBackend final : public Backend {
         const auto height = static_cast<std::uint32_t>(window.height);
         const FilmPlanes planes = planes_in(device_sums, pixels, job.planes);
         const auto draw = [&](const PixelJob& samples, Vec3d* sums) {
-            launch_render(kernel, resident.view(), samples, height, culls_pixels_, sums, counters, compute.get());
+            launch_render(kernel, resident.view(), samples, height, culls_pixels_, sums, memory->radiances.data(),
+                          counters, compute.get());
         };
         if (planes.variance != nullptr) {
             draw_one_by_one(pixel_job, draw, *memory, pixels, planes.variance, compute.get());
@@ -349,7 +353,7 @@ class CudaBackend final : public Backend {
         if (!effects.has_any(counted_ray_effects)) stats.rays = pixels * pixel_job.samples;
         stats.counters.dropped_primitives = resident.dropped_primitives();
         stats.counters.dropped_lights = resident.dropped_lights();
-        stats.device_bytes = resident.bytes() + bytes + sample_bytes;
+        stats.device_bytes = resident.bytes() + bytes + sample_bytes + waiting_bytes;
         stats.registers = facts.registers;
         stats.occupancy = facts.occupancy;
         static constexpr const char* structure_names[] = {"few", "loop", "bvh", "instances"};

@@ -68,16 +68,17 @@ using LinkedReal = tier_real::TANDEM_LINKED_TIER;
 extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_constant__ TANDEM_LINKED_TRACER tracer,
                                                               const __grid_constant__ PixelJob job,
                                                               std::uint32_t height, Vec3d* __restrict__ sums,
+                                                              void* __restrict__ radiances,
                                                               DeviceCounters* __restrict__ counters) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_SHORT_PATHS) && __CUDACC_VER_MAJOR__ >= 13
-    // Spills registers to shared memory first, which is otherwise unused (docs/performance.md, "Registers of kernels
-    // for long paths").
+    // Spills registers to shared memory first, most of which is otherwise unused (docs/performance.md, "Registers of
+    // kernels for long paths").
     asm volatile(".pragma \"enable_smem_spilling\";");
 #endif
 #if defined(TANDEM_SHORT_PATHS)
     render_short<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #else
-    render_queue<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
+    render_long<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, counters);
 #endif
 }
 

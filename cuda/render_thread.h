@@ -5,6 +5,7 @@
 #include "cuda/block_threads.h"
 #include "cuda/kernels.h"
 #include "cuda/shared_pixel.h"
+#include "cuda/shared_queue.h"
 #include "tandem/kernel/certain_pixel.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/kernel/pixel_culling.h"
@@ -116,6 +117,46 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
         if (walk.working()) continue;
         keep<Effects>(pixel, walk.pixel(job), sums, counters);
         pixel = {};
+    }
+}
+
+/// The same where primitives are found in a hierarchy: the threads of a warp share pixels. `radiances`: waiting_sets
+/// for each thread of the grid.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                                    Vec3d* __restrict__ sums, void* __restrict__ radiances,
+                                                    DeviceCounters* __restrict__ counters) {
+    static_assert(set_size == 32);
+    __shared__ SharedQueue queues[most_queue_threads / 32];
+    const std::size_t warps_before = std::size_t{blockIdx.x} * (blockDim.x / 32) + threadIdx.x / 32;
+    SharedSamples<Real> samples(queues[threadIdx.x / 32], job, height,
+                                static_cast<Vec3<Real>*>(radiances) + warps_before * (set_size * waiting_sets),
+                                counters);
+    PathWalk<Effects, Real> walk;
+    PixelSum<Real> counted;
+    while (true) {
+        samples.add_sets(sums);
+        samples.hand_out(!walk.working(), [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+            walk.take_sample(x, y, sample);
+        });
+        if (__syncthreads_or(walk.working()) == 0) break;
+        const Closest<Real> hit = walk.find(tracer, tracer.scene, job, counted.tally);
+        if (!walk.leave(tracer, tracer.scene, job, hit, counted.tally, BlockThreads<Effects>())) continue;
+        walk.stop();
+        if (!samples.keep(walk.radiance())) ++counted.invalid;
+    }
+    count<Effects>(counted, threadIdx.x, counters);
+}
+
+/// Paths of several vertices.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_long(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                            Vec3d* __restrict__ sums, void* __restrict__ radiances,
+                                            DeviceCounters* __restrict__ counters) {
+    if constexpr (Tracer::has_hierarchy) {
+        render_shared_queue<Effects, Real>(tracer, job, height, sums, radiances, counters);
+    } else {
+        render_queue<Effects, Real>(tracer, job, height, sums, counters);
     }
 }
 

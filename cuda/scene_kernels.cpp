@@ -248,13 +248,20 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
     return *kernel;
 }
 
+std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene) {
+    const bool has_hierarchy = structure_of(scene) == Structure::bvh || structure_of(scene) == Structure::instanced;
+    if (kernel.queue_blocks == 0 || !has_hierarchy) return 0;
+    return std::size_t{multiprocessor_count()} * most_queue_threads * waiting_sets * sizeof(Vec3d);
+}
+
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                   bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream) {
+                   bool culls_pixels, Vec3d* sums, void* radiances, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
                             : structure_of(scene) == Structure::few ? thread_per_pixel(job.width, height)
                                                                     : shared_pixels(job.width, height, job.samples);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, counters);
+        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, radiances,
+                           counters);
     };
     switch (structure_of(scene)) {
         case Structure::few: {

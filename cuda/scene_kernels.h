@@ -68,8 +68,11 @@ class SceneKernels {
 };
 
 /// Starts a kernel that SceneKernels gave for this scene: the sums of all pixels. `culls_pixels`: as in
-/// BackendOptions. `sums` and `counters` are in device memory.
+/// BackendOptions. `sums`, `radiances` (of radiance_bytes()) and `counters` are in device memory.
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
-                   bool culls_pixels, Vec3d* sums, DeviceCounters* counters, cudaStream_t stream);
+                   bool culls_pixels, Vec3d* sums, void* radiances, DeviceCounters* counters, cudaStream_t stream);
+
+/// The memory that such a kernel needs for radiances of samples that are not in the sums yet (cuda/shared_queue.h).
+[[nodiscard]] std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene);
 
 }  // namespace tandem::cuda

@@ -1,5 +1,6 @@
 // Films: equal bits from every backend, thread count, tile size and run; near the oracle's.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,22 +55,27 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
     }
 }
 
-/// On a GPU so many threads share a pixel as its samples divide evenly among (cuda/shared_pixel.h).
+/// On a GPU so many threads share a pixel as its samples divide evenly among (cuda/shared_pixel.h), and warps hand out
+/// the samples of longer paths in sets (cuda/shared_queue.h).
 TEST_P(FilmBits, OfAnyNumberOfSamplesAreThoseOfTheLeastProcessor) {
-    BackendOptions least;
-    least.instruction_set = "x86-64-v2";
+    BackendOptions options;
+    options.instruction_set = "x86-64-v2";
+    const auto least = make_backend("cpu", options);
     RenderJob few = job();
     few.width = 37;
     few.height = 23;
-    const PreparedScene scene = prepare(named_scene("mixed/500"), {.frame = 11, .camera = ""});
-    const auto resident = load(scene);
-    for (const int samples : {1, 2, 3, 4, 6, 7, 8, 9, 10, 12, 15, 16, 17, 20, 33}) {
-        few.samples = samples;
-        const Film expected = render_with("cpu", least, scene, few);
-        const RenderResult result = backend_->render(resident, few);
-        EXPECT_EQ(film_hash(result.film), film_hash(expected)) << samples << " samples";
-        EXPECT_EQ(result.stats.counters, RenderCounters{}) << samples << " samples";
-        EXPECT_EQ(result.stats.rays, result.film.pixel_count() * static_cast<std::uint64_t>(samples));
+    for (const EffectMask forced : {EffectMask(), EffectMask(Effect::indirect)}) {
+        const PreparedScene scene =
+            prepare(named_scene("mixed/500"), {.frame = 11, .camera = "", .effects = {forced, {}}});
+        const auto resident = load(scene), on_least = least->load(scene, GetParam().tier);
+        for (const int samples : {1, 2, 3, 4, 6, 7, 8, 9, 10, 12, 15, 16, 17, 20, 33, 65}) {
+            few.samples = samples;
+            const RenderResult expected = least->render(on_least, few), result = backend_->render(resident, few);
+            const std::string what = fmt::format("{} samples, forced: {}", samples, to_string(forced));
+            EXPECT_EQ(film_hash(result.film), film_hash(expected.film)) << what;
+            EXPECT_EQ(result.stats.counters, RenderCounters{}) << what;
+            EXPECT_EQ(result.stats.rays, expected.stats.rays) << what;
+        }
     }
 }
 

@@ -21,6 +21,15 @@ class PathWalk {
         working_ = working_ || active;
     }
 
+    /// Starts one sample of pixel (x, y) in every lane, until stop().
+    TANDEM_HD void take_sample(const UInt<Real>& x, const UInt<Real>& y, const UInt<Real>& sample) {
+        x_ = x;
+        y_ = y;
+        sample_ = sample;
+        working_ = Mask<Real>(true);
+    }
+    TANDEM_HD void stop() { working_ = Mask<Real>(false); }
+
     /// The lanes that have a pixel with samples left.
     [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
     /// Its place in the window.
