@@ -12,7 +12,8 @@
 ///                         linker could keep the copy that an older machine cannot run. TANDEM_FACTS_TAG adds the
 ///                         facts that a file has as constants.
 /// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes,
-///                         lights). Not forced on the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET).
+///                         lights). Not forced on the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET) and
+///                         in kernels that are compiled quickly (TANDEM_QUICK_KERNELS).
 /// TANDEM_HD_CALL          host and device, never inline: for long functions, and for code that few rays need, so that
 ///                         it takes no registers from the common path. Each file has its own copy. Pass arguments by
 ///                         value.
@@ -74,7 +75,7 @@
 #else
 #define TANDEM_HD inline
 #endif
-#if defined(TANDEM_ONE_INSTRUCTION_SET)
+#if defined(TANDEM_ONE_INSTRUCTION_SET) || defined(TANDEM_QUICK_KERNELS)
 #define TANDEM_HD_INLINE TANDEM_HD
 #else
 #define TANDEM_HD_INLINE [[gnu::always_inline]] inline
