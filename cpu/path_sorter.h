@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cpu/kernels.h"
+#include "cpu/sample_sets.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/math/lanes.h"
 
@@ -35,24 +36,31 @@ struct LanePlaces {
 template <class Effects, class Real>
 class PathSorter {
   public:
-    /// Fills lanes without a pixel: take(free, x, y) sets x and y in lanes of `free` and returns the lanes that it set.
-    template <class Take>
-    TANDEM_HD_INLINE void take(const PixelJob& job, Take take) {
-        UInt<Real> x(0U), y(0U);
+    /// Gives samples to lanes without one.
+    TANDEM_HD_INLINE void take(SampleSets<Real>& samples) {
         for (int i = 0; i < packet_count; ++i) {
-            Walk& walk = now_[i].walk;
-            const Mask<Real> free = !walk.working();
-            if (!any(free)) continue;
-            const Mask<Real> taken = take(free, x, y);
-            walk.take(job, x, y, taken);
+            Packet& packet = now_[i];
+            unsigned int free = (!packet.walk.working()).bits();
+            if (free == 0) continue;
+            Word x(0U), y(0U), sample(0U), place(0U), got(0U);
+            for (SampleItem item; free != 0 && samples.next(item); free &= free - 1) {
+                const int lane = lowest_bit(free);
+                set_lane(x, lane, item.x);
+                set_lane(y, lane, item.y);
+                set_lane(sample, lane, item.sample);
+                set_lane(place, lane, item.place);
+                set_lane(got, lane, 1U);
+            }
+            const Mask<Real> taken = got != Word(0U);
+            packet.walk.take_sample(x, y, sample, taken);
+            packet.place = select(taken, place, packet.place);
         }
     }
 
-    /// Advances all paths by one vertex, and adds the radiance of those that end to `sums`, by pixel. False if there
-    /// was no path.
+    /// Advances all paths by one vertex, and keeps the radiance of those that end. False if there was no path.
     template <class Tracer>
-    TANDEM_HD_INLINE bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job, Vec3d* sums,
-                               TileStats& stats) {
+    TANDEM_HD_INLINE bool step(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
+                               SampleSets<Real>& samples, TileStats& stats) {
         Mask<Real> working(false), leaves_surface(false);
         for (int i = 0; i < packet_count; ++i) {
             working = working || now_[i].walk.working();
@@ -73,7 +81,9 @@ class PathSorter {
                 Walk& walk = now_[i].walk;
                 if (!any(walk.working())) continue;
                 const Mask<Real> ended = walk.leave(tracer, scene, job, now_[i].hit, tally);
-                if (any(ended)) add(walk.radiance(), walk.pixel(job), ended, sums, stats);
+                if (!any(ended)) continue;
+                walk.stop(ended);
+                keep(walk.radiance(), now_[i].place, ended, samples, stats);
             }
         }
         stats.add(tally);
@@ -90,8 +100,11 @@ class PathSorter {
     struct Packet {
         Walk walk;
         Closest<Real> hit = no_hit<Real>();
+        Word place = Word(0U);  ///< of the radiance
 
-        TANDEM_HD_INLINE auto per_lane() { return std::tuple_cat(std::tie(hit.t, hit.primitive), walk.per_lane()); }
+        TANDEM_HD_INLINE auto per_lane() {
+            return std::tuple_cat(std::tie(hit.t, hit.primitive, place), walk.per_lane());
+        }
     };
 
     // Sorts by primitive or, if there are many, by material; paths that hit nothing and lanes without a path come last.
@@ -155,14 +168,15 @@ class PathSorter {
         (std::make_index_sequence<std::tuple_size_v<Values>>());
     }
 
-    TANDEM_HD_INLINE static void add(const Vec3<Real>& radiance, const Word& pixel, const Mask<Real>& ended,
-                                     Vec3d* sums, TileStats& stats) {
+    TANDEM_HD_INLINE static void keep(const Vec3<Real>& radiance, const Word& place, const Mask<Real>& ended,
+                                      SampleSets<Real>& samples, TileStats& stats) {
+        using W = Wide<Real>;
+        const W zero(0.0);
         const Mask<Real> valid = is_finite(radiance);
-        const Vec3<Wide<Real>> wide = to_wide(radiance);
-        for (unsigned int rest = (ended && valid).bits(); rest != 0; rest &= rest - 1) {
+        const Vec3<W> wide = select(valid, to_wide(radiance), Vec3<W>{zero, zero, zero});
+        for (unsigned int rest = ended.bits(); rest != 0; rest &= rest - 1) {
             const int i = lowest_bit(rest);
-            Vec3d& sum = sums[pixel[i]];
-            sum = sum + Vec3d{wide.x[i], wide.y[i], wide.z[i]};
+            samples.keep(place[i], {wide.x[i], wide.y[i], wide.z[i]});
         }
         stats.counters.invalid_samples += static_cast<std::uint64_t>(std::popcount((ended && !valid).bits()));
     }

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tandem/kernel/sharing.h"
+
 namespace tandem::cuda {
 
 // A block covers 16 x 8 pixels as four warps of 8 x 4, so that the rays of a warp are coherent.
@@ -37,13 +39,10 @@ inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
     return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), dim3(block_threads)};
 }
 
-/// How many threads share a pixel, a power of two: so many that few are idle, at most every fifth, when the samples do
-/// not divide evenly. More than 8 were not faster (docs/performance.md, "Threads of a warp share pixels").
-inline constexpr unsigned int most_sharing_threads = 8;
-[[nodiscard]] __host__ __device__ constexpr unsigned int sharing_threads(std::uint32_t samples) {
-    unsigned int threads = most_sharing_threads;
-    while (std::uint64_t{(samples - 1) / threads + 1} * threads * 4 > std::uint64_t{samples} * 5) threads /= 2;
-    return threads;
+/// How many threads share a pixel. More than 8 were not faster (docs/performance.md, "Threads share pixels").
+inline constexpr std::uint32_t most_sharing_threads = 8;
+[[nodiscard]] TANDEM_HD constexpr std::uint32_t sharing_threads(std::uint32_t samples) {
+    return sharing_of(samples, most_sharing_threads);
 }
 
 /// The pixels of a warp if `threads` share each, a power of two up to 32: a square of them, or two side by side.

@@ -137,12 +137,12 @@ __device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const 
     while (true) {
         samples.add_sets(sums);
         samples.hand_out(!walk.working(), [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-            walk.take_sample(x, y, sample);
+            walk.take_sample(x, y, sample, true);
         });
         if (__syncthreads_or(walk.working()) == 0) break;
         const Closest<Real> hit = walk.find(tracer, tracer.scene, job, counted.tally);
         if (!walk.leave(tracer, tracer.scene, job, hit, counted.tally, BlockThreads<Effects>())) continue;
-        walk.stop();
+        walk.stop(true);
         if (!samples.keep(walk.radiance())) ++counted.invalid;
     }
     count<Effects>(counted, threadIdx.x, counters);

@@ -4,11 +4,12 @@
 #include "cpu/kernels/called_tracer.h"
 #include "cpu/kernels/tier_reals.h"
 #include "cpu/path_sorter.h"
+#include "cpu/shared_pixels.h"
 #include "cpu/tile_pixels.h"
 
 namespace tandem {
 
-/// Paths of one vertex: one pixel per lane.
+/// Paths of one vertex among few solids without a hierarchy: one pixel per lane.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD TileStats render_pixels(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                                   Vec3d* sums) {
@@ -30,22 +31,17 @@ TANDEM_HD TileStats render_pixels(const Tracer& tracer, const SceneView& scene, 
     }
 }
 
-/// Longer paths: a lane that is finished takes the next pixel of the tile.
+/// Longer paths: a lane that is finished takes the next sample of the tile.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD TileStats follow_paths(const Tracer& tracer, const SceneView& scene, const PixelJob& job, const Tile& tile,
                                  Vec3d* sums) {
     TileStats stats;
-    TilePixels<Real> pixels(tile);
+    SampleSets<Real> samples(job, tile, sums);
     PathSorter<Effects, Real> pool;
     do {
-        pool.take(job, [&](const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
-            const Mask<Real> taken = pixels.next(free, x, y);
-            for (int i = 0; i < Real::size; ++i) {
-                if (taken[i]) sums[y[i] * job.width + x[i]] = {0.0, 0.0, 0.0};
-            }
-            return taken;
-        });
-    } while (pool.step(tracer, scene, job, sums, stats));
+        samples.add_sets();
+        pool.take(samples);
+    } while (pool.step(tracer, scene, job, samples, stats));
     return stats;
 }
 
@@ -60,7 +56,7 @@ TileStats CpuKernels<Isa, tier>::render_tile(const CpuSceneView& view, const Pix
         return follow_paths<Effects, Real>(tracer, view.scene, job, tile, sums);
     } else {
         if (can_leave_surfaces<Effects>() || view.embree != nullptr) {
-            return render_pixels<Effects, Real>(tracer, view.scene, job, tile, sums);
+            return render_shared_pixels<Effects, Real>(tracer, view.scene, job, tile, sums);
         }
         return render_pixels<Effects, Real>(LoopTracer{view.scene}, view.scene, job, tile, sums);
     }

@@ -1,4 +1,5 @@
-/// Follows paths from vertex to vertex, and renders the samples of a pixel one after the other.
+/// Follows paths from vertex to vertex, and renders the samples of a pixel one after the other, or those that it is
+/// given.
 #pragma once
 
 #include <tuple>
@@ -21,14 +22,15 @@ class PathWalk {
         working_ = working_ || active;
     }
 
-    /// Starts one sample of pixel (x, y) in every lane, until stop().
-    TANDEM_HD void take_sample(const UInt<Real>& x, const UInt<Real>& y, const UInt<Real>& sample) {
-        x_ = x;
-        y_ = y;
-        sample_ = sample;
-        working_ = Mask<Real>(true);
+    /// Starts one sample of pixel (x, y), in the lanes of `active`, until stop().
+    TANDEM_HD void take_sample(const UInt<Real>& x, const UInt<Real>& y, const UInt<Real>& sample,
+                               const Mask<Real>& active) {
+        x_ = select(active, x, x_);
+        y_ = select(active, y, y_);
+        sample_ = select(active, sample, sample_);
+        working_ = working_ || active;
     }
-    TANDEM_HD void stop() { working_ = Mask<Real>(false); }
+    TANDEM_HD void stop(const Mask<Real>& ended) { working_ = working_ && !ended; }
 
     /// The lanes that have a pixel with samples left.
     [[nodiscard]] TANDEM_HD const Mask<Real>& working() const { return working_; }
