@@ -60,32 +60,48 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
     return render_pixel<Effects, Real>(culled, tracer.scene, job, x, y, true, BlockThreads<Effects>());
 }
 
-/// Paths of one vertex among few solids: one pixel.
-template <class Effects, class Real>
-__device__ __forceinline__ void render_short(const ConstantMemoryTracer& tracer, const PixelJob& job,
-                                             std::uint32_t height, Vec3d* __restrict__ sums,
-                                             DeviceCounters* __restrict__ counters) {
+/// Paths of one vertex where each primitive is tested: one pixel.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                           Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     const unsigned int warp = threadIdx.x / 32;
     const unsigned int lane = threadIdx.x % 32;
     const std::uint32_t left = blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width;
     const std::uint32_t top = blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height;
     const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
-    const std::uint32_t slots = slots_in_tile<Effects>(tracer, job, left, top);
+    std::uint32_t slots = 0;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
     if (x >= job.width || y >= height) return;
-    const PixelSum<Real> pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
+    PixelSum<Real> pixel;
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
+        pixel = render_among<Effects, Real>(tracer, job, x, y, slots);
+    } else {
+        pixel = render_pixel<Effects, Real>(tracer, tracer.scene, job, x, y, true, BlockThreads<Effects>());
+    }
     keep<Effects>(pixel, static_cast<std::size_t>(y) * job.width + x, sums, counters);
 }
 
-/// Paths of one vertex otherwise: a pixel that this thread shares with others.
+/// Paths of one vertex where primitives are found in a hierarchy: a pixel that this thread shares with others.
 template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                             Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+__device__ __forceinline__ void render_one_together(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                                    Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     const SharedPixel pixel = shared_pixel();
     const bool is_inside = pixel.x < job.width && pixel.y < height;
     const PixelSum<Real> result = render_shared<Effects, Real>(tracer, job, pixel, is_inside);
     if (!is_inside) return;
     if (pixel.thread == 0) sums[static_cast<std::size_t>(pixel.y) * job.width + pixel.x] = result.sum;
     count<Effects>(result, threadIdx.y * pixel.threads + pixel.thread, counters);
+}
+
+/// Paths of one vertex.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                             Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    if constexpr (Tracer::has_hierarchy) {
+        render_one_together<Effects, Real>(tracer, job, height, sums, counters);
+    } else {
+        render_one<Effects, Real>(tracer, job, height, sums, counters);
+    }
 }
 
 /// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The

@@ -54,6 +54,11 @@ namespace {
 
 constexpr const char* kernel_name = "tandem_render";
 
+/// Whether the threads of a warp share pixels.
+bool has_hierarchy(const DeviceSceneView& scene) {
+    return structure_of(scene) == Structure::bvh || structure_of(scene) == Structure::instanced;
+}
+
 /// The tier whose kernels draw.
 Tier kernel_tier(Tier tier, Structure structure) {
     return structure == Structure::instanced && tier == Tier::fast ? Tier::strict : tier;
@@ -249,16 +254,15 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
 }
 
 std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene) {
-    const bool has_hierarchy = structure_of(scene) == Structure::bvh || structure_of(scene) == Structure::instanced;
-    if (kernel.queue_blocks == 0 || !has_hierarchy) return 0;
+    if (kernel.queue_blocks == 0 || !has_hierarchy(scene)) return 0;
     return std::size_t{multiprocessor_count()} * most_queue_threads * waiting_sets * sizeof(Vec3d);
 }
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, void* radiances, DeviceCounters* counters, cudaStream_t stream) {
     const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
-                            : structure_of(scene) == Structure::few ? thread_per_pixel(job.width, height)
-                                                                    : shared_pixels(job.width, height, job.samples);
+                            : has_hierarchy(scene)  ? shared_pixels(job.width, height, job.samples)
+                                                    : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
         kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, radiances,
                            counters);

@@ -94,17 +94,21 @@ class SharedSamples {
 
     /// Adds the sets that are done to the film, in their order.
     __device__ __forceinline__ void add_sets(Vec3d* __restrict__ sums) {
+        __syncwarp();  // all threads see what any has kept
         while (queue_.added != queue_.begun && queue_.open[queue_.added % waiting_sets] == 0) {
             const std::uint32_t slot = queue_.added % waiting_sets;
             const SampleSet& set = queue_.sets[slot];
-            const Place at = place(set, lane());
-            if (lane() < pixels() && at.is_inside) {
-                Vec3d& pixel = sums[static_cast<std::size_t>(at.y) * job_.width + at.x];
-                const Vec3<Real>* from = radiances_ + slot * set_size + lane();
-                Vec3d sum = set.first != 0 ? pixel : Vec3d{0.0, 0.0, 0.0};
+            // a thread for each channel of each pixel
+            for (std::uint32_t i = lane(); i < 3 * pixels(); i += 32) {
+                const std::uint32_t pixel = i / 3, channel = i - 3 * pixel;
+                const Place at = place(set, pixel);
+                if (!at.is_inside) continue;
+                double& total = (&sums->x)[3 * (static_cast<std::size_t>(at.y) * job_.width + at.x) + channel];
+                const Real* from = &radiances_->x + 3 * (slot * set_size + pixel) + channel;
+                double sum = set.first != 0 ? total : 0.0;
 #pragma unroll 4
-                for (std::uint32_t i = 0; i < set.samples; ++i) sum = sum + to_wide(from[i * pixels()]);
-                pixel = sum;
+                for (std::uint32_t k = 0; k < set.samples; ++k) sum += to_wide(from[3 * pixels() * k]);
+                total = sum;
             }
             __syncwarp();
             if (lane() == 0) ++queue_.added;
