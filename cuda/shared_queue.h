@@ -78,6 +78,7 @@ class SharedSamples {
             }
             const unsigned int got = __ballot_sync(all_, gets);
             waiting &= ~got;
+            __syncwarp();
             if (lane() == 0) queue_.next += __popc(got);
             __syncwarp();
         }
@@ -151,6 +152,7 @@ class SharedSamples {
             if (lane() == 0) tile = atomicAdd(&counters_->next_in_queue, 1U);
             tile = __shfl_sync(all_, tile, 0);
             if (tile >= queue_.tiles) {
+                __syncwarp();
                 if (lane() == 0) queue_.is_empty = true;
                 __syncwarp();
                 return false;
@@ -160,6 +162,7 @@ class SharedSamples {
         }
         set.samples = min(queue_.most_samples, job_.samples - set.first);
         const unsigned int inside = __ballot_sync(all_, lane() < pixels() && place(set, lane()).is_inside);
+        __syncwarp();
         if (lane() == 0) {
             const std::uint32_t slot = queue_.begun % waiting_sets;
             queue_.sets[slot] = set;
