@@ -1,7 +1,7 @@
 /// One pixel whose samples several neighbouring threads of a warp compute.
 ///
 /// Rays through one pixel differ less than rays through a tile of pixels. So the threads of a warp visit the same nodes
-/// of a hierarchy, and fewer of them wait for others (docs/performance.md, "Threads of a warp share pixels").
+/// of a hierarchy, and fewer of them wait for others (docs/performance.md, "Threads share pixels").
 #pragma once
 
 #include "cuda/block_shape.h"

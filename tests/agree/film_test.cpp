@@ -55,8 +55,8 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
     }
 }
 
-/// On a GPU so many threads share a pixel as its samples divide evenly among (cuda/shared_pixel.h), and warps hand out
-/// the samples of longer paths in sets (cuda/shared_queue.h).
+/// The number of threads or lanes that share a pixel depends on its samples (cuda/shared_pixel.h, cpu/shared_pixels.h).
+/// Samples of longer paths are handed out in sets (cuda/shared_queue.h, cpu/sample_sets.h).
 TEST_P(FilmBits, OfAnyNumberOfSamplesAreThoseOfTheLeastProcessor) {
     BackendOptions options;
     options.instruction_set = "x86-64-v2";
