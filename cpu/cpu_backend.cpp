@@ -294,7 +294,7 @@ class CpuBackend final : public Backend {
         const auto tiles = [this](int size) { return (size + tile_size_ - 1) / tile_size_; };
         const int columns = tiles(window.width);
         const EffectMask effects = resident.prepared().effects;
-        const std::size_t variant = variant_for(effects, job.sampler, job.filter);
+        const std::size_t variant = variant_for(variants, effects);
         std::atomic<std::uint64_t> invalid = 0, lost_media = 0, rays = 0;
         const Stopwatch watch;
         arena_.execute([&] {

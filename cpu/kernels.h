@@ -55,8 +55,7 @@ struct TileStats {
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
 /// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable
-/// TANDEM_EXACT_VARIANT). `exact` and `full` are for the usual sampling alone; `sampled` is for every sampler and
-/// filter.
+/// TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
 #if defined(TANDEM_EXACT_EFFECTS)
@@ -64,7 +63,6 @@ inline constexpr KernelVariant variants[] = {
 #endif
     {"direct", all_effects - bouncing_effects},
     {"full", all_effects},
-    {"sampled", all_effects},
 };
 inline constexpr std::size_t variant_count = std::size(variants);
 
@@ -74,18 +72,6 @@ inline constexpr std::size_t variant_count = std::size(variants);
         if (variants[i].name == name) return i;
     }
     throw "no variant has this name";
-}
-
-/// The defaults of a RenderJob.
-inline constexpr Sampler usual_sampler = Sampler::random;
-inline constexpr PixelFilter usual_filter = PixelFilter::box;
-
-/// The index of the variant that renders a job.
-[[nodiscard]] constexpr std::size_t variant_for(EffectMask effects, Sampler sampler, PixelFilter filter) {
-    const std::size_t variant = variant_for(variants, effects);
-    const std::string_view name = variants[variant].name;
-    const bool is_usual = sampler == usual_sampler && filter == usual_filter;
-    return is_usual || name == "plain" || name == "direct" ? variant : variant_named("sampled");
 }
 
 /// The kernels of one tier for one instruction set (math/lane_registers.h). Each entry is compiled in a file of its own

@@ -170,15 +170,14 @@ class PathSorter {
 
     TANDEM_HD_INLINE static void keep(const Vec3<Real>& radiance, const Word& place, const Mask<Real>& ended,
                                       SampleSets<Real>& samples, TileStats& stats) {
-        using W = Wide<Real>;
-        const W zero(0.0);
-        const Mask<Real> valid = is_finite(radiance);
-        const Vec3<W> wide = select(valid, to_wide(radiance), Vec3<W>{zero, zero, zero});
+        const Addend<Real> addend = addend_of(radiance);
+        const Vec3<Wide<Real>> wide = to_wide(addend.radiance);
         for (unsigned int rest = ended.bits(); rest != 0; rest &= rest - 1) {
             const int i = lowest_bit(rest);
             samples.keep(place[i], {wide.x[i], wide.y[i], wide.z[i]});
         }
-        stats.counters.invalid_samples += static_cast<std::uint64_t>(std::popcount((ended && !valid).bits()));
+        stats.counters.invalid_samples +=
+            static_cast<std::uint64_t>(std::popcount((ended && !addend.is_number).bits()));
     }
 
     Packet memory_[2][packet_count];

@@ -74,9 +74,10 @@ TANDEM_HD TileStats render_shared_pixels(const Tracer& tracer, const SceneView& 
             id.sample = Word(job.first_sample) + number;
             const Vec3<Real> radiance =
                 sample_radiance<Effects>(tracer, scene, job, rays, id, active, IndependentThreads(), tally);
-            const Mask<Real> valid = is_finite(radiance);
-            stats.counters.invalid_samples += static_cast<std::uint64_t>(std::popcount((active && !valid).bits()));
-            add_in_order(select(active && valid, to_wide(radiance), Vec3<Wide<Real>>{zero, zero, zero}), lanes.sharing,
+            const Addend<Real> addend = addend_of(radiance);
+            stats.counters.invalid_samples +=
+                static_cast<std::uint64_t>(std::popcount((active && !addend.is_number).bits()));
+            add_in_order(select(active, to_wide(addend.radiance), Vec3<Wide<Real>>{zero, zero, zero}), lanes.sharing,
                          sum);
         }
         for (std::uint32_t i = 0; i < size; i += lanes.sharing) {

@@ -83,14 +83,14 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
 
 /// Paths of one vertex where primitives are found in a hierarchy: a pixel that this thread shares with others.
 template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_one_together(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                                    Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const SharedPixel pixel = shared_pixel();
+__device__ __forceinline__ void render_shared_pixel(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                                    const SharedPixel& pixel, Vec3d* __restrict__ sums,
+                                                    DeviceCounters* __restrict__ counters) {
     const bool is_inside = pixel.x < job.width && pixel.y < height;
     const PixelSum<Real> result = render_shared<Effects, Real>(tracer, job, pixel, is_inside);
     if (!is_inside) return;
     if (pixel.thread == 0) sums[static_cast<std::size_t>(pixel.y) * job.width + pixel.x] = result.sum;
-    count<Effects>(result, threadIdx.y * pixel.threads + pixel.thread, counters);
+    count<Effects>(result, threadIdx.y * blockDim.x + threadIdx.x, counters);
 }
 
 /// Paths of one vertex.
@@ -98,7 +98,7 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     if constexpr (Tracer::has_hierarchy) {
-        render_one_together<Effects, Real>(tracer, job, height, sums, counters);
+        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel(), sums, counters);
     } else {
         render_one<Effects, Real>(tracer, job, height, sums, counters);
     }
@@ -136,7 +136,26 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     }
 }
 
-/// The same where primitives are found in a hierarchy: the threads of a warp share pixels. `radiances`: waiting_sets
+/// Paths of one vertex whose code exceeds the instruction caches, where primitives are found in a hierarchy: a warp
+/// takes tiles of shared pixels. All have as many samples, so the threads of a block stay together.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_shared_tiles(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                                    Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    const std::uint32_t threads = sharing_threads(job.samples);
+    const SharedTile shape = shared_tile(threads);
+    const std::uint32_t tiles_across = (job.width + shape.width - 1) / shape.width;
+    const std::uint32_t tiles = tiles_across * ((height + shape.height - 1) / shape.height);
+    while (true) {
+        std::uint32_t tile = 0;
+        if (threadIdx.x % 32 == 0) tile = atomicAdd(&counters->next_in_queue, 1U);
+        tile = __shfl_sync(0xFFFFFFFFU, tile, 0);
+        if (__syncthreads_or(tile < tiles) == 0) return;
+        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tile, tiles_across, threads), sums,
+                                           counters);
+    }
+}
+
+/// Longer paths in a hierarchy: the threads of a warp share pixels. `radiances`: waiting_sets
 /// for each thread of the grid.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
@@ -164,13 +183,17 @@ __device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const 
     count<Effects>(counted, threadIdx.x, counters);
 }
 
-/// Paths of several vertices.
+/// Paths of kernels with synchronising_effects.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_long(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                             Vec3d* __restrict__ sums, void* __restrict__ radiances,
                                             DeviceCounters* __restrict__ counters) {
     if constexpr (Tracer::has_hierarchy) {
-        render_shared_queue<Effects, Real>(tracer, job, height, sums, radiances, counters);
+        if (!has_bounces<Effects>()) {
+            render_shared_tiles<Effects, Real>(tracer, job, height, sums, counters);
+        } else {
+            render_shared_queue<Effects, Real>(tracer, job, height, sums, radiances, counters);
+        }
     } else {
         render_queue<Effects, Real>(tracer, job, height, sums, counters);
     }

@@ -25,6 +25,15 @@ __device__ __forceinline__ SharedPixel shared_pixel() {
             (blockIdx.y * 2 + warp / 2) * tile.height + within / tile.width, threadIdx.x, blockDim.x};
 }
 
+/// The pixel of this thread in a tile of the window, for any number of warps: tile 0 is at the top left.
+__device__ __forceinline__ SharedPixel shared_pixel_of(std::uint32_t tile, std::uint32_t tiles_across,
+                                                       std::uint32_t threads) {
+    const SharedTile shape = shared_tile(threads);
+    const std::uint32_t lane = threadIdx.x % 32, pixel = lane / threads;
+    return {tile % tiles_across * shape.width + pixel % shape.width,
+            tile / tiles_across * shape.height + pixel / shape.width, lane % threads, threads};
+}
+
 /// The sum over the samples of a pixel, if it is inside the window. Each of its threads follows the path of one sample
 /// at a time, and all add the radiances of these in the order of the samples, so the sum has the bits that one thread
 /// would give. `invalid` and `tally` are those of this thread's samples. All threads of a warp must call it.

@@ -86,11 +86,10 @@ class SharedSamples {
 
     /// The sample of this thread is done. Returns whether it is a number; otherwise nothing is added for it.
     __device__ __forceinline__ bool keep(const Vec3<Real>& radiance) {
-        const bool is_number = is_finite(radiance);
-        const Real zero(0.0F);
-        radiances_[item_] = is_number ? radiance : Vec3<Real>{zero, zero, zero};
+        const Addend<Real> addend = addend_of(radiance);
+        radiances_[item_] = addend.radiance;
         atomicSub(&queue_.open[item_ / set_size], 1U);
-        return is_number;
+        return addend.is_number;
     }
 
     /// Adds the sets that are done to the film, in their order.

@@ -1,5 +1,3 @@
-#include "cpu/kernels/usual_sampling.h"
-
 #include "cpu/kernels/render_entry.h"
 
 namespace tandem {

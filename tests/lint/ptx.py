@@ -23,7 +23,8 @@ FORBIDDEN = re.compile(r"^\s*(?:@!?%p\d+\s+)?((?:\w+)(?:\.\w+)*\.(?:approx|full|
 
 
 def units_of(source):
-    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone.
+    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt; the linked kernel in strict alone, and for
+    short paths with one tracer: with the others nearly all of its code is in the one for long paths.
     Kernels that trace rays: the nearest hits of each tier, and the other queries of strict."""
     if source.name == "compiled_facts.cu":
         return []  # numbers
@@ -41,8 +42,9 @@ def units_of(source):
                           f"-DTANDEM_FIRST_HITS_TRACERS={with_tracers}"]) for with_tracers, tier in tracers]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
-    return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short])
-            for tracer in ("ConstantMemoryTracer", "LoopTracer", "DeferringBvhTracer") for short in ([], ["-DTANDEM_SHORT_PATHS=1"])]
+    linked = [(tracer, []) for tracer in ("ConstantMemoryTracer", "LoopTracer", "DeferringBvhTracer")]
+    linked.append(("ConstantMemoryTracer", ["-DTANDEM_SHORT_PATHS=1"]))
+    return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short]) for tracer, short in linked]
 
 
 def main():

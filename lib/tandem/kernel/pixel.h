@@ -75,16 +75,26 @@ TANDEM_HD Ray<Real> sample_ray(const PixelJob& job, const SampleId<Real>& id, co
     return sample_ray<Effects>(job, rays_of_pixel<Real>(job, x, y), id);
 }
 
+/// What a sample adds to its pixel.
+template <class Real>
+struct Addend {
+    Vec3<Real> radiance;   ///< of the sample; zero where that is NaN or infinite
+    Mask<Real> is_number;  ///< where it is neither
+};
+template <class Real>
+TANDEM_HD Addend<Real> addend_of(const Vec3<Real>& radiance) {
+    const Real zero(0.0F);
+    const Mask<Real> is_number = is_finite(radiance);
+    return {select(is_number, radiance, Vec3<Real>{zero, zero, zero}), is_number};
+}
+
 /// Adds the radiance of a sample.
 template <class Real>
 TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
-    using W = Wide<Real>;
     using Word = UInt<Real>;
-    const W zero(0.0);
-    const Mask<Real> valid = is_finite(radiance);
-    const Vec3<W> addend = to_wide(radiance);
-    pixel.sum = pixel.sum + select(valid, addend, Vec3<W>{zero, zero, zero});
-    pixel.invalid = pixel.invalid + select(valid, Word(0U), Word(1U));
+    const Addend<Real> addend = addend_of(radiance);
+    pixel.sum = pixel.sum + to_wide(addend.radiance);
+    pixel.invalid = pixel.invalid + select(addend.is_number, Word(0U), Word(1U));
 }
 
 /// The radiance of a sample, for paths that end at their first vertex, in the lanes of `active`.

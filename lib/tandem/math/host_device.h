@@ -2,18 +2,15 @@
 ///
 /// TANDEM_COMPILING_CUDA   1 when nvcc compiles this file, else 0; always defined, to be tested with #if
 /// TANDEM_ON_DEVICE        1 inside nvcc's pass for the GPU, else 0
-/// TANDEM_READS_FACTS      1 where a kernel may have facts about its job as constants: on the device, and where nvcc
-/// does
-///                         not compile (cpu/kernels/usual_sampling.h)
 /// TANDEM_HD               host and device; always inline on the device, as the compiler decides on the host: for the
 ///                         functions of the path loop (lib/tandem/kernel/*.h), because forced inlining makes compile
 ///                         time grow with the depth of calls. The CPU backend compiles kernels once per instruction
 ///                         set and tier, so there the function's name carries both (TANDEM_ISA_TAG): otherwise the
-///                         linker could keep the copy that an older machine cannot run. TANDEM_FACTS_TAG adds the
-///                         facts that a file has as constants.
-/// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes,
-///                         lights). Not forced on the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET) and
-///                         in kernels that are compiled quickly (TANDEM_QUICK_KERNELS).
+///                         linker could keep the copy that an older machine cannot run.
+/// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes).
+///                         Not for lights: it nearly doubled compile time, and gained no time. Not forced on the host
+///                         in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET) and in kernels that are compiled
+///                         quickly (TANDEM_QUICK_KERNELS).
 /// TANDEM_HD_CALL          host and device, never inline: for long functions, and for code that few rays need, so that
 ///                         it takes no registers from the common path. Each file has its own copy. Pass arguments by
 ///                         value.
@@ -39,8 +36,6 @@
 #else
 #define TANDEM_ON_DEVICE 0
 #endif
-
-#define TANDEM_READS_FACTS (TANDEM_ON_DEVICE || !TANDEM_COMPILING_CUDA)
 
 #if defined(__GNUC__) && !defined(__clang__) && !TANDEM_COMPILING_CUDA
 #define TANDEM_KEEP_ROUNDING(x) __asm__("" : "+x"(x))
@@ -68,10 +63,7 @@
 #endif
 #else
 #if defined(TANDEM_ISA_TAG)
-#if !defined(TANDEM_FACTS_TAG)
-#define TANDEM_FACTS_TAG ""
-#endif
-#define TANDEM_HD [[gnu::abi_tag(TANDEM_ISA_TAG TANDEM_FACTS_TAG)]] inline
+#define TANDEM_HD [[gnu::abi_tag(TANDEM_ISA_TAG)]] inline
 #else
 #define TANDEM_HD inline
 #endif

@@ -18,7 +18,7 @@ struct AreaLight {
 static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
 /// The light that a uniform number chooses: its index in `lights`, which must not be empty.
-TANDEM_HD_INLINE std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
+TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
@@ -32,7 +32,7 @@ TANDEM_HD_INLINE std::uint32_t choose_area_light(const AreaLight* lights, std::u
 }
 
 /// The probability of a primitive; 0 if it is no area light. `lights` are in the order of their primitives.
-TANDEM_HD_INLINE double probability_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
+TANDEM_HD double probability_of(const AreaLight* lights, std::uint32_t count, std::uint32_t primitive) {
     std::uint32_t first = 0, end = count;
     while (first < end) {
         const std::uint32_t middle = (first + end) / 2;

@@ -17,14 +17,14 @@ struct Environment {
 
 /// `height`: y of the unit direction.
 template <class Real>
-TANDEM_HD_INLINE Vec3<Real> gradient(const Environment& environment, const Real& height) {
+TANDEM_HD Vec3<Real> gradient(const Environment& environment, const Real& height) {
     const Real m = (height + Real(1.0F)) * Real(0.5F);
     return broadcast<Real>(environment.bottom) * (Real(1.0F) - m) + broadcast<Real>(environment.top) * m;
 }
 
 /// Radiance along a direction, whose length is within [1e-15, 1e15]. Within 3 ulp of float.
 template <class Real>
-TANDEM_HD_INLINE Vec3<Real> background(const Environment& environment, const Vec3<Real>& direction) {
+TANDEM_HD Vec3<Real> background(const Environment& environment, const Vec3<Real>& direction) {
     return gradient<Real>(environment, direction.y / square_root(dot(direction, direction)));
 }
 

@@ -46,11 +46,11 @@ struct EnvironmentPictureView {
     const std::uint32_t* cell_ends;  ///< the same for the cells of each band, one band after the other
 };
 
-TANDEM_HD_INLINE bool is_there(const EnvironmentPicture& picture) { return picture.width != 0; }
+TANDEM_HD bool is_there(const EnvironmentPicture& picture) { return picture.width != 0; }
 
 /// `scene`: a SceneView.
 template <class Scene>
-TANDEM_HD_INLINE EnvironmentPictureView view_of(const EnvironmentPicture& picture, const Scene& scene) {
+TANDEM_HD EnvironmentPictureView view_of(const EnvironmentPicture& picture, const Scene& scene) {
     return {picture, scene.environment_texels, scene.environment_borders, scene.environment_band_ends,
             scene.environment_cell_ends};
 }
@@ -65,7 +65,7 @@ struct CellPoint {
 };
 
 /// The first of `count` consecutive ranges of integers that contains `number`; the last one if none does.
-TANDEM_HD_INLINE std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
+TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
     std::uint32_t first = 0, last = count - 1;
     while (first < last) {
         const std::uint32_t middle = (first + last) / 2;
@@ -78,11 +78,11 @@ TANDEM_HD_INLINE std::uint32_t find_range(const std::uint32_t* ends, std::uint32
     return first;
 }
 /// The length of a range.
-TANDEM_HD_INLINE std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
+TANDEM_HD std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
     return ends[range] - (range > 0 ? ends[range - 1] : 0);
 }
 
-TANDEM_HD_INLINE std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
+TANDEM_HD std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
     return static_cast<std::size_t>(band) * picture.width;
 }
 
@@ -95,7 +95,7 @@ struct BandReach {
 };
 
 template <class Real>
-TANDEM_HD_INLINE BandReach<Real> band_reach(const EnvironmentPictureView& view, const UInt<Real>& band) {
+TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const UInt<Real>& band) {
     using D = Double<Real>;
     using Word = UInt<Real>;
     const Word middle(view.picture.height / 2);
@@ -112,7 +112,7 @@ TANDEM_HD_INLINE BandReach<Real> band_reach(const EnvironmentPictureView& view, 
 
 /// The cell and place of a direction. Lanes whose direction is not finite get an arbitrary cell.
 template <class Real>
-TANDEM_HD_INLINE CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -146,7 +146,7 @@ TANDEM_HD_INLINE CellPoint<Real> cell_towards(const EnvironmentPictureView& view
 
 /// The direction of a place in a cell.
 template <class Real>
-TANDEM_HD_INLINE Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+TANDEM_HD Vec3<Double<Real>> direction_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
     using D = Double<Real>;
     const D one(1.0F);
     const D half(0.5F);
@@ -169,7 +169,7 @@ struct CellColours {
 };
 
 template <class Real>
-TANDEM_HD_INLINE CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
+TANDEM_HD CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
     CellColours<Real> result;
@@ -199,17 +199,17 @@ struct Corners {
 
 /// a at 0 and b at 1; exact where they are equal.
 template <class D>
-TANDEM_HD_INLINE D between(const D& a, const D& b, const D& x) {
+TANDEM_HD D between(const D& a, const D& b, const D& x) {
     return a + x * (b - a);
 }
 template <class D>
-TANDEM_HD_INLINE D between(const Corners<D>& c, const D& x, const D& y) {
+TANDEM_HD D between(const Corners<D>& c, const D& x, const D& y) {
     return between(between(c.value[0], c.value[1], x), between(c.value[2], c.value[3], x), y);
 }
 
 template <class Real>
-TANDEM_HD_INLINE Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellColours<Real>& colours,
-                                        const CellPoint<Real>& point) {
+TANDEM_HD Vec3<Real> radiance_at(const EnvironmentPicture& picture, const CellColours<Real>& colours,
+                                 const CellPoint<Real>& point) {
     using D = Double<Real>;
     const auto channel = [&](int c) {
         const Corners<D> corners = {
@@ -221,7 +221,7 @@ TANDEM_HD_INLINE Vec3<Real> radiance_at(const EnvironmentPicture& picture, const
 
 /// The brightness at the corners, which the density is proportional to.
 template <class Real>
-TANDEM_HD_INLINE Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
+TANDEM_HD Corners<Double<Real>> brightness_of(const CellColours<Real>& colours) {
     const auto sum = [](const Vec3<Double<Real>>& a) { return (a.x + a.y) + a.z; };
     return {{sum(colours.corner[0]), sum(colours.corner[1]), sum(colours.corner[2]), sum(colours.corner[3])}};
 }
@@ -229,8 +229,8 @@ TANDEM_HD_INLINE Corners<Double<Real>> brightness_of(const CellColours<Real>& co
 /// The density at a place in a cell: the probability of the cell over its solid angle, times the brightness of the
 /// place relative to the mean of the cell.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
-                                         const CellPoint<Real>& point) {
+TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corners<Double<Real>>& brightness,
+                                  const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
     const D probability = texture_detail::from_lanes<D>([&](int i) {
@@ -252,7 +252,7 @@ TANDEM_HD_INLINE Double<Real> density_at(const EnvironmentPictureView& view, con
 /// are 0.
 /// Method: inverts the distribution function, in a form that does not cancel and divides by no difference.
 template <class D>
-TANDEM_HD_INLINE D sample_linear(const D& a, const D& b, const D& u) {
+TANDEM_HD D sample_linear(const D& a, const D& b, const D& u) {
     const D zero(0.0F);
     const D one(1.0F);
     const D sum = a + b;
@@ -272,8 +272,8 @@ TANDEM_HD_INLINE D sample_linear(const D& a, const D& b, const D& u) {
 /// Method: finds the cell by the azimuth and the polar angle, and the place in it by
 ///         (1 - |y|) / 2 = r^2 / (2 l (l + |y|)), which does not cancel at the poles.
 template <class Real>
-TANDEM_HD_INLINE EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
-                                                        const Vec3<Double<Real>>& direction) {
+TANDEM_HD EnvironmentSight<Real> see_environment(const EnvironmentPictureView& view,
+                                                 const Vec3<Double<Real>>& direction) {
     using namespace environment_detail;
     const CellPoint<Real> point = cell_towards<Real>(view, direction);
     const CellColours<Real> colours = colours_of<Real>(view, point);
@@ -283,13 +283,13 @@ TANDEM_HD_INLINE EnvironmentSight<Real> see_environment(const EnvironmentPicture
 
 /// Only its radiance.
 template <class Real>
-TANDEM_HD_INLINE Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Vec3<Real> emitted(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).radiance;
 }
 
 /// Only its density, 1/sr.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Double<Real> pdf_of(const EnvironmentPictureView& view, const Vec3<Double<Real>>& direction) {
     return see_environment<Real>(view, direction).pdf;
 }
 
@@ -302,8 +302,8 @@ TANDEM_HD_INLINE Double<Real> pdf_of(const EnvironmentPictureView& view, const V
 /// Source: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 3rd edition, 2016, sec. 14.2.4, for the two
 ///         steps from marginal to conditional distribution.
 template <class Real>
-TANDEM_HD_INLINE EnvironmentSample<Real> sample_environment(const EnvironmentPictureView& view,
-                                                            const PhiloxBlock<UInt<Real>>& random) {
+TANDEM_HD EnvironmentSample<Real> sample_environment(const EnvironmentPictureView& view,
+                                                     const PhiloxBlock<UInt<Real>>& random) {
     using namespace environment_detail;
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;

@@ -43,7 +43,7 @@ struct LightRay {
 /// Method: computes 1 - cosine of the angle to a spot's axis as sine^2 / (1 + cosine), which does not cancel in narrow
 ///         cones.
 template <class Effects, class Real>
-TANDEM_HD_INLINE LightRay<Real> light_at(const PunctualLight& light, const Vec3<Double<Real>>& position) {
+TANDEM_HD LightRay<Real> light_at(const PunctualLight& light, const Vec3<Double<Real>>& position) {
     using D = Double<Real>;
     const D zero(0.0);
     const D one(1.0);

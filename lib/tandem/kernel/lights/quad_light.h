@@ -26,9 +26,9 @@ struct QuadLightView {
 /// Rectangles", EGSR 2013); two spherical triangles work for every quad, folded ones included. Everything here is
 /// tested by tests/kernel/lights/quad_light_test.cpp and by the case M15 of the hard corpus.
 template <class Real>
-TANDEM_HD_INLINE QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
-                                                     const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
-                                                     const Vec3<Double<Real>>& v3, const QuadLightShape& shape = {}) {
+TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
+                                              const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
+                                              const Vec3<Double<Real>>& v3, const QuadLightShape& shape = {}) {
     using D = Double<Real>;
     QuadLightView<Real> view;
     view.first = view_triangle_light<Real>(point, v0, v1, v2);
@@ -50,8 +50,8 @@ namespace quad_light_detail {
 
 /// One of two views in each lane.
 template <class Real>
-TANDEM_HD_INLINE TriangleLightView<Real> choose(const Mask<Real>& mask, const TriangleLightView<Real>& a,
-                                                const TriangleLightView<Real>& b) {
+TANDEM_HD TriangleLightView<Real> choose(const Mask<Real>& mask, const TriangleLightView<Real>& a,
+                                         const TriangleLightView<Real>& b) {
     return {select(mask, a.point, b.point),
             select(mask, a.unit, b.unit),
             select(mask, a.corner, b.corner),
@@ -68,7 +68,7 @@ TANDEM_HD_INLINE TriangleLightView<Real> choose(const Mask<Real>& mask, const Tr
 
 /// The probability of one half.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> share(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
+TANDEM_HD Double<Real> share(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     using D = Double<Real>;
     return half.solid_angle / select(view.solid_angle > D(0.0F), view.solid_angle, D(1.0F));
 }
@@ -80,7 +80,7 @@ inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 
 /// Whether a half blocks rays from the point. A culled back does not.
 template <class Real>
-TANDEM_HD_INLINE Mask<Real> blocks_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
+TANDEM_HD Mask<Real> blocks_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
     return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
 }
 
@@ -88,8 +88,8 @@ TANDEM_HD_INLINE Mask<Real> blocks_rays(const QuadLightView<Real>& view, const T
 /// other. Computes the view of the other half again, so that a sample needs one view at a time. Keeping both takes
 /// equally long (`whitted.gltf` on an H200, variants in turns).
 template <class Real>
-TANDEM_HD_INLINE Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction,
-                                      const Double<Real>& distance, const Mask<Real>& other_is_first) {
+TANDEM_HD Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction,
+                               const Double<Real>& distance, const Mask<Real>& other_is_first) {
     using D = Double<Real>;
     const TriangleLightView<Real> other = view_triangle_light<Real>(
         view.first.point, view.corner[0], select(other_is_first, view.corner[1], view.corner[2]),
@@ -105,8 +105,8 @@ TANDEM_HD_INLINE Mask<Real> is_hidden(const QuadLightView<Real>& view, const Vec
 /// Uniform among the directions of both halves that emit towards the point: u chooses a half in proportion to its solid
 /// angle and is rescaled to [0, 1]. The density is 0 where the other half occludes the sampled point.
 template <class Real>
-TANDEM_HD_INLINE LightSample<Real> sample_light(const QuadLightView<Real>& view, const Double<Real>& u,
-                                                const Double<Real>& v) {
+TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const Double<Real>& u,
+                                         const Double<Real>& v) {
     using D = Double<Real>;
     const D one(1.0F);
     const D target = u * view.solid_angle;
@@ -127,7 +127,7 @@ TANDEM_HD_INLINE LightSample<Real> sample_light(const QuadLightView<Real>& view,
 /// Density of sample_light() for a unit direction: that of the half that is visible there, on the diagonal the first
 /// one; 0 beside the quad.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Double<Real> pdf_of(const QuadLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const TriangleLightHit<Real> first = find_on_light(view.first, direction, -direction_slack<Real>);
     const TriangleLightHit<Real> second = find_on_light(view.second, direction, -direction_slack<Real>);

@@ -27,8 +27,8 @@ struct SphereLightView {
 /// Method: 1 - cos = sin^2 / (1 + cos), because the difference cancels for small or far lights.
 /// Everything here is tested by tests/kernel/lights/sphere_light_test.cpp.
 template <class Real>
-TANDEM_HD_INLINE SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>>& point,
-                                                         const Vec3<Double<Real>>& centre, const Double<Real>& radius) {
+TANDEM_HD SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& centre,
+                                                  const Double<Real>& radius) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -56,7 +56,7 @@ TANDEM_HD_INLINE SphereLightView<Real> view_sphere_light(const Vec3<Double<Real>
 namespace sphere_light_detail {
 
 template <class Real>
-TANDEM_HD_INLINE Double<Real> density(const SphereLightView<Real>& view) {
+TANDEM_HD Double<Real> density(const SphereLightView<Real>& view) {
     using D = Double<Real>;
     const D zero(0.0F);
     const Mask<Real> seen = view.solid_angle > zero && view.radius > zero;
@@ -75,8 +75,8 @@ TANDEM_HD_INLINE Double<Real> density(const SphereLightView<Real>& view) {
 /// Source: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1),
 ///         1996, sec. 3.2.
 template <class Real>
-TANDEM_HD_INLINE LightSample<Real> sample_light(const SphereLightView<Real>& view, const Double<Real>& u,
-                                                const Double<Real>& v) {
+TANDEM_HD LightSample<Real> sample_light(const SphereLightView<Real>& view, const Double<Real>& u,
+                                         const Double<Real>& v) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -108,7 +108,7 @@ TANDEM_HD_INLINE LightSample<Real> sample_light(const SphereLightView<Real>& vie
 
 /// Density of sample_light() for a unit direction: 0 beside the sphere.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> pdf_of(const SphereLightView<Real>& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Double<Real> pdf_of(const SphereLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     using D = Double<Real>;
     const D slack = constant<D>(direction_slack<Real>);
     const Vec3<D> sine = accurate_cross(direction, view.axis);  // the cosine is insensitive to small angles

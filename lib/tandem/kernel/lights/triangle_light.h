@@ -31,7 +31,7 @@ namespace triangle_light_detail {
 /// The sum |a| |b| + a . b, without cancellation where a and b point in opposite directions: product = |a| |b|, cross2
 /// = |a x b|^2.
 template <class D>
-TANDEM_HD_INLINE D one_plus_cosine(const D& product, const D& cosine, const D& cross2) {
+TANDEM_HD D one_plus_cosine(const D& product, const D& cosine, const D& cross2) {
     const D zero(0.0F);
     const D difference = product - cosine;
     const D by_sine = cross2 / select(difference > zero, difference, D(1.0F));
@@ -42,7 +42,7 @@ TANDEM_HD_INLINE D one_plus_cosine(const D& product, const D& cosine, const D& c
 /// and `cosine`: of the angle, up to a common factor; `area` = |a x edge|, `length2` = |a|^2, `along` = a . edge. In
 /// [0, 1]; 1 where rounding leaves no crossing.
 template <class D>
-TANDEM_HD_INLINE D fraction_at_angle(const D& sine, const D& cosine, const D& area, const D& length2, const D& along) {
+TANDEM_HD D fraction_at_angle(const D& sine, const D& cosine, const D& area, const D& length2, const D& along) {
     const D numerator = sine * length2;
     const D denominator = area * cosine - sine * along;
     const Mask<D> within = numerator < denominator;
@@ -118,7 +118,7 @@ namespace triangle_light_detail {
 /// The density at a direction that hits the triangle at `distance`, in `unit`: 1 / solid angle or, for tiny triangles,
 /// the density by area times distance^2 / cosine, where cosine * 2 area * distance is the volume.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> density(const TriangleLightView<Real>& view, const Double<Real>& distance) {
+TANDEM_HD Double<Real> density(const TriangleLightView<Real>& view, const Double<Real>& distance) {
     using D = Double<Real>;
     const D zero(0.0F);
     const D one(1.0F);
@@ -131,7 +131,7 @@ TANDEM_HD_INLINE Double<Real> density(const TriangleLightView<Real>& view, const
 
 /// 1 - cosine of an angle from `length` times its cosine and the square of `length` times its sine.
 template <class D>
-TANDEM_HD_INLINE D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
+TANDEM_HD D one_minus_cosine(const D& length, const D& cosine, const D& sine2) {
     const D sum = length + cosine;
     const D numerator = select(cosine < D(0.0F), length - cosine, sine2 / select(sum > D(0.0F), sum, D(1.0F)));
     return numerator / select(length > D(0.0F), length, D(1.0F));
@@ -216,7 +216,7 @@ TriangleLightHit<Real> find_on_light(TriangleLightView<Real> view, Vec3<Double<R
 
 /// Density of sample_light() for a unit direction: 0 beside the triangle.
 template <class Real>
-TANDEM_HD_INLINE Double<Real> pdf_of(const TriangleLightView<Real>& view, const Vec3<Double<Real>>& direction) {
+TANDEM_HD Double<Real> pdf_of(const TriangleLightView<Real>& view, const Vec3<Double<Real>>& direction) {
     const TriangleLightHit<Real> hit = find_on_light(view, direction, -direction_slack<Real>);
     return select(hit.meets, triangle_light_detail::density(view, hit.distance), Double<Real>(0.0F));
 }

@@ -23,10 +23,9 @@ enum class PixelFilter : std::uint32_t {
 /// A number that LinkedFacts::filter has if a kernel is for every filter.
 inline constexpr std::uint32_t any_filter = ~0U;
 
-/// The filter of a job: the constant of the kernel (cuda/linked_facts.h, cpu/kernels/usual_sampling.h), if there is
-/// one.
+/// The filter of a job: the constant of the kernel (cuda/linked_facts.h), if there is one.
 TANDEM_HD_INLINE PixelFilter filter_of(PixelFilter job) {
-#if defined(TANDEM_LINKED_FILTER) && TANDEM_READS_FACTS
+#if defined(TANDEM_LINKED_FILTER) && TANDEM_ON_DEVICE
     if (TANDEM_LINKED_FILTER != any_filter) return static_cast<PixelFilter>(TANDEM_LINKED_FILTER);
 #endif
     return job;
@@ -97,7 +96,7 @@ TANDEM_HD_INLINE Vec2<Real> sample_filter(PixelFilter of_job, const Real& u, con
     const PixelFilter filter = filter_of(of_job);
     if (filter == PixelFilter::box) [[likely]]
         return {u, v};
-#if defined(TANDEM_LINKED_FILTER) && TANDEM_READS_FACTS
+#if defined(TANDEM_LINKED_FILTER) && TANDEM_ON_DEVICE
     if (TANDEM_LINKED_FILTER != any_filter) return {filter_detail::offset(filter, u), filter_detail::offset(filter, v)};
 #endif
     return filter_detail::offsets_aside<Real>(filter, u, v);

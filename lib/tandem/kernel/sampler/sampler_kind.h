@@ -26,9 +26,9 @@ struct JobSampler {
 /// A number that LinkedFacts::sampler has if a kernel is for every sampler.
 inline constexpr std::uint32_t any_sampler = ~0U;
 
-/// Whether the sampler is a constant in this kernel (cuda/linked_facts.h, cpu/kernels/usual_sampling.h).
+/// Whether the sampler is a constant in this kernel (cuda/linked_facts.h).
 TANDEM_HD_INLINE bool is_sampler_linked() {
-#if defined(TANDEM_LINKED_SAMPLER) && TANDEM_READS_FACTS
+#if defined(TANDEM_LINKED_SAMPLER) && TANDEM_ON_DEVICE
     return TANDEM_LINKED_SAMPLER != any_sampler;
 #else
     return false;
@@ -37,7 +37,7 @@ TANDEM_HD_INLINE bool is_sampler_linked() {
 
 /// The sampler of a job: the constant, if there is one.
 TANDEM_HD_INLINE Sampler sampler_of(const JobSampler& job) {
-#if defined(TANDEM_LINKED_SAMPLER) && TANDEM_READS_FACTS
+#if defined(TANDEM_LINKED_SAMPLER) && TANDEM_ON_DEVICE
     if (TANDEM_LINKED_SAMPLER != any_sampler) return static_cast<Sampler>(TANDEM_LINKED_SAMPLER);
 #endif
     return job.kind;
