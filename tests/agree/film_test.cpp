@@ -56,7 +56,8 @@ TEST_P(FilmBits, AreThoseOfTheLeastProcessor) {
 }
 
 /// The number of threads or lanes that share a pixel depends on its samples (cuda/shared_pixel.h, cpu/shared_pixels.h).
-/// Samples of longer paths are handed out in sets (cuda/shared_queue.h, cpu/sample_sets.h).
+/// Samples of longer paths are handed out in sets (cuda/shared_queue.h, cpu/sample_sets.h); with area lights and paths
+/// of one vertex, warps take tiles (cuda/render_thread.h).
 TEST_P(FilmBits, OfAnyNumberOfSamplesAreThoseOfTheLeastProcessor) {
     BackendOptions options;
     options.instruction_set = "x86-64-v2";
@@ -64,7 +65,7 @@ TEST_P(FilmBits, OfAnyNumberOfSamplesAreThoseOfTheLeastProcessor) {
     RenderJob few = job();
     few.width = 37;
     few.height = 23;
-    for (const EffectMask forced : {EffectMask(), EffectMask(Effect::indirect)}) {
+    for (const EffectMask forced : {EffectMask(), EffectMask(Effect::area_lights), EffectMask(Effect::indirect)}) {
         const PreparedScene scene =
             prepare(named_scene("mixed/500"), {.frame = 11, .camera = "", .effects = {forced, {}}});
         const auto resident = load(scene), on_least = least->load(scene, GetParam().tier);
