@@ -9,8 +9,8 @@
 ///                         linker could keep the copy that an older machine cannot run.
 /// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes).
 ///                         Not for lights: kernels took a third longer to compile, and were no faster. Not forced on
-///                         the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET) and in kernels that are
-///                         compiled quickly (TANDEM_QUICK_KERNELS).
+///                         the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET), in kernels that are
+///                         compiled quickly and in tests (TANDEM_QUICK_KERNELS).
 /// TANDEM_HD_CALL          host and device, never inline: for long functions, and for code that few rays need, so that
 ///                         it takes no registers from the common path. Each file has its own copy. Pass arguments by
 ///                         value.
