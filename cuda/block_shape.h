@@ -7,16 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cuda/warp_tile.h"
 #include "tandem/kernel/sharing.h"
 
 namespace tandem::cuda {
 
-// A block covers 16 x 8 pixels as four warps of 8 x 4, so that the rays of a warp are coherent.
-inline constexpr unsigned int warp_width = 8;
-inline constexpr unsigned int warp_height = 4;
-inline constexpr unsigned int block_width = 16;
-inline constexpr unsigned int block_height = 8;
-inline constexpr unsigned int block_threads = block_width * block_height;
+// A block is four warps, whose tiles are side by side and above each other, so that their rays are coherent.
+inline constexpr unsigned int block_threads = 128;
 
 // The blocks of a kernel with a queue fill a multiprocessor: together they have as many threads as its registers allow,
 // at most these.
@@ -35,9 +32,6 @@ struct RenderGrid {
     dim3 blocks;
     dim3 threads;
 };
-inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
-    return {dim3(blocks_for(width, block_width), blocks_for(height, block_height)), dim3(block_threads)};
-}
 
 /// How many threads share a pixel. More than 8 were not faster (docs/performance.md, "Threads share pixels").
 inline constexpr std::uint32_t most_sharing_threads = 8;
@@ -45,25 +39,18 @@ inline constexpr std::uint32_t most_sharing_threads = 8;
     return sharing_of(samples, most_sharing_threads);
 }
 
-/// The pixels of a warp if `threads` share each, a power of two up to 32: a square of them, or two side by side.
-struct SharedTile {
-    unsigned int width, height;
-};
-[[nodiscard]] __host__ __device__ constexpr SharedTile shared_tile(unsigned int threads) {
-    SharedTile tile = {8, 4};
-    for (unsigned int halved = 1; halved < threads; halved *= 2) {
-        (tile.width > tile.height ? tile.width : tile.height) /= 2;
-    }
-    return tile;
+/// Blocks of 2 x 2 tiles. `threads`: of a block.
+inline RenderGrid tiled_grid(std::uint32_t width, std::uint32_t height, WarpTile tile, dim3 threads) {
+    return {dim3(blocks_for(width, 2 * tile.width()), blocks_for(height, 2 * tile.height())), threads};
 }
-
-/// Blocks of four warps, whose tiles are side by side and above each other (cuda/shared_pixel.h).
+inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
+    return tiled_grid(width, height, warp_tile(1), dim3(block_threads));
+}
 inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
     const unsigned int threads = sharing_threads(samples);
-    const SharedTile tile = shared_tile(threads);
-    return {dim3(blocks_for(width, 2 * tile.width), blocks_for(height, 2 * tile.height)),
-            dim3(threads, block_threads / threads)};
+    return tiled_grid(width, height, warp_tile(threads), dim3(threads, block_threads / threads));
 }
+
 /// Of the current GPU.
 [[nodiscard]] unsigned int multiprocessor_count();
 /// So many blocks for each multiprocessor of the current GPU, together as large as one block of the kernel may be.

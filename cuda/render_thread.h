@@ -32,12 +32,13 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
 /// time from a few samples on. All threads of the warp call it.
 template <class Effects>
 __device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTracer& tracer, const PixelJob& job,
-                                                       std::uint32_t x, std::uint32_t y) {
+                                                       WarpTile tile, PixelPlace corner) {
     constexpr std::uint32_t least_samples = 8;
     if (job.samples < least_samples || !tracer.culls_pixels) return ConstantMemoryTracer::all_slots;
-    const PixelTile tile = {job.left + x, job.top + y, warp_width, warp_height, reach_of(filter_of(job.filter))};
-    const RayBundle rays = bundle_of_tile(job.camera, tile, Effects::has(Effect::lens));
-    static_assert(ConstantMemoryTracer::slot_count <= warp_width * warp_height);
+    const PixelTile pixels = {job.left + corner.x, job.top + corner.y, tile.width(), tile.height(),
+                              reach_of(filter_of(job.filter))};
+    const RayBundle rays = bundle_of_tile(job.camera, pixels, Effects::has(Effect::lens));
+    static_assert(ConstantMemoryTracer::slot_count <= 32);
     const std::uint32_t slot = threadIdx.x % 32;
     const bool may = slot < ConstantMemoryTracer::slot_count && may_hit(tracer, rays, slot);
     return __ballot_sync(0xFFFFFFFFU, may);
@@ -64,13 +65,13 @@ __device__ __forceinline__ PixelSum<Real> render_among(const ConstantMemoryTrace
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                            Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    constexpr WarpTile tile = warp_tile(1);
     const unsigned int warp = threadIdx.x / 32;
-    const unsigned int lane = threadIdx.x % 32;
-    const std::uint32_t left = blockIdx.x * block_width + warp % (block_width / warp_width) * warp_width;
-    const std::uint32_t top = blockIdx.y * block_height + warp / (block_width / warp_width) * warp_height;
-    const std::uint32_t x = left + lane % warp_width, y = top + lane / warp_width;
+    const auto [x, y] = pixel_in_block(tile, warp, threadIdx.x % 32);
     std::uint32_t slots = 0;
-    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) slots = slots_in_tile<Effects>(tracer, job, left, top);
+    if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
+        slots = slots_in_tile<Effects>(tracer, job, tile, pixel_in_block(tile, warp, 0));
+    }
     if (x >= job.width || y >= height) return;
     PixelSum<Real> pixel;
     if constexpr (std::is_same_v<Tracer, ConstantMemoryTracer>) {
@@ -86,10 +87,11 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_pixel(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                                     const SharedPixel& pixel, Vec3d* __restrict__ sums,
                                                     DeviceCounters* __restrict__ counters) {
-    const bool is_inside = pixel.x < job.width && pixel.y < height;
+    const auto [x, y] = pixel.at;
+    const bool is_inside = x < job.width && y < height;
     const PixelSum<Real> result = render_shared<Effects, Real>(tracer, job, pixel, is_inside);
     if (!is_inside) return;
-    if (pixel.thread == 0) sums[static_cast<std::size_t>(pixel.y) * job.width + pixel.x] = result.sum;
+    if (pixel.thread == 0) sums[static_cast<std::size_t>(y) * job.width + x] = result.sum;
     count<Effects>(result, threadIdx.y * blockDim.x + threadIdx.x, counters);
 }
 
@@ -111,19 +113,15 @@ __device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJo
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const std::uint32_t tiles_across = (job.width + warp_width - 1) / warp_width;
-    const std::uint32_t tiles_down = (height + warp_height - 1) / warp_height;
-    const std::uint32_t end = tiles_across * tiles_down * 32;
+    const WindowTiles tiles = tiles_of_window(job.width, height, warp_tile(1));
     PathWalk<Effects, Real> walk;
     PixelSum<Real> pixel;
     bool is_open = true;
     while (true) {
         while (is_open && !walk.working()) {
             const std::uint32_t place = atomicAdd(&counters->next_in_queue, 1U);
-            const std::uint32_t tile = place / 32, within = place % 32;
-            const std::uint32_t x = tile % tiles_across * warp_width + within % warp_width;
-            const std::uint32_t y = tile / tiles_across * warp_height + within / warp_width;
-            is_open = place < end;
+            const auto [x, y] = tiles.pixel(place / 32, place % 32);
+            is_open = place < tiles.count * 32;
             if (is_open && x < job.width && y < height) walk.take(job, x, y, true);
         }
         if (__syncthreads_or(walk.working()) == 0) return;
@@ -142,16 +140,13 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_tiles(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                                     Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     const std::uint32_t threads = sharing_threads(job.samples);
-    const SharedTile shape = shared_tile(threads);
-    const std::uint32_t tiles_across = (job.width + shape.width - 1) / shape.width;
-    const std::uint32_t tiles = tiles_across * ((height + shape.height - 1) / shape.height);
+    const WindowTiles tiles = tiles_of_window(job.width, height, warp_tile(threads));
     while (true) {
         std::uint32_t tile = 0;
         if (threadIdx.x % 32 == 0) tile = atomicAdd(&counters->next_in_queue, 1U);
         tile = __shfl_sync(0xFFFFFFFFU, tile, 0);
-        if (__syncthreads_or(tile < tiles) == 0) return;
-        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tile, tiles_across, threads), sums,
-                                           counters);
+        if (__syncthreads_or(tile < tiles.count) == 0) return;
+        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tiles, tile, threads), sums, counters);
     }
 }
 

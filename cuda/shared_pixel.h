@@ -12,26 +12,26 @@ namespace tandem::cuda {
 
 /// A pixel of the window, and the number of this thread among those that share it.
 struct SharedPixel {
-    std::uint32_t x, y;
+    PixelPlace at;
     std::uint32_t thread, threads;
 };
 
-/// The pixel of this thread in a launch of shared_pixels(). It may be beyond the window.
-__device__ __forceinline__ SharedPixel shared_pixel() {
-    const SharedTile tile = shared_tile(blockDim.x);
-    const std::uint32_t pixels = tile.width * tile.height;
-    const std::uint32_t warp = threadIdx.y / pixels, within = threadIdx.y % pixels;
-    return {(blockIdx.x * 2 + warp % 2) * tile.width + within % tile.width,
-            (blockIdx.y * 2 + warp / 2) * tile.height + within / tile.width, threadIdx.x, blockDim.x};
+/// A pixel of the tile of a warp of this block, in a launch of tiled_grid().
+__device__ __forceinline__ PixelPlace pixel_in_block(WarpTile tile, std::uint32_t warp, std::uint32_t number) {
+    return tile.pixel(blockIdx.x * 2 + warp % 2, blockIdx.y * 2 + warp / 2, number);
 }
 
-/// The pixel of this thread in a tile of the window, for any number of warps: tile 0 is at the top left.
-__device__ __forceinline__ SharedPixel shared_pixel_of(std::uint32_t tile, std::uint32_t tiles_across,
+/// The pixel of this thread in a launch of shared_pixels().
+__device__ __forceinline__ SharedPixel shared_pixel() {
+    const std::uint32_t threads = blockDim.x, number = threadIdx.y * threads + threadIdx.x;
+    return {pixel_in_block(warp_tile(threads), number / 32, number % 32 / threads), threadIdx.x, threads};
+}
+
+/// The pixel of this thread in a tile of the window, for any number of warps.
+__device__ __forceinline__ SharedPixel shared_pixel_of(const WindowTiles& tiles, std::uint32_t tile,
                                                        std::uint32_t threads) {
-    const SharedTile shape = shared_tile(threads);
-    const std::uint32_t lane = threadIdx.x % 32, pixel = lane / threads;
-    return {tile % tiles_across * shape.width + pixel % shape.width,
-            tile / tiles_across * shape.height + pixel / shape.width, lane % threads, threads};
+    const std::uint32_t lane = threadIdx.x % 32;
+    return {tiles.pixel(tile, lane / threads), lane % threads, threads};
 }
 
 /// The sum over the samples of a pixel, if it is inside the window. Each of its threads follows the path of one sample
@@ -41,8 +41,8 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, const PixelJob& job,
                                                         const SharedPixel& pixel, bool is_inside) {
     constexpr unsigned int warp = 0xFFFFFFFFU;
-    SampleId<Real> id = sample_of<Real>(job, pixel.x, pixel.y, job.first_sample);
-    const PixelRays<Real> rays = rays_of_pixel<Real>(job, pixel.x, pixel.y);
+    SampleId<Real> id = sample_of<Real>(job, pixel.at.x, pixel.at.y, job.first_sample);
+    const PixelRays<Real> rays = rays_of_pixel<Real>(job, pixel.at.x, pixel.at.y);
     PixelSum<Real> result;
     for (std::uint32_t first = 0; first < job.samples; first += pixel.threads) {
         const std::uint32_t sample = first + pixel.thread;

@@ -14,18 +14,16 @@ namespace tandem::cuda {
 
 /// Samples that a warp hands out together: some of each pixel of a tile. Sample s of pixel p is item s * pixels + p.
 struct SampleSet {
-    std::uint32_t left, top;  ///< of the tile, in the window
-    std::uint32_t first;      ///< the first of the samples, from 0
-    std::uint32_t samples;    ///< of each pixel
+    std::uint32_t column, row;  ///< of the tile, among the tiles of the window
+    std::uint32_t first;        ///< the first of the samples, from 0
+    std::uint32_t samples;      ///< of each pixel
 };
 
 /// What a warp works on, in shared memory.
 struct SharedQueue {
     // constants
-    SharedTile shape;
-    std::uint32_t width_bits, pixel_bits;  ///< of the width and of the number of pixels, which are powers of two
-    std::uint32_t most_samples;            ///< of a pixel in a set
-    std::uint32_t across, tiles;
+    WindowTiles tiles;
+    std::uint32_t most_samples;  ///< of a pixel in a set
 
     SampleSet sets[waiting_sets];
     std::uint32_t open[waiting_sets];  ///< samples of the set that are not done
@@ -43,14 +41,8 @@ class SharedSamples {
                                              Vec3<Real>* radiances, DeviceCounters* counters)
         : queue_(queue), job_(job), height_(height), radiances_(radiances), counters_(counters) {
         if (lane() == 0) {
-            const std::uint32_t threads = sharing_threads(job.samples);
-            const SharedTile shape = shared_tile(threads);
-            queue.shape = shape;
-            queue.width_bits = __popc(shape.width - 1);
-            queue.pixel_bits = __popc(shape.width * shape.height - 1);
-            queue.most_samples = threads;
-            queue.across = (job.width + shape.width - 1) / shape.width;
-            queue.tiles = queue.across * ((height + shape.height - 1) / shape.height);
+            queue.most_samples = sharing_threads(job.samples);
+            queue.tiles = tiles_of_window(job.width, height, warp_tile(queue.most_samples));
             queue.begun = queue.added = queue.next = 0;
             queue.is_empty = false;
         }
@@ -69,9 +61,9 @@ class SharedSamples {
             const std::uint32_t item = queue_.next + __popc(waiting & ((1U << lane()) - 1U));
             const bool gets = (waiting >> lane() & 1U) != 0 && item < pixels() * set.samples;
             if (gets) {
-                const std::uint32_t sample = item >> queue_.pixel_bits;
-                const Place at = place(set, item & (pixels() - 1));
-                if (at.is_inside) {
+                const std::uint32_t sample = item >> queue_.tiles.tile.pixel_bits();
+                const PixelPlace at = place(set, item & (pixels() - 1));
+                if (is_inside(at)) {
                     item_ = (queue_.begun - 1) % waiting_sets * set_size + item;
                     take(at.x, at.y, job_.first_sample + set.first + sample);
                 }
@@ -101,8 +93,8 @@ class SharedSamples {
             // a thread for each channel of each pixel
             for (std::uint32_t i = lane(); i < 3 * pixels(); i += 32) {
                 const std::uint32_t pixel = i / 3, channel = i - 3 * pixel;
-                const Place at = place(set, pixel);
-                if (!at.is_inside) continue;
+                const PixelPlace at = place(set, pixel);
+                if (!is_inside(at)) continue;
                 double& total = (&sums->x)[3 * (static_cast<std::size_t>(at.y) * job_.width + at.x) + channel];
                 const Real* from = &radiances_->x + 3 * (slot * set_size + pixel) + channel;
                 double sum = set.first != 0 ? total : 0.0;
@@ -117,24 +109,20 @@ class SharedSamples {
     }
 
   private:
-    struct Place {
-        std::uint32_t x, y;
-        bool is_inside;
-    };
-
     static constexpr unsigned int all_ = 0xFFFFFFFFU;
 
     [[nodiscard]] __device__ __forceinline__ static unsigned int lane() { return threadIdx.x % 32; }
-    [[nodiscard]] __device__ __forceinline__ std::uint32_t pixels() const { return 1U << queue_.pixel_bits; }
+    [[nodiscard]] __device__ __forceinline__ std::uint32_t pixels() const { return queue_.tiles.tile.pixels(); }
     [[nodiscard]] __device__ __forceinline__ const SampleSet& last() const {
         return queue_.sets[(queue_.begun - 1) % waiting_sets];
     }
 
     /// A pixel of the set's tile.
-    [[nodiscard]] __device__ __forceinline__ Place place(const SampleSet& set, std::uint32_t pixel) const {
-        const std::uint32_t x = set.left + (pixel & ((1U << queue_.width_bits) - 1U));
-        const std::uint32_t y = set.top + (pixel >> queue_.width_bits);
-        return {x, y, x < job_.width && y < height_};
+    [[nodiscard]] __device__ __forceinline__ PixelPlace place(const SampleSet& set, std::uint32_t pixel) const {
+        return queue_.tiles.tile.pixel(set.column, set.row, pixel);
+    }
+    [[nodiscard]] __device__ __forceinline__ bool is_inside(PixelPlace at) const {
+        return at.x < job_.width && at.y < height_;
     }
 
     /// Begins a set: the next samples of the tile, or the first ones of the next tile. False if there is none, or no
@@ -150,17 +138,16 @@ class SharedSamples {
             std::uint32_t tile = 0;
             if (lane() == 0) tile = atomicAdd(&counters_->next_in_queue, 1U);
             tile = __shfl_sync(all_, tile, 0);
-            if (tile >= queue_.tiles) {
+            if (tile >= queue_.tiles.count) {
                 __syncwarp();
                 if (lane() == 0) queue_.is_empty = true;
                 __syncwarp();
                 return false;
             }
-            const std::uint32_t down = tile / queue_.across;
-            set = {(tile - down * queue_.across) * queue_.shape.width, down * queue_.shape.height, 0, 0};
+            set = {tile % queue_.tiles.across, tile / queue_.tiles.across, 0, 0};
         }
         set.samples = min(queue_.most_samples, job_.samples - set.first);
-        const unsigned int inside = __ballot_sync(all_, lane() < pixels() && place(set, lane()).is_inside);
+        const unsigned int inside = __ballot_sync(all_, lane() < pixels() && is_inside(place(set, lane())));
         __syncwarp();
         if (lane() == 0) {
             const std::uint32_t slot = queue_.begun % waiting_sets;

@@ -1,7 +1,11 @@
 // The layout of threads: every pixel is covered, and few threads are idle.
 #include "cuda/block_shape.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
 
 namespace tandem::cuda {
 namespace {
@@ -22,15 +26,31 @@ TEST(SharedPixels, HaveThreadsThatAreRarelyIdle) {
     }
 }
 
-TEST(SharedPixels, OfAWarpAreATile) {
+TEST(WarpTile, IsASquareOrTwo) {
     for (const unsigned int threads : {1U, 2U, 4U, 8U, 16U, 32U}) {
-        const SharedTile tile = shared_tile(threads);
-        EXPECT_EQ(tile.width * tile.height * threads, 32U);
-        EXPECT_LE(tile.width, 2 * tile.height) << threads << " threads";
-        EXPECT_LE(tile.height, tile.width) << threads << " threads";
+        const WarpTile tile = warp_tile(threads);
+        EXPECT_EQ(tile.pixels() * threads, 32U);
+        EXPECT_TRUE(tile.width() == tile.height() || tile.width() == 2 * tile.height()) << threads << " threads";
     }
-    EXPECT_EQ(shared_tile(1).width, warp_width);
-    EXPECT_EQ(shared_tile(1).height, warp_height);
+}
+
+TEST(WindowTiles, HaveEachPixelOnce) {
+    for (const unsigned int threads : {1U, 2U, 8U, 32U}) {
+        for (const auto& [width, height] :
+             std::vector<std::pair<unsigned, unsigned>>{{1, 1}, {7, 3}, {8, 4}, {131, 9}}) {
+            const WindowTiles tiles = tiles_of_window(width, height, warp_tile(threads));
+            std::vector<int> counts(std::size_t{width} * height);
+            for (std::uint32_t tile = 0; tile < tiles.count; ++tile) {
+                EXPECT_LT(tiles.pixel(tile, 0).x, width) << "tile " << tile << " is beyond the window";
+                EXPECT_LT(tiles.pixel(tile, 0).y, height) << "tile " << tile << " is beyond the window";
+                for (std::uint32_t pixel = 0; pixel < tiles.tile.pixels(); ++pixel) {
+                    const auto [x, y] = tiles.pixel(tile, pixel);
+                    if (x < width && y < height) ++counts[std::size_t{y} * width + x];
+                }
+            }
+            EXPECT_THAT(counts, testing::Each(1)) << width << " x " << height << ", " << threads << " threads";
+        }
+    }
 }
 
 TEST(SharedPixels, CoverTheWindow) {
@@ -38,12 +58,12 @@ TEST(SharedPixels, CoverTheWindow) {
         for (const std::uint32_t height : {1U, 3U, 97U}) {
             for (const std::uint32_t samples : {1U, 2U, 4U, 8U}) {
                 const RenderGrid grid = shared_pixels(width, height, samples);
-                const SharedTile tile = shared_tile(grid.threads.x);
+                const WarpTile tile = warp_tile(grid.threads.x);
                 EXPECT_EQ(grid.threads.x * grid.threads.y, block_threads);
-                EXPECT_GE(grid.blocks.x * 2 * tile.width, width);
-                EXPECT_LT((grid.blocks.x - 1) * 2 * tile.width, width);
-                EXPECT_GE(grid.blocks.y * 2 * tile.height, height);
-                EXPECT_LT((grid.blocks.y - 1) * 2 * tile.height, height);
+                EXPECT_GE(grid.blocks.x * 2 * tile.width(), width);
+                EXPECT_LT((grid.blocks.x - 1) * 2 * tile.width(), width);
+                EXPECT_GE(grid.blocks.y * 2 * tile.height(), height);
+                EXPECT_LT((grid.blocks.y - 1) * 2 * tile.height(), height);
             }
         }
     }
