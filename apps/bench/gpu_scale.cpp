@@ -20,14 +20,14 @@ namespace {
 constexpr int warm_ups = 2;  // the first has larger buffers made than the second needs
 
 /// One way to render the frame.
-struct Contender {
+struct GpuContender {
     std::unique_ptr<Backend> backend;
     std::shared_ptr<ResidentScene> resident{};
     BenchmarkRow row{};
     std::string hash{};
 };
 
-void measure(Contender& contender, const RenderJob& job, int round) {
+void measure(GpuContender& contender, const RenderJob& job, int round) {
     const Stopwatch watch;
     const RenderResult result = contender.backend->render(contender.resident, job);
     const double seconds = watch.seconds();
@@ -73,9 +73,9 @@ GpuScale time_gpus(const GpuScaleOptions& options, const BackendSource& source, 
 
     std::set<int> counts(options.gpus.begin(), options.gpus.end());
     counts.insert(1);
-    std::vector<Contender> contenders;
+    std::vector<GpuContender> contenders;
     const auto add = [&](std::unique_ptr<Backend> backend, int gpus, const std::string& label) {
-        Contender& contender = contenders.emplace_back(Contender{std::move(backend)});
+        GpuContender& contender = contenders.emplace_back(GpuContender{std::move(backend)});
         describe_backend(*contender.backend, report);
         contender.resident = contender.backend->load(prepared, job.tier);
         BenchmarkRow& row = contender.row;
@@ -103,13 +103,13 @@ GpuScale time_gpus(const GpuScaleOptions& options, const BackendSource& source, 
     GpuScale scale;
     scale.in_bands = std::move(contenders.back().row);
     const std::string& hash = contenders.front().hash;
-    for (const Contender& contender : contenders) scale.are_equal = scale.are_equal && contender.hash == hash;
+    for (const GpuContender& contender : contenders) scale.are_equal = scale.are_equal && contender.hash == hash;
     const BenchmarkRow at_once = contenders.front().row;
     const bool bands_win = summarize(scale.in_bands.seconds).median < summarize(at_once.seconds).median;
     const BenchmarkRow& one = bands_win ? scale.in_bands : at_once;
     std::size_t i = 0;
     for (const int count : counts) {
-        Contender& contender = contenders[i++];
+        GpuContender& contender = contenders[i++];
         GpuScaleStep step{count, std::move(contender.row), {}};
         step.efficiency = efficiency_of(one, step.row, count);
         step.shares = shares_of(contender.backend->capabilities());

@@ -18,7 +18,7 @@ namespace {
 
 using test::under_parent;
 
-RenderJob small_job() {
+RenderJob shifted_job() {
     RenderJob job;
     job.width = 160;
     job.height = 120;
@@ -28,7 +28,7 @@ RenderJob small_job() {
 
 Film render(const PreparedScene& scene) {
     const auto cpu = make_backend("cpu");
-    return cpu->render(cpu->load(scene), small_job()).film;
+    return cpu->render(cpu->load(scene), shifted_job()).film;
 }
 
 // J1. The grid of these scenes has a step of 16 or 32: a translation by a multiple of it changes nothing but the

@@ -7,6 +7,7 @@
 
 #include "tandem/kernel/shapes/quad.h"
 #include "tandem/kernel/shapes/triangle.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 
@@ -42,7 +43,7 @@ bool holds(const Ellipsoid& body, const Vec3d& point) {
 }
 bool holds(const Parallelepiped& body, const Vec3d& point) {
     const Vec3d local = in_object(body, point);
-    return std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) < 1;
+    return max_norm(local) < 1;
 }
 
 /// The faces of one material along a line from the camera: how often it leaves minus how often it enters.

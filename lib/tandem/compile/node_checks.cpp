@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tandem/base/error.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 
@@ -15,7 +16,7 @@ void fail_at_node(const Scene& scene, std::size_t node, const std::string& what)
 
 bool is_hidden(const Matrix3& m) {
     double largest = 0;
-    for (const Vec3d& row : m.row) largest = std::max({largest, std::abs(row.x), std::abs(row.y), std::abs(row.z)});
+    for (const Vec3d& row : m.row) largest = std::max(largest, max_norm(row));
     if (largest == 0) return true;
     const Matrix3 columns = transpose(m);
     if (largest > 1e-60 && largest < 1e60) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tandem/base/error.h"
+#include "tandem/math/lengths.h"
 #include "tandem/scene/normal_matrix.h"
 
 namespace tandem {
@@ -29,8 +30,6 @@ double frobenius_norm(const Matrix3& m) {
     return std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2]));
 }
 
-double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
-
 /// Half of the extent of a transformed box along each axis.
 Vec3d half_extent(const Matrix3& m, const Vec3d& half) {
     const auto along = [&](const Vec3d& row) {
@@ -38,8 +37,6 @@ Vec3d half_extent(const Matrix3& m, const Vec3d& half) {
     };
     return {along(m.row[0]), along(m.row[1]), along(m.row[2])};
 }
-
-double largest(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// The faces of a mesh with so many instances, with their corners in object space; the values at the corners in
 /// `scene`.
@@ -138,7 +135,7 @@ bool InstanceList::can_take(const MeshUse& use, const PlacedSurface& surface) {
     const MeshFacts& of_mesh = facts(use.mesh);
     if (of_mesh.is_empty) return false;
     const Vec3d centre = transform_point(surface.world_from_object, of_mesh.centre);
-    const double reach = largest(centre) + largest(half_extent(m, of_mesh.half));
+    const double reach = max_norm(centre) + max_norm(half_extent(m, of_mesh.half));
     if (!(norm > 2 * least_row_norm && norm < most_row_norm / 2 && reach < farthest)) return false;
     instances_[{use, volume < 0}].push_back(surface);
     return true;
@@ -178,7 +175,7 @@ std::vector<PlacedSurface> InstanceList::take_back(const Vec3d& origin,
         const auto is_seen_from_outside = [&](const PlacedSurface& surface) {
             const Vec3d centre = transform_point(surface.world_from_object, of_mesh.centre) - origin;
             const Vec3d half = half_extent(surface.world_from_object.linear, of_mesh.half) * (1 + 0x1p-20);
-            return sees_outside_of(enclose(centre, half + Vec3d(0x1p-20 * (largest(centre) + largest(half)))));
+            return sees_outside_of(enclose(centre, half + Vec3d(0x1p-20 * (max_norm(centre) + max_norm(half)))));
         };
         const auto end = std::stable_partition(surfaces.begin(), surfaces.end(), is_seen_from_outside);
         back.insert(back.end(), end, surfaces.end());

@@ -25,6 +25,7 @@
 #include "tandem/compile/render_origin.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/math/lengths.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/light_cone.h"
@@ -35,7 +36,7 @@ namespace {
 
 /// A unit vector, also for lengths whose squares underflow; zero stays zero.
 Vec3d unit_axis(const Vec3d& a) {
-    const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+    const double largest = max_norm(a);
     return largest > 0 ? normalize(a / largest) : a;
 }
 

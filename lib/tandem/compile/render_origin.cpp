@@ -4,15 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "tandem/math/lengths.h"
 #include "tandem/math/ray.h"
 
 namespace tandem {
 
 namespace {
-
-double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
-
-double largest(const Vec3d& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// The surface point of the box that is nearest to p, which may be inside.
 Vec3d nearest_of_box(const Vec3d& lower, const Vec3d& upper, const Vec3d& p) {
@@ -117,7 +114,7 @@ void RenderOrigin::add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v
     add_candidate(nearest, length(nearest - camera_));
 }
 
-void RenderOrigin::add_point(const Vec3d& point) { reach_ = std::max(reach_, largest(point)); }
+void RenderOrigin::add_point(const Vec3d& point) { reach_ = std::max(reach_, max_norm(point)); }
 
 void RenderOrigin::add(const RenderOrigin& other) {
     add_extent(other.lower_, other.upper_);
@@ -126,7 +123,7 @@ void RenderOrigin::add(const RenderOrigin& other) {
 }
 
 Vec3d RenderOrigin::get() const {
-    const double extent = largest(upper_ - lower_);
+    const double extent = max_norm(upper_ - lower_);
     if (!(distance_ < __builtin_huge_val())) return {0, 0, 0};
     Vec3d origin = nearest_;
     const double length = 16 * (extent > 0 ? std::min(distance_, extent) : distance_);
@@ -135,7 +132,8 @@ Vec3d RenderOrigin::get() const {
         origin = {snap(origin.x, step), snap(origin.y, step), snap(origin.z, step)};
     }
     // the difference of two coordinates within the limit may exceed it
-    const double farthest = std::max({reach_, largest(lower_), largest(upper_), largest(camera_)}) + largest(origin);
+    const double farthest =
+        std::max({reach_, max_norm(lower_), max_norm(upper_), max_norm(camera_)}) + max_norm(origin);
     return farthest <= double{coordinate_limit} ? origin : Vec3d{0, 0, 0};
 }
 

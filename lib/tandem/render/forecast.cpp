@@ -16,19 +16,19 @@ namespace tandem {
 namespace {
 
 /// The probe has a window for each of a few bands: rows of tiles, so that every processor has work.
-constexpr int most_bands = 8;
+constexpr int most_probe_bands = 8;
 
 /// What the probe cannot show of the time, as a share of it: two standard deviations.
 constexpr double unknown_share_of_time = 0.2;
 
-struct Band {
+struct ProbeBand {
     FilmWindow window;
     std::array<double, probe_passes> rates{};  ///< seconds per sample, by pass
 };
 
-std::vector<Band> bands_of(const TileGrid& grid) {
-    std::vector<Band> bands;
-    const int rows = (grid.rows() - 1) / most_bands + 1;
+std::vector<ProbeBand> bands_of(const TileGrid& grid) {
+    std::vector<ProbeBand> bands;
+    const int rows = (grid.rows() - 1) / most_probe_bands + 1;
     for (int row = 0; row < grid.rows(); row += rows) {
         const int top = row * grid.edge;
         bands.push_back({{0, top, grid.width, std::min(rows * grid.edge, grid.height - top)}, {}});
@@ -89,12 +89,12 @@ double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector
 
 /// Renders the tiles that are marked once more, and returns their time over that of their bands for as many samples.
 double dearness_of(Backend& backend, const std::shared_ptr<ResidentScene>& scene, RenderJob job, const TileGrid& grid,
-                   const std::vector<Band>& bands, const std::vector<bool>& marked,
+                   const std::vector<ProbeBand>& bands, const std::vector<bool>& marked,
                    const std::function<double()>& clock) {
     std::vector<int> samples(grid.count());
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = marked[i] ? job.samples : 0;
     double expected = 0;
-    for (const Band& band : bands) {
+    for (const ProbeBand& band : bands) {
         double rate = 0;
         for (const double of_pass : band.rates) rate += of_pass / probe_passes;
         expected += rate * work_in(band.window, grid, samples, marked, 1);
@@ -126,10 +126,10 @@ Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, c
     const TileGrid grid{job.width, job.height, target_tile_edge(job.width, job.height)};
     TiledFilm film(grid, FilmPlane::variance);
     std::vector<Film> fresh(grid.count());
-    std::vector<Band> bands = bands_of(grid);
+    std::vector<ProbeBand> bands = bands_of(grid);
     for (std::size_t pass = 0; pass < probe_passes; ++pass) {
         job.first_sample = static_cast<int>(pass) * job.samples;
-        for (Band& band : bands) {
+        for (ProbeBand& band : bands) {
             job.window = band.window;
             const double before = clock();
             const Film part = backend.render(resident, job).film;
@@ -169,7 +169,7 @@ Forecast forecast(Backend& backend, const Scene& scene, const FramePlan& plan, c
 
     std::array<double, 3> work{};
     std::array<double, probe_passes> seconds{};
-    for (const Band& band : bands) {
+    for (const ProbeBand& band : bands) {
         for (std::size_t i = 0; i < work.size(); ++i)
             work[i] += work_in(band.window, grid, outcomes[i].samples, noisy, 1);
         for (std::size_t pass = 0; pass < probe_passes; ++pass) {

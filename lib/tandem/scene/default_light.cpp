@@ -8,6 +8,7 @@
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 #include "tandem/math/frame.h"
+#include "tandem/math/lengths.h"
 #include "tandem/scene/animation.h"
 #include "tandem/scene/camera_node.h"
 #include "tandem/scene/surface_reach.h"
@@ -24,8 +25,6 @@ constexpr float key_intensity = 0.52F;
 constexpr float fill_intensity = 0.1F;
 /// The direction to the key light, along the camera's right, up and backward axes.
 constexpr Vec3d to_key = {-0.5, 0.75, 0.9};
-
-double length(const Vec3d& v) { return std::sqrt(dot(v, v)); }
 
 /// Square metres, in world space. For an ellipsoid, the area of the sphere with its volume.
 double area_of(const Scene& scene, const Shape& shape, const Matrix3& m) {

@@ -36,12 +36,12 @@ Big far_root(const Sphere& sphere, const Ray<float>& ray) {
     return t > Big(0x1p-1022) ? t : Big(0x1p-1022);
 }
 
-struct Place {
+struct SizeAndDistance {
     double radius;
     double distance;  ///< of the centre from the origin
 };
 
-class SphereSurface : public testing::TestWithParam<Place> {};
+class SphereSurface : public testing::TestWithParam<SizeAndDistance> {};
 
 TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
     int inward = 0, outward = 0, coarse = 0;
@@ -79,10 +79,12 @@ TEST_P(SphereSurface, IsLeftOutwardAndCrossedInward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, SphereSurface,
-                         testing::Values(Place{1e-3, 0}, Place{1e-3, 1}, Place{1, 3}, Place{1, 1000}, Place{1, 1e5},
-                                         Place{6.4e6, 6.4e6}, Place{1e-20, 1e-19}, Place{1e15, 1e16}));
+                         testing::Values(SizeAndDistance{1e-3, 0}, SizeAndDistance{1e-3, 1}, SizeAndDistance{1, 3},
+                                         SizeAndDistance{1, 1000}, SizeAndDistance{1, 1e5},
+                                         SizeAndDistance{6.4e6, 6.4e6}, SizeAndDistance{1e-20, 1e-19},
+                                         SizeAndDistance{1e15, 1e16}));
 
-class BoxSurface : public testing::TestWithParam<Place> {};
+class BoxSurface : public testing::TestWithParam<SizeAndDistance> {};
 
 TEST_P(BoxSurface, IsLeftOutwardAndCrossedInward) {
     for (std::uint64_t number = 0; number < 20'000; ++number) {
@@ -126,7 +128,8 @@ TEST_P(BoxSurface, IsLeftOutwardAndCrossedInward) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, BoxSurface,
-                         testing::Values(Place{1e-3, 1}, Place{1, 3}, Place{1, 1000}, Place{1e6, 1e6}));
+                         testing::Values(SizeAndDistance{1e-3, 1}, SizeAndDistance{1, 3}, SizeAndDistance{1, 1000},
+                                         SizeAndDistance{1e6, 1e6}));
 
 TEST(ShadowSource, DoesNotSeeTheLight) {
     const Sphere light = {{0, 0, 5}, 1};
