@@ -2,9 +2,10 @@
 """Checks that clang++ takes every source outside tests/, the CPU's kernels once per tier.
 
 The build compiles them with g++ alone and, with TANDEM_UNITY, together; lint.headers instantiates few templates. clang++ only
-parses the files, each alone, and generates no code. Most of them begin with a precompiled header of other libraries:
-without it, their headers take more than half of the time. lint.includes checks that each file includes what it needs of
-them.
+parses the files and generates no code: each of the library alone, so that its headers are known to need no others before
+them; those of programs as the build compiles them, in a third of the time. Most of them begin with a precompiled header of
+other libraries: without it, their headers take more than half of the time. lint.includes checks that each file includes what
+it needs of them.
 
 usage: clang.py ROOT BUILD
 """
@@ -19,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-from lint import Report, WARNINGS, compile_commands, is_parsed_alone
+from lint import Report, WARNINGS, compile_commands, is_of_a_program, is_parsed_alone
 
 KEPT = re.compile(r"-[DI]\S|-std=|-march=|-ffp-contract=")
 # The arguments in which the precompiled header and a source that begins with it must agree.
@@ -53,10 +54,11 @@ def precompile(arguments, folder):
 
 def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    inside = f"{build.relative_to(root).as_posix()}/" if build.is_relative_to(root) else ""
     report = Report()
     sources = {}
-    for path, command in compile_commands(build, root):
-        if is_parsed_alone(path, root, build):
+    for path, command in compile_commands(build, root, together=is_of_a_program):
+        if is_of_a_program(path.removeprefix(inside)) or is_parsed_alone(path, root, build):
             tier = TIER.search(command)
             sources[path, tier.group(1) if tier else ""] = arguments_of(command)  # of the last instruction set
 

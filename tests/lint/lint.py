@@ -66,17 +66,20 @@ def search(text, pattern):
         yield text.count("\n", 0, match.start()) + 1, match
 
 
-def compile_commands(build, root):
-    """(path relative to the root, command line) of our own files."""
+def compile_commands(build, root, together=lambda source: False):
+    """(path relative to the root, command line) of our own files. Sources that CMake includes in one of its own
+    (TANDEM_UNITY) come one by one, except those that are asked for `together`."""
     commands = build / "compile_commands.json"
     if not commands.exists():
         sys.exit(f"{commands} is missing: configure with CMAKE_EXPORT_COMPILE_COMMANDS=ON and a Ninja or Makefile generator")
     for entry in json.loads(commands.read_text()):
         path = pathlib.Path(entry["directory"], entry["file"]).resolve()
         if path.is_relative_to(root):
-            for source in compiled_together(path) or [path]:
-                if source.is_relative_to(root):
-                    yield source.relative_to(root).as_posix(), entry["command"]
+            sources = [source for source in compiled_together(path) or [path] if source.is_relative_to(root)]
+            if sources and all(together(source.relative_to(root).as_posix()) for source in sources):
+                sources = [path]
+            for source in sources:
+                yield source.relative_to(root).as_posix(), entry["command"]
 
 
 def compiled_together(path):
@@ -87,8 +90,12 @@ def compiled_together(path):
 
 
 def is_parsed_alone(path, root, build):
-    """Does lint.clang parse this source? All of them outside tests/."""
-    return path.endswith(".cpp") and not path.startswith("tests/") and not (root / path).is_relative_to(build)
+    """Does lint.clang parse this source alone? All of them outside tests/, except those of programs."""
+    return path.endswith(".cpp") and not path.startswith(("tests/", "apps/")) and not (root / path).is_relative_to(build)
+
+
+def is_of_a_program(path):
+    return path.startswith("apps/")
 
 
 def first_includes(source, root):
