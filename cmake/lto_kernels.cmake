@@ -91,12 +91,16 @@ function(tandem_compile_to_lto fatbin)
   endif()
   set(tier tandem_cuda_${arg_TIER})
   set(includes ${arg_INCLUDES} $<TARGET_PROPERTY:${tier},INTERFACE_INCLUDE_DIRECTORIES>)
+  set(optimised ${tandem_optimised_lto})
+  if(TANDEM_QUICK_BASELINE AND NOT arg_TIER IN_LIST TANDEM_COMPILED_TIERS)
+    set(optimised)
+  endif()
   file(RELATIVE_PATH shown ${PROJECT_SOURCE_DIR} ${source})
   add_custom_command(
     OUTPUT ${fatbin}
     COMMAND
       ${CMAKE_CUDA_COMPILER} ${flags} $<TARGET_PROPERTY:${tier},INTERFACE_COMPILE_OPTIONS> "-I$<JOIN:${includes},;-I>" ${arg_DEFINES} -rdc=true
-      ${tandem_optimised_lto}
+      ${optimised}
       -gencode arch=compute_${lowest},code=lto_${lowest} -fatbin ${source} -o ${fatbin}
       -MD -MF ${fatbin}.d -MT ${fatbin}
     DEPENDS ${source}
