@@ -95,7 +95,8 @@ def is_parsed_alone(path, root, build):
 
 
 def is_of_a_program(path):
-    return path.startswith("apps/")
+    """Is it a C++ source of a program, or several that CMake compiles together?"""
+    return path.startswith("apps/") and path.endswith((".cpp", ".cxx"))
 
 
 def first_includes(source, root):
