@@ -36,6 +36,10 @@ Code code_of(std::span<const std::byte> cubin, const std::string& kernel) {
             facts.registers, facts.stack_bytes};
 }
 
+/// Tests link the kernel with all effects for this one: the link takes seconds, and other tracers bring it no other
+/// effect.
+constexpr auto linked_with_all_effects = Structure::few;
+
 class CompiledKernels : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -74,6 +78,22 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
     expect_equal(Tier::strict, 1);
 }
 
+/// The kinds of primitives of the kernel for any scene, with triangles and quads (`faces`) or without.
+std::uint32_t kinds_of(Structure structure, bool faces) {
+    if (structure == Structure::few) return ConstantMemoryTracer::kinds;
+    if (structure == Structure::instanced) return InstancedTracer::kinds;
+    return faces ? PrimitiveKinds::all : PrimitiveKinds::bodies;
+}
+
+Code linked(Tier tier, Structure structure, const KernelVariant& variant, bool faces = true) {
+    const LinkedFacts facts = facts_of_any_scene(variant.effects, kinds_of(structure, faces));
+    const JitInput input = render_input(tier, structure, facts, TANDEM_COMPILED_ARCHITECTURE);
+    const Code code = code_of(link(input), input.kernel);
+    const int most = input.registers > 0 ? input.registers : 255;  // of a thread, on every GPU
+    EXPECT_LE(code.registers, most) << to_string(tier) << " " << variant.name;
+    return code;
+}
+
 TEST_F(CompiledKernels, OfTiersThatAreNotCompiledCanBeLinked) {
     if (!why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
     if (is_compiled(Tier::strict) && is_compiled(Tier::precise) && is_compiled(Tier::fast))
@@ -81,18 +101,10 @@ TEST_F(CompiledKernels, OfTiersThatAreNotCompiledCanBeLinked) {
     const auto expect_kernels = [](Tier tier) {
         if (is_compiled(tier)) return;
         for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh, Structure::instanced}) {
-            const std::uint32_t kinds = structure == Structure::few         ? ConstantMemoryTracer::kinds
-                                        : structure == Structure::instanced ? InstancedTracer::kinds
-                                                                            : PrimitiveKinds::all;
+            if (tier == Tier::fast && structure == Structure::instanced) continue;  // has the kernel of strict
             for (const KernelVariant& variant : variants) {
-                // one with all effects: its link takes seconds, and other tracers bring it no other effect
-                if (!variant.effects.empty() && structure != Structure::few) continue;
-                const JitInput input = render_input(tier, structure, facts_of_any_scene(variant.effects, kinds),
-                                                    TANDEM_COMPILED_ARCHITECTURE);
-                const int registers = code_of(link(input), input.kernel).registers;
-                EXPECT_GT(registers, 0) << to_string(tier) << " " << variant.name;
-                const int most = input.registers > 0 ? input.registers : 255;  // of a thread, on every GPU
-                EXPECT_LE(registers, most) << to_string(tier) << " " << variant.name;
+                if (!variant.effects.empty() && structure != linked_with_all_effects) continue;
+                EXPECT_GT(linked(tier, structure, variant).registers, 0) << to_string(tier) << " " << variant.name;
             }
         }
     };
@@ -117,15 +129,26 @@ TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
 }
 
 TEST_F(CompiledKernels, OfExactTiersFuseLessThanFast) {
-    if (!is_compiled(Tier::strict) || !is_compiled(Tier::fast)) GTEST_SKIP() << "only " TANDEM_COMPILED_TIERS;
+    if (!is_compiled(Tier::strict)) GTEST_SKIP() << "only " TANDEM_COMPILED_TIERS;
+    if (!is_compiled(Tier::fast) && !why_jit_unavailable().empty()) GTEST_SKIP() << why_jit_unavailable();
     // Where margins cover fused operations, the exact tiers use them and fast does not: for intervals in hierarchies,
     // and for few primitives without effects (kernel/certain_light.h).
-    for (const char* scenes : {"few", "loop", "loop_bodies"}) {
+    struct Scenes {
+        const char* name;
+        Structure structure;
+        bool faces;
+    };
+    for (const Scenes& scenes : {Scenes{"few", Structure::few, true},
+                                 {"loop", Structure::loop, true},
+                                 {"loop_bodies", Structure::loop, false}}) {
         for (const KernelVariant& variant : variants) {
-            if (std::string(scenes) == "few" && variant.effects.empty()) continue;
-            const std::string name = fmt::format("cuda/compiled_{}_{}_", variant.name, scenes);
-            const auto of = [&](const char* tier) { return compiled(name + tier, "tandem_render"); };
-            EXPECT_LT(of("strict").ffma, of("fast").ffma) << name;
+            if (scenes.structure == Structure::few && variant.effects.empty()) continue;
+            if (!is_compiled(Tier::fast) && !variant.effects.empty() && scenes.structure != linked_with_all_effects)
+                continue;
+            const std::string name = fmt::format("cuda/compiled_{}_{}_", variant.name, scenes.name);
+            const Code fast = is_compiled(Tier::fast) ? compiled(name + "fast", "tandem_render")
+                                                      : linked(Tier::fast, scenes.structure, variant, scenes.faces);
+            EXPECT_LT(compiled(name + "strict", "tandem_render").ffma, fast.ffma) << name;
         }
     }
 }
