@@ -117,18 +117,20 @@ __device__ inline bool is_mutual(const std::uint32_t* nearest, std::uint32_t pla
     return other != place && nearest[other] == place;
 }
 
-/// High: places that become a node with another one; low: places that stay on the list. `most`: at least the number of
-/// clusters; one more element than that, for the sum.
-static __global__ void merge_counts_kernel(const std::uint32_t* nearest, const MergeState* state, std::uint32_t most,
-                                           Counts* sums) {
-    const std::uint32_t place = thread_number(), count = state->clusters;
-    if (place > most) return;
-    const bool mutual = place < count && is_mutual(nearest, place);
-    const bool is_first = place < count && place < nearest[place];
-    sums[place] = place >= count ? 0 : counts(mutual && is_first ? 1 : 0, mutual && !is_first ? 0 : 1);
-}
+/// High: whether a place becomes a node with another one; low: whether it stays on the list. 0 beyond the list.
+struct MergeCounts {
+    const std::uint32_t* nearest;
+    const MergeState* state;
 
-/// Sets the state after this round.
+    __device__ Counts operator()(std::uint32_t place) const {
+        if (place >= state->clusters) return 0;
+        const bool mutual = is_mutual(nearest, place);
+        const bool is_first = place < nearest[place];
+        return counts(mutual && is_first ? 1 : 0, mutual && !is_first ? 0 : 1);
+    }
+};
+
+/// `sums`: those of MergeCounts; `most`: at least the number of clusters. Sets the state after this round.
 static __global__ void merge_kernel(BuildTree tree, const std::uint32_t* nearest, const Counts* sums,
                                     std::uint32_t most, const MergeState* state, MergeState* next_state,
                                     const std::uint32_t* list, std::uint32_t* next_list) {
