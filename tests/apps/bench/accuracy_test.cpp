@@ -5,6 +5,7 @@
 #include "kind_scenes.h"
 #include "loop_backend.h"
 #include "tandem/base/error.h"
+#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/ulp.h"
 
 namespace tandem::bench {

@@ -14,6 +14,7 @@
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
+#include "tandem/kernel/traversal/intersect.h"
 #include "tandem/scene/named_scenes.h"
 
 namespace tandem::bench {

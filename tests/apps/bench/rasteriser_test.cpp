@@ -118,16 +118,18 @@ TEST(Rasteriser, ShowsTheFirstHitsOfTheTracer) {
             faces.triangles.back().attributes.sides = triangle.sides;
         }
         faces.material_of.assign(faces.triangles.size(), 0);
-        const LoopTracer tracer{view(faces)};
-        int differing = 0, hits = 0;
+        std::vector<Ray<float>> rays;
         for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) {
-                const Ray<float> ray = camera_ray<float>(scene.camera, x, y, 0.5F, 0.5F);
-                const Hit hit = to_hit(tracer.closest(ray, NoSource{}, true));
-                const std::uint32_t expected = hit.primitive == no_primitive ? nothing : hit.primitive;
-                hits += expected != nothing;
-                differing += shown[static_cast<std::size_t>(y * width + x)] != expected;
-            }
+            for (int x = 0; x < width; ++x) rays.push_back(camera_ray<float>(scene.camera, x, y, 0.5F, 0.5F));
+        }
+        LoopBackend tracer("cpu", false, true);
+        std::vector<Hit> seen(rays.size());
+        tracer.trace(*tracer.load(faces, Tier::strict), TraceJob{rays, seen});
+        int differing = 0, hits = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const std::uint32_t expected = seen[i].primitive == no_primitive ? nothing : seen[i].primitive;
+            hits += expected != nothing;
+            differing += shown[i] != expected;
         }
         EXPECT_GT(hits, 300) << name;
         EXPECT_LE(differing, hits / 100) << name << ": only edges may differ, where corners are on a grid";
