@@ -8,7 +8,8 @@ set(TANDEM_EXACT_VARIANT "" CACHE STRING
     "Effects for which to compile a further CPU variant, e.g. shadows;reflection, to measure the price of carried effects")
 set(TANDEM_INSTRUCTION_SETS "x86-64-v2;x86-64-v3;x86-64-v4" CACHE STRING
     "Instruction sets to compile the CPU kernels for; native is the best one of this machine")
-option(TANDEM_QUICK_BASELINE "Compile the CPU kernels for x86-64-v2 and the GPU's of tiers that are not compiled ahead of time quickly: for tests" OFF)
+option(TANDEM_QUICK_BASELINE "Compile kernels that tests hardly run quickly: the CPU's for x86-64-v2, and the GPU's of tiers \
+outside TANDEM_COMPILED_TIERS" OFF)
 set(TANDEM_COMPILED_TIERS "fast;strict;precise" CACHE STRING
     "Tiers whose CUDA render kernels are also compiled ahead of time; those of others need nvJitLink where they run")
 option(TANDEM_UNITY "Compile files that read the same large headers together: faster full builds" OFF)
