@@ -91,7 +91,7 @@ function(tandem_compile_to_lto fatbin)
   endif()
   set(tier tandem_cuda_${arg_TIER})
   set(includes ${arg_INCLUDES} $<TARGET_PROPERTY:${tier},INTERFACE_INCLUDE_DIRECTORIES>)
-  # Optimising takes six of seven seconds, and pays where a kernel is linked more than once or twice.
+  # Optimising takes six sevenths of the time, and pays from the second link on (docs/performance.md).
   set(optimised ${tandem_optimised_lto})
   if(TANDEM_QUICK_BASELINE AND NOT arg_TIER IN_LIST TANDEM_COMPILED_TIERS)
     set(optimised)
