@@ -61,6 +61,10 @@ set(tandem_optimised_lto)
 if(tandem_nvcc_help MATCHES "--gen-opt-lto")
   set(tandem_optimised_lto --gen-opt-lto)
 endif()
+set(tandem_quick_device_code) # half of the time to compile (docs/performance.md)
+if(tandem_nvcc_help MATCHES "--Ofast-compile")
+  set(tandem_quick_device_code --Ofast-compile=max)
+endif()
 
 # nvlink looks for libnvvm.so, NVIDIA's optimiser, in lib64 of the folder that it is given. A toolkit's installer and NVIDIA's
 # Python packages put that file in different places.

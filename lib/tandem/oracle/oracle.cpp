@@ -22,6 +22,7 @@ namespace tandem {
 
 namespace {
 
+using oracle::BoundedView;
 using oracle::Line;
 using oracle::nearest_surface;
 using oracle::NearestSurface;
@@ -40,10 +41,17 @@ bool is_float(Real a) { return std::isfinite(static_cast<float>(a)); }
 class OracleScene final : public ResidentScene {
   public:
     OracleScene(const PreparedScene& scene, Tier tier)
-        : ResidentScene(tier), prepared(without_copies(scene)), copies(scene.copies) {}
+        : ResidentScene(tier),
+          prepared(without_copies(scene)),
+          copies(scene.copies),
+          balls_(oracle::balls_around(view(prepared))) {}
     [[nodiscard]] PhaseTimes load_times() const override { return {}; }
+    [[nodiscard]] BoundedView bounded() const { return {view(prepared), balls_.data()}; }
     PreparedScene prepared;
     std::vector<PrimitiveCopy> copies;  ///< removed from the scene
+
+  private:
+    std::vector<oracle::Ball> balls_;
 };
 
 class OracleBackend final : public Backend {
@@ -69,7 +77,7 @@ class OracleBackend final : public Backend {
         check(job);
         const auto& resident = dynamic_cast<const OracleScene&>(scene);
         return trace_without_copies(resident.copies, job,
-                                    [&](const TraceJob& traced) { return trace(view(resident.prepared), traced); });
+                                    [&](const TraceJob& traced) { return trace(resident.bounded(), traced); });
     }
 
     [[nodiscard]] std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
@@ -79,7 +87,7 @@ class OracleBackend final : public Backend {
         const auto& resident = dynamic_cast<const OracleScene&>(*scene);
         const PreparedScene& prepared = resident.prepared;
         const PixelJob pixel_job = make_pixel_job(prepared.camera, job);
-        const SceneView scene_view = view(prepared);
+        const BoundedView scene_view = resident.bounded();
         RenderResult result;
         const FilmWindow window = window_of(job);
         result.film = Film(window.width, window.height, job.samples, job.planes);
@@ -105,7 +113,7 @@ class OracleBackend final : public Backend {
     }
 
   private:
-    [[nodiscard]] double trace(const SceneView& scene, const TraceJob& job) const {
+    [[nodiscard]] double trace(const BoundedView& scene, const TraceJob& job) const {
         const Stopwatch watch;
         std::atomic<std::uint64_t> rejected = 0;
         for_each_block(job.rays.size(), 256, [&](std::size_t i) {
@@ -132,7 +140,7 @@ class OracleBackend final : public Backend {
 
     /// `T`: the type of the tier's camera rays.
     template <class T>
-    static void render(const SceneView& scene, const PixelJob& job, std::uint32_t pixel, Film& film,
+    static void render(const BoundedView& scene, const PixelJob& job, std::uint32_t pixel, Film& film,
                        std::atomic<std::uint64_t>& invalid) {
         const FilmPlanes planes = film.planes();
         const bool looks = film.plane_mask().has_any(first_hit_planes);
@@ -187,7 +195,7 @@ class OracleBackend final : public Backend {
 
 OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source) {
     if (!is_traceable(ray)) return {0, no_primitive};
-    const NearestSurface nearest = nearest_surface(view(scene), line_of(ray), source);
+    const NearestSurface nearest = nearest_surface({view(scene)}, line_of(ray), source);
     return {nearest.surface.t, nearest.primitive};
 }
 

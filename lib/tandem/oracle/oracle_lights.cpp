@@ -9,7 +9,7 @@ namespace tandem::oracle {
 
 namespace {
 
-bool is_shadowed(const SceneView& scene, const PunctualLight& light, const Vertex& vertex) {
+bool is_shadowed(const BoundedView& scene, const PunctualLight& light, const Vertex& vertex) {
     const bool directional = light.kind == PunctualKind::directional;
     const Vector to_light = directional ? to_vector(light.direction) * -1 : to_vector(light.position) - vertex.point;
     if (!is_in_front(vertex, to_light)) return true;  // below the surface itself, or exactly at the point
@@ -116,7 +116,7 @@ bool is_behind_other_half(const SceneView& scene, std::uint32_t id, const Vertex
 }
 
 /// The light of all emissive surfaces: one point of each, sampled by area. `facets`: microfacets receive it too.
-Vector area_light(const SceneView& scene, const Reflectances& material, const Vertex& vertex, bool facets,
+Vector area_light(const BoundedView& scene, const Reflectances& material, const Vertex& vertex, bool facets,
                   Chance& chance) {
     Vector sum{0, 0, 0};
     for (std::uint32_t i = 0; i < scene.area_light_count; ++i) {
@@ -142,7 +142,7 @@ Vector area_light(const SceneView& scene, const Reflectances& material, const Ve
 
 /// The light of the background from one direction of the hemisphere. Microfacets whose reflection no path follows
 /// receive that of an environment too.
-Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
+Vector sky(const BoundedView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);
     if (scene.area_lights_cast_shadows != 0) {
@@ -159,7 +159,7 @@ Vector sky(const SceneView& scene, const Reflectances& material, const Vertex& v
 
 }  // namespace
 
-Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance) {
+Vector shade(const BoundedView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance) {
     const Reflectances material = reflectances(scene, vertex);
     Vector sum = times(material.ambient, to_vector(scene.environment.ambient));
     for (std::uint32_t i = 0; i < scene.light_count; ++i) {

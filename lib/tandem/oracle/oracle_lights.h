@@ -11,6 +11,6 @@ struct EndingLobes {
 };
 
 /// All light from light sources that a surface reflects.
-[[nodiscard]] Vector shade(const SceneView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance);
+[[nodiscard]] Vector shade(const BoundedView& scene, const Vertex& vertex, const EndingLobes& ends, Chance& chance);
 
 }  // namespace tandem::oracle

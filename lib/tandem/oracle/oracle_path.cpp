@@ -24,7 +24,7 @@ Vector mirrored(const Vector& d, const Vector& n) { return unit(d - n * (2 * inn
 
 }  // namespace
 
-void add_first_hit(const SceneView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
+void add_first_hit(const BoundedView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
                    std::size_t pixel, const FilmPlanes& planes) {
     Passed passed;
     NearestSurface nearest;
@@ -47,7 +47,7 @@ void add_first_hit(const SceneView& scene, const CameraView& camera, const Line&
     add(vertex.normal, planes.normal);
 }
 
-Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,
+Vector trace_path(const BoundedView& scene, const PathLimits& limits, const SampleId<float>& sample,
                   const Line& camera_ray) {
     Line ray = camera_ray;
     RaySource source;

@@ -11,12 +11,12 @@
 namespace tandem::oracle {
 
 /// The radiance along a camera ray.
-[[nodiscard]] Vector trace_path(const SceneView& scene, const PathLimits& limits, const SampleId<float>& sample,
+[[nodiscard]] Vector trace_path(const BoundedView& scene, const PathLimits& limits, const SampleId<float>& sample,
                                 const Line& camera_ray);
 
 /// Adds the first hit of a sample, beyond masked-out surfaces, to the planes of first hits (docs/planes.md).
 /// `is_first`: it is the first sample.
-void add_first_hit(const SceneView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
+void add_first_hit(const BoundedView& scene, const CameraView& camera, const Line& camera_ray, bool is_first,
                    std::size_t pixel, const FilmPlanes& planes);
 
 }  // namespace tandem::oracle

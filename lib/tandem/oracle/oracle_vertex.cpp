@@ -39,11 +39,14 @@ void brush(const SceneView& scene, const At& at, Vertex& vertex) {
 
 }  // namespace
 
-NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source, std::uint32_t except,
-                               const Passed* passed) {
+NearestSurface nearest_surface(const BoundedView& scene, const Line& line, const RaySource& source,
+                               std::uint32_t except, const Passed* passed) {
     NearestSurface nearest;
+    const RoughLine rough(line);
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
         if (id == except) continue;
+        // rounding may move a line outside of the primitive that it leaves
+        if (scene.balls != nullptr && id != source.primitive && is_outside(rough, scene.balls[id])) continue;
         const auto counts = [&](const SurfaceHit& hit) {
             if (passed == nullptr) return true;
             if (hit.sides == FaceSides::culled && inner(line.direction, hit.facet) > 0) return false;
@@ -118,7 +121,7 @@ Vertex vertex_at(const SceneView& scene, const Line& ray, const NearestSurface& 
     return vertex;
 }
 
-bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to, std::uint32_t except) {
+bool is_blocked(const BoundedView& scene, const Vertex& vertex, const Vector& way, Real to, std::uint32_t except) {
     const Line ray = {vertex.point, way};
     const RaySource source = {vertex.primitive, inner(way, vertex.facet) < 0};
     Passed passed;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
-#include "tandem/oracle/oracle_geometry.h"
+#include "tandem/oracle/oracle_bounds.h"
 #include "tandem/oracle/oracle_textures.h"
 
 namespace tandem::oracle {
@@ -20,7 +20,7 @@ struct Passed {
 
 /// The nearest hit in front of a line from `source`; at equal t the lower id wins. Hits on `except` do not count. For
 /// the ray of a path, with `passed`, only later hits count, and culled faces are not hit from behind.
-[[nodiscard]] NearestSurface nearest_surface(const SceneView& scene, const Line& line, const RaySource& source,
+[[nodiscard]] NearestSurface nearest_surface(const BoundedView& scene, const Line& line, const RaySource& source,
                                              std::uint32_t except = no_primitive, const Passed* passed = nullptr);
 
 /// A vertex of a path.
@@ -50,7 +50,7 @@ struct Vertex {
 inline constexpr Real rounding = 0x1p-45L;
 
 /// Whether anything except masked-out surfaces and `except` blocks the segment from `vertex`, up to `to` times `way`.
-[[nodiscard]] bool is_blocked(const SceneView& scene, const Vertex& vertex, const Vector& way, Real to,
+[[nodiscard]] bool is_blocked(const BoundedView& scene, const Vertex& vertex, const Vector& way, Real to,
                               std::uint32_t except = no_primitive);
 
 /// Whether a light in the direction l is on the visible side of the surface, and above the plane of the shading normal.
