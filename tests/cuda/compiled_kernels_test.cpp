@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
+#include <tuple>
 
 #include "cuda/cubin_facts.h"
 #include "cuda/machine_code.h"
@@ -85,10 +87,14 @@ std::uint32_t kinds_of(Structure structure, bool faces) {
     return faces ? PrimitiveKinds::all : PrimitiveKinds::bodies;
 }
 
+/// Linked once for all tests of the program.
 Code linked(Tier tier, Structure structure, const KernelVariant& variant, bool faces = true) {
+    static std::map<std::tuple<Tier, Structure, LinkedFacts>, Code> known;
     const LinkedFacts facts = facts_of_any_scene(variant.effects, kinds_of(structure, faces));
     const JitInput input = render_input(tier, structure, facts, TANDEM_COMPILED_ARCHITECTURE);
-    const Code code = code_of(link(input), input.kernel);
+    const auto [place, is_new] = known.try_emplace({tier, structure, facts});
+    if (is_new) place->second = code_of(link(input), input.kernel);
+    const Code& code = place->second;
     const int most = input.registers > 0 ? input.registers : 255;  // of a thread, on every GPU
     EXPECT_LE(code.registers, most) << to_string(tier) << " " << variant.name;
     return code;

@@ -21,14 +21,11 @@ import sys
 import tempfile
 
 from lint import Report, WARNINGS, compile_commands, is_of_a_program, is_parsed_alone
+from precompiled import precompile
 
 KEPT = re.compile(r"-[DI]\S|-std=|-march=|-ffp-contract=")
 # The arguments in which the precompiled header and a source that begins with it must agree.
 COMMON = re.compile(r"-std=|-march=|-ffp-contract=|-DFMT_|-DNDEBUG")
-PRECOMPILED = ("algorithm", "array", "atomic", "charconv", "chrono", "cmath", "cstring", "deque", "filesystem", "fstream",
-               "functional", "future", "limits", "map", "memory", "mutex", "numbers", "numeric", "optional", "set", "span",
-               "sstream", "string", "system_error", "thread", "variant", "vector",
-               "CLI/CLI.hpp", "fmt/format.h", "fmt/ranges.h", "nlohmann/json.hpp", "tbb/parallel_for.h")
 TIER = re.compile(r"-DTANDEM_KERNEL_TIER=(\w+)")
 
 
@@ -37,19 +34,6 @@ def arguments_of(command):
     words = shlex.split(command)
     return [part for word, following in zip(words, words[1:] + [""])
             for part in ([word, following] if word == "-isystem" else [word] if KEPT.match(word) else [])]
-
-
-def precompile(arguments, folder):
-    """The precompiled header, in the folder, of the libraries that are installed."""
-    header = pathlib.Path(folder, "libraries.pch")
-    # Without -fpch-instantiate-templates each source would instantiate the templates of these headers again.
-    result = subprocess.run(
-        ["clang++", "-x", "c++-header", "-fpch-instantiate-templates", *WARNINGS, *arguments, "-", "-o", header],
-        input="".join(f"#if __has_include(<{name}>)\n#include <{name}>\n#endif\n" for name in PRECOMPILED),
-        capture_output=True, text=True)
-    if result.returncode:
-        sys.exit(f"clang++ does not compile the headers of other libraries:\n{result.stderr[:2000]}")
-    return header
 
 
 def main():

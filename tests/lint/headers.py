@@ -2,7 +2,8 @@
 """Compiles every header under lib/ alone, with clang++ or, without it, g++.
 
 clang++ comes first because the build compiles the same headers with g++ already. With it, headers that a source reads before
-anything else are left out: lint.clang parses that source, and lint.includes finds what they lack of other libraries.
+anything else are left out, since lint.clang parses that source; the others follow a precompiled header of other libraries.
+lint.includes finds what headers lack of those.
 
 usage: headers.py ROOT BUILD
 """
@@ -15,8 +16,10 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 
 from lint import Report, WARNINGS, compile_commands, first_includes, is_parsed_alone
+from precompiled import precompile
 
 
 def include_flags(root, build):
@@ -44,13 +47,16 @@ def main():
             if path.startswith("lib/") and is_parsed_alone(path, root, build):
                 headers -= set(first_includes(root / path, root))
 
-    def compile_alone(header):
-        result = subprocess.run(
-            [compiler, "-std=c++20", "-march=x86-64-v2", "-ffp-contract=off", *WARNINGS, *flags, "-fsyntax-only", "-x", "c++", "-"],
-            input=f'#include "{header.as_posix()}"\n', capture_output=True, text=True)
-        return header, result
+    arguments = ["-std=c++20", "-march=x86-64-v2", "-ffp-contract=off", *flags]
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        begin = ["-include-pch", precompile(arguments, folder)] if compiler == "clang++" else []
 
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        def compile_alone(header):
+            result = subprocess.run(
+                [compiler, *begin, *arguments, *WARNINGS, "-fsyntax-only", "-x", "c++", "-"],
+                input=f'#include "{header.as_posix()}"\n', capture_output=True, text=True)
+            return header, result
+
         for header, result in pool.map(compile_alone, sorted(path.relative_to(root / "lib") for path in headers)):
             if result.returncode:
                 first = next((line for line in result.stderr.splitlines() if "error" in line), result.stderr[:300])
