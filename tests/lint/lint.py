@@ -16,7 +16,7 @@ FAST_TIER = re.compile(r"^lib/tandem/math/fast_\w+\.h$")
 FAST_KERNEL = re.compile(r"-DTANDEM_(?:KERNEL|TRACE|FIRST_HITS)_TIER=fast\b")
 FAST_FLAGS = {"cpu/CMakeLists.txt": {"-ffp-contract=fast"}, "cuda/CMakeLists.txt": {"--use_fast_math"}}
 FAST_MATH = re.compile(
-    r"-ffast-math|-Ofast\b|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"
+    r"-ffast-math|-Ofast\b(?!-compile)|-funsafe-math-optimizations|-ffinite-math-only|-fassociative-math|-freciprocal-math"
     r"|-fno-signed-zeros|-ffp-contract=(?:fast|on)|-mdaz-ftz|-?-use_fast_math|-?-ftz=true|-?-fmad=true"
     r"|-?-prec-div=false|-?-prec-sqrt=false")
 

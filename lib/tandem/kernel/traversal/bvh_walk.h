@@ -17,9 +17,9 @@ struct BvhView {
     const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds; or see placed_by_entry
     StructureFrame frame;
     unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
-    /// The bits of 256.0F, of which bytes of planes become a part. A member, so that the compiler does not know it:
-    /// a permutation of bytes takes one constant, and that is its pattern.
-    std::uint32_t bits_of_256 = 0x43800000U;
+    /// The bits of 8 in half precision, whose lower byte becomes that of a plane. A member, so that the compiler does
+    /// not know it: a permutation of bytes takes one constant, and that is its pattern.
+    std::uint32_t bits_of_8 = 0x4800U;
     std::uint32_t placed_by_entry =
         0;  ///< 1: all primitives are parallelepipeds, with placements in the order of entries
 };
@@ -30,11 +30,15 @@ struct alignas(16) Load16 {
     std::uint32_t a, b, c, d;
 };
 
-/// Loads 16 bytes at once; on the GPU through the read-only cache.
+/// Loads 16 bytes at once; on the GPU through the read-only cache, and 128 bytes around them into the L2 cache:
+/// neighbours in memory are near each other in the tree.
 TANDEM_HD_INLINE Load16 load_16(const void* address) {
 #if TANDEM_ON_DEVICE
-    const uint4 v = __ldg(static_cast<const uint4*>(address));
-    return {v.x, v.y, v.z, v.w};
+    Load16 v;
+    asm("ld.global.nc.L2::128B.v4.u32 {%0, %1, %2, %3}, [%4];"
+        : "=r"(v.a), "=r"(v.b), "=r"(v.c), "=r"(v.d)
+        : "l"(address));
+    return v;
 #else
     Load16 v;
     std::memcpy(&v, address, sizeof(v));
@@ -135,7 +139,7 @@ struct Walk {
     template <bool starts_late, class Stack>
     TANDEM_HD_INLINE void descend(Stack& stack, const BvhView& bvh, const NodeRay& ray, float start, float limit) {
         const BvhNode node = load_node(bvh.nodes, at);
-        const EnteredChildren entered = enter_children<starts_late>(node, bvh.bits_of_256, ray, start, limit);
+        const EnteredChildren entered = enter_children<starts_late>(node, bvh.bits_of_8, ray, start, limit);
         const auto child = [&](int i) { return child_of(node, entered.key[i] & 3); };
         if (entered.key[0] == no_child) {
             pop(stack);

@@ -34,7 +34,7 @@ struct InstancedBvhView {
     const EntryFace* entry_faces;  ///< by entry - instance_entries
     std::uint32_t instance_entries;
     StructureFrame frame;
-    std::uint32_t bits_of_256 = 0x43800000U;  ///< as in BvhView
+    std::uint32_t bits_of_8 = 0x4800U;  ///< as in BvhView
 };
 
 /// Of a sphere around EntryInstance::centre that contains the instance with a distance to spare: docs/instances.md.
@@ -142,7 +142,7 @@ struct Walk {
                                 const Leaf& leaf) {
         BvhView nodes{};
         nodes.nodes = bvh.nodes;
-        nodes.bits_of_256 = bvh.bits_of_256;
+        nodes.bits_of_8 = bvh.bits_of_8;
         const float start = starts_late ? query.get().start : 0.0F;
         NodeRay ray{};
         float from = 0;  // the query parameter where `ray` starts

@@ -24,7 +24,7 @@ struct GridAxis {
     float corner;
     int exponent;
 
-    /// The finest grid whose bytes reach from `lower` to `upper`, with 1/32 step to spare (node_ray.h needs 2^-8).
+    /// The finest grid whose bytes reach from `lower` to `upper`, with 1/32 step to spare (node_ray.h needs 2^-12).
     TANDEM_HD_INLINE GridAxis(float lower, float upper) {
         const double extent = widen(upper) - widen(lower);
         const double step = greater(extent / 255, 1e-300);

@@ -2,10 +2,10 @@
 /// rounding, so speed matters more than the last bit.
 ///
 /// Bound: with S = reach of the scene's bounds, q = the step of a node's grid and u = 2^-24, a plane is computed as
-/// (256 + b / 128) a + c with a = 128 q / d and c = (corner - o) / d - 256 a. As a length it errs by 4 u * 2 S because
-/// of the reciprocal (rough_reciprocal()), by 4 u * 2 S because of the difference, two products and the sum, and by
-/// 2^-9 q, since 256 * 128 q u = 2^-9 q and the two fused multiply-adds round to that. So 16 u S, which the padding
-/// covers (proposal.h), and 2^-8 q, which build_bvh() adds when it rounds planes outward.
+/// (8 + b / 128) a + c with a = 128 q / d and c = (corner - o) / d - 8 a. As a length it errs by 4 u * 2 S because of
+/// the reciprocal (rough_reciprocal()), by 4 u * 2 S because of the difference, two products and the sum, and by 2^-12
+/// q, since 10 * 128 q u < 2^-13 q and the two fused multiply-adds round to that. So 16 u S, which the padding covers
+/// (proposal.h), and 2^-12 q, which is less than make_node() adds when it rounds planes outward.
 #pragma once
 
 #include <cstring>
@@ -59,12 +59,22 @@ TANDEM_HD_INLINE std::int32_t least_of(std::int32_t a, std::int32_t b, std::int3
 #endif
 }
 
-/// 256 + b / 128, where b is the byte of `child`. `bits_of_256`: see BvhView.
-TANDEM_HD_INLINE float plane_of(std::uint32_t bytes, std::uint32_t child, std::uint32_t bits_of_256) {
+/// 8 + b / 128, where b is the byte of `child`. `bits_of_8`: see BvhView. On the GPU one permutation of bytes makes two
+/// halves, and the unit for floating-point multiplication converts these to float; the unit that permutes and compares
+/// has the most to do (docs/performance.md).
+TANDEM_HD_INLINE float plane_of(std::uint32_t bytes, std::uint32_t child, std::uint32_t bits_of_8) {
 #if TANDEM_ON_DEVICE
-    return float_of(__byte_perm(bytes, bits_of_256, 0x7604U | child << 4));
+    const std::uint32_t halves = __byte_perm(bytes, bits_of_8, child < 2 ? 0x5150U : 0x5352U);
+    float plane;
+    if (child % 2 == 0) {
+        asm("{.reg .b16 low, high; mov.b32 {low, high}, %1; cvt.f32.f16 %0, low;}" : "=f"(plane) : "r"(halves));
+    } else {
+        asm("{.reg .b16 low, high; mov.b32 {low, high}, %1; cvt.f32.f16 %0, high;}" : "=f"(plane) : "r"(halves));
+    }
+    return plane;
 #else
-    return float_of(bits_of_256 | (bytes >> (8 * child) & 255U) << 8);
+    const std::uint32_t half = bits_of_8 | (bytes >> (8 * child) & 255U);
+    return float_of((half << 13) + 0x38000000U);  // the same number as a float: 13 more bits, a bias greater by 112
 #endif
 }
 
@@ -86,7 +96,7 @@ struct EnteredChildren {
 
 /// `starts_late`: whether `start` may be positive.
 template <bool starts_late>
-TANDEM_HD_INLINE EnteredChildren enter_children(const BvhNode& node, std::uint32_t bits_of_256, const NodeRay& ray,
+TANDEM_HD_INLINE EnteredChildren enter_children(const BvhNode& node, std::uint32_t bits_of_8, const NodeRay& ray,
                                                 float start, float limit) {
     using namespace node_detail;
     struct Slab {
@@ -95,7 +105,7 @@ TANDEM_HD_INLINE EnteredChildren enter_children(const BvhNode& node, std::uint32
     };
     const auto slab = [&](int axis, float origin, float inverse, std::uint32_t lower, std::uint32_t upper) {
         const float scale = steps_of(node.frame, axis) * inverse;
-        const float offset = loose_multiply_add(-256.0F, scale, (node.corner[axis] - origin) * inverse);
+        const float offset = loose_multiply_add(-8.0F, scale, (node.corner[axis] - origin) * inverse);
         return Slab{scale, offset, inverse < 0.0F ? upper : lower, inverse < 0.0F ? lower : upper};
     };
     const Slab x = slab(0, ray.origin.x, ray.inverse_direction.x, node.lower_x, node.upper_x);
@@ -107,7 +117,7 @@ TANDEM_HD_INLINE EnteredChildren enter_children(const BvhNode& node, std::uint32
 #endif
     for (std::uint32_t i = 0; i < bvh_width; ++i) {
         const auto at = [&](const Slab& s, std::uint32_t planes) {
-            return ordered(loose_multiply_add(plane_of(planes, i, bits_of_256), s.scale, s.offset));
+            return ordered(loose_multiply_add(plane_of(planes, i, bits_of_8), s.scale, s.offset));
         };
         std::int32_t entry = largest_of_0_and(at(x, x.near), at(y, y.near), at(z, z.near));
         if (starts_late) entry = entry > ordered(start) ? entry : ordered(start);
