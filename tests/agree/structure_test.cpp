@@ -42,7 +42,7 @@ struct Structure {
     [[nodiscard]] BvhTracerFor<kinds, decisions> tracer() const {
         return {view(scene),
                 {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), bvh.entry_triangles.data(),
-                 bvh.placements.data(), frame, nullptr, 0x43800000U, placed_by_entry(view(scene)) ? 1U : 0U}};
+                 bvh.placements.data(), frame, nullptr, BvhView{}.bits_of_8, placed_by_entry(view(scene)) ? 1U : 0U}};
     }
     PreparedScene scene;
     StructureFrame frame;
