@@ -33,27 +33,30 @@ FORBIDDEN_IN_BUILD = instructions(rf"(?!{ROUGH}\b){APPROXIMATE}")
 
 
 def units_of(source):
-    """The ways to compile a source: with which macros. As in cuda/CMakeLists.txt, but each piece of the source once: the
-    linked kernel in strict alone, for long paths in a hierarchy and short ones among few primitives; of kernels that trace
-    rays the nearest hits of each tier, and the other queries of strict."""
-    if source.name == "compiled_facts.cu":
-        return []  # numbers
+    """The ways to compile a source: with which macros. The linked kernel in strict alone, for long paths in a hierarchy and
+    short ones among few primitives."""
+    if source.name in ("compiled_facts.cu", "first_hits.cu", "trace_instanced.cu"):
+        return []  # numbers; in exact_kernels()
     if source.name == "trace.cu":
-        asked = [("nearest", tier) for tier in ("strict", "precise", "fast")]
-        asked += [(ask, "strict") for ask in ("nearest_from_surface", "occluded")]
-        return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_ASK={ask}", f"-DTANDEM_TRACE_TIER={tier}"])
-                for ask, tier in asked]
-    if source.name == "trace_instanced.cu":
-        return [(source, ["-DTANDEM_SHORT_PATHS=1", f"-DTANDEM_TRACE_TIER={tier}"]) for tier in ("strict", "precise")]
-    if source.name == "first_hits.cu":
-        tracers = [("with_tracer", tier) for tier in ("strict", "precise")]
-        tracers += [("with_instanced_tracer", tier) for tier in ("strict", "precise")]
-        return [(source, [f"-DTANDEM_FIRST_HITS_TIER={tier}", "-DTANDEM_FIRST_HITS_NAME=first_hits_here",
-                          f"-DTANDEM_FIRST_HITS_TRACERS={with_tracers}"]) for with_tracers, tier in tracers]
+        return [(source, ["-DTANDEM_SHORT_PATHS=1", "-DTANDEM_TRACE_ASK=nearest", "-DTANDEM_TRACE_TIER=fast"])]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     linked = [("DeferringBvhTracer", []), ("ConstantMemoryTracer", ["-DTANDEM_SHORT_PATHS=1"])]
     return [(source, ["-DTANDEM_LINKED_TIER=strict", f"-DTANDEM_LINKED_TRACER={tracer}", *short]) for tracer, short in linked]
+
+
+def exact_kernels(tier):
+    """The kernels of a tier that trace rays and find first hits, as one source: compiled one by one, as the build does, they
+    take twice as long."""
+    def included(source, **macros):
+        defined = "".join(f"#define TANDEM_{name} {value}\n" for name, value in macros.items())
+        return defined + f'#include "cuda/{source}"\n' + "".join(f"#undef TANDEM_{name}\n" for name in macros)
+
+    traced = [included("trace.cu", TRACE_ASK=ask, TRACE_TIER=tier) for ask in ("nearest", "nearest_from_surface", "occluded")]
+    traced.append("#undef TANDEM_TRACE_JOINED\n#undef TANDEM_TRACE_NAME\n" + included("trace_instanced.cu", TRACE_TIER=tier))
+    found = [included("first_hits.cu", FIRST_HITS_TIER=tier, FIRST_HITS_NAME=f"first_hits_{tracers}", FIRST_HITS_TRACERS=tracers)
+             for tracers in ("with_tracer", "with_instanced_tracer")]
+    return "#define TANDEM_SHORT_PATHS 1\n" + "".join(traced + found)
 
 
 def main():
@@ -64,32 +67,41 @@ def main():
         for instruction, count in collections.Counter(pattern.findall(text)).items():
             report.add(shown, f"{count} x {instruction} in the PTX")
 
-    units = [unit for source in sorted((root / "cuda").glob("*.cu")) for unit in units_of(source)]
-    units.append((root / "tests/lint/device_probe.cu", []))
-    for source, defines in units:
-        name = source.relative_to(root).as_posix()
+    def check(source, defines, folder):
+        name = source.name if source.is_relative_to(folder) else source.relative_to(root).as_posix()
         shown = " ".join([name, *defines])
-        with tempfile.TemporaryDirectory() as folder:
-            ptx = pathlib.Path(folder, "out.ptx")
-            fast = FAST_TIER.match(name) or FAST_KERNEL.search(shown)
-            exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
-            if name.startswith("cuda/"):
-                exact_flags += ["-Xcicc", "-O0"]
-            result = subprocess.run(
-                [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines,
-                 *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{root / 'lib'}", f"-I{root}", str(source), "-o", str(ptx)],
-                capture_output=True, text=True)
-            if result.returncode:
-                report.add(shown, f"nvcc fails: {result.stderr.strip()[:2000]}")
-                continue
-            text = ptx.read_text()
+        ptx = folder / "out.ptx"
+        fast = FAST_TIER.match(name) or FAST_KERNEL.search(shown)
+        exact_flags = ["--fmad=false", "--ftz=false", "--prec-div=true", "--prec-sqrt=true"]
+        if source.name != "device_probe.cu":
+            exact_flags += ["-Xcicc", "-O0"]
+        result = subprocess.run(
+            [nvcc, "-ptx", "-std=c++20", "-arch=compute_75", "-rdc=true", "-DTANDEM_NO_LOOSE_FMA", *defines,
+             *(["--use_fast_math"] if fast else exact_flags), "-Xcompiler", "-ffp-contract=off", f"-I{root / 'lib'}", f"-I{root}", str(source), "-o", str(ptx)],
+            capture_output=True, text=True)
+        if result.returncode:
+            report.add(shown, f"nvcc fails: {result.stderr.strip()[:2000]}")
+            return
+        text = ptx.read_text()
         if fast:
             if "fma.rn.ftz.f32" not in text or "sqrt.approx.ftz.f32" not in text:
                 report.add(shown, "does not contract or approximate, which is what the tier fast is for")
             print(f"{shown}: {len(re.findall(r'[.]approx', text))} approximations")
-            continue
+            return
         forbid(FORBIDDEN, text, shown)
-        print(f"{shown}: {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
+        entries = len(re.findall(r"^\s*(?:\.visible |\.weak )?\.entry", text, re.M))
+        print(f"{shown}: {entries} kernels, {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
+
+    units = [unit for source in sorted((root / "cuda").glob("*.cu")) for unit in units_of(source)]
+    units.append((root / "tests/lint/device_probe.cu", []))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for tier in ("strict", "precise"):
+            together = folder / f"{tier}.cu"
+            together.write_text(exact_kernels(tier))
+            units.append((together, []))
+        for source, defines in units:
+            check(source, defines, folder)
     linked = [path for tier in ("strict", "precise") for path in sorted((build / "cuda").glob(f"compiled_*_{tier}.ptx"))]
     for path in linked:
         forbid(FORBIDDEN_IN_BUILD, path.read_text(), path.name)
