@@ -19,7 +19,7 @@ std::vector<std::string> backend_names() {
 
 namespace {
 
-const BackendEntry& find_entry(const std::string& name) {
+const BackendEntry& find_entry(std::string_view name) {
     for (const BackendEntry& entry : backend_registry()) {
         if (name == entry.name) return entry;
     }

@@ -323,8 +323,9 @@ bool has_environment(const Scene& scene) {
 
 namespace {
 
-/// Leaves the scene without light from all directions.
-void remove_environment(Scene& scene) {
+/// Leaves the scene without light from all directions. Not inlined: g++ 14 would warn that the environment assigned
+/// afterwards replaces one that is not initialised.
+[[gnu::noinline]] void remove_environment(Scene& scene) {
     scene.environment.ambient = {0, 0, 0};
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) scene.authored.reset();
 #include "tandem/kernel/lights/lights.def"
