@@ -43,7 +43,7 @@ class FastMath(unittest.TestCase):
     def test_flags(self):
         for flag in ("-ffast-math", "-Ofast", "--use_fast_math", "-use_fast_math", "-ffp-contract=fast", "--fmad=true"):
             self.assertTrue(lint.FAST_MATH.search(flag), flag)
-        for flag in ("-ffp-contract=off", "--fmad=false", "-O3", "-fno-math-errno", "--prec-div=true"):
+        for flag in ("-ffp-contract=off", "--fmad=false", "-O3", "--Ofast-compile=max", "-fno-math-errno", "--prec-div=true"):
             self.assertFalse(lint.FAST_MATH.search(flag), flag)
 
 

@@ -1,6 +1,7 @@
 /// The reference renderer: brute force over all primitives in extended precision, without an acceleration structure,
-/// Embree, or the formulas of lib/tandem/kernel/shapes and lib/tandem/kernel/bsdf. It shares only the camera rays and
-/// the random numbers with the backends, so that it renders the same samples.
+/// Embree, or the formulas of lib/tandem/kernel/shapes and lib/tandem/kernel/bsdf. It shares the camera rays and the
+/// random numbers with the backends, so that it renders the same samples, and the bounds of primitives: it leaves out
+/// those far from a line. tests/agree/oracle_bounds_test.cpp compares with trying all.
 #pragma once
 
 #include <memory>

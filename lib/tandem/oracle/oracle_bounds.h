@@ -31,9 +31,8 @@ struct RoughLine {
 };
 
 /// Whether the line passes outside of the ball. True only where the exact line does: the distance of the centre from
-/// it,
-/// |(c - o) x d| / |d|, is computed with an error below 2^-49 of |c| + |o|, and radius and margin allow for 2^-44 of
-/// them. False for what is no number.
+/// the line, |(c - o) x d| / |d|, is computed with an error below 2^-49 (|c| + |o|), and radius and margin allow for
+/// 2^-44 of both. False where a component is no number. Test: tests/agree/oracle_bounds_test.cpp.
 [[nodiscard]] inline bool is_outside(const RoughLine& line, const Ball& ball) {
     const Vec3d moment = cross(ball.centre - line.origin, line.direction);
     const double reach = ball.radius + line.margin;
