@@ -35,8 +35,16 @@ struct RenderGrid {
 
 /// How many threads share a pixel. More than 8 were not faster (docs/performance.md, "Threads share pixels").
 inline constexpr std::uint32_t most_sharing_threads = 8;
-[[nodiscard]] TANDEM_HD constexpr std::uint32_t sharing_threads(std::uint32_t samples) {
-    return sharing_of(samples, most_sharing_threads);
+[[nodiscard]] TANDEM_HD constexpr std::uint32_t sharing_threads(std::uint32_t samples,
+                                                                std::uint32_t most = most_sharing_threads) {
+    return sharing_of(samples, most);
+}
+
+/// The most threads for paths of one vertex. In a hierarchy of few primitives, rays through larger tiles visit the same
+/// nodes too, and fewer threads begin each pixel and exchange its radiances.
+[[nodiscard]] inline std::uint32_t most_sharing_threads_for(std::size_t primitives) {
+    constexpr std::size_t few = 256;  // measured: 4 threads are faster up to 100 primitives, 8 from 1000 on
+    return primitives <= few ? most_sharing_threads / 2 : most_sharing_threads;
 }
 
 /// Blocks of 2 x 2 tiles. `threads`: of a block.
@@ -46,8 +54,7 @@ inline RenderGrid tiled_grid(std::uint32_t width, std::uint32_t height, WarpTile
 inline RenderGrid thread_per_pixel(std::uint32_t width, std::uint32_t height) {
     return tiled_grid(width, height, warp_tile(1), dim3(block_threads));
 }
-inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t samples) {
-    const unsigned int threads = sharing_threads(samples);
+inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, unsigned int threads) {
     return tiled_grid(width, height, warp_tile(threads), dim3(threads, block_threads / threads));
 }
 

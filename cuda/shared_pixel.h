@@ -4,6 +4,8 @@
 /// of a hierarchy, and fewer of them wait for others (docs/performance.md, "Threads share pixels").
 #pragma once
 
+#include <type_traits>
+
 #include "cuda/block_shape.h"
 #include "cuda/block_threads.h"
 #include "tandem/kernel/pixel.h"
@@ -18,7 +20,7 @@ struct SharedPixel {
 
 /// A pixel of the tile of a warp of this block, in a launch of tiled_grid().
 __device__ __forceinline__ PixelPlace pixel_in_block(WarpTile tile, std::uint32_t warp, std::uint32_t number) {
-    return tile.pixel(blockIdx.x * 2 + warp % 2, blockIdx.y * 2 + warp / 2, number);
+    return tile.pixel({blockIdx.x * 2 + warp % 2, blockIdx.y * 2 + warp / 2}, number);
 }
 
 /// The pixel of this thread in a launch of shared_pixels().
@@ -41,6 +43,8 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, const PixelJob& job,
                                                         const SharedPixel& pixel, bool is_inside) {
     constexpr unsigned int warp = 0xFFFFFFFFU;
+    // A shuffle moves 32 bits, so doubles would take two.
+    using Exchanged = std::conditional_t<std::is_same_v<Real, double>, double, float>;
     SampleId<Real> id = sample_of<Real>(job, pixel.at.x, pixel.at.y, job.first_sample);
     const PixelRays<Real> rays = rays_of_pixel<Real>(job, pixel.at.x, pixel.at.y);
     PixelSum<Real> result;
@@ -49,17 +53,17 @@ __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, co
         const bool is_active = is_inside && sample < job.samples;
         id.sample = job.first_sample + sample;
         // also where no sample is left: the tracers want all threads of a warp
-        PixelSum<Real> own;
-        add(sample_radiance<Effects>(tracer, tracer.scene, job, rays, id, is_active, BlockThreads<Effects>(),
-                                     result.tally),
-            own);
-        if (is_active) result.invalid += own.invalid;
+        const Addend<Real> own = addend_of(sample_radiance<Effects>(tracer, tracer.scene, job, rays, id, is_active,
+                                                                    BlockThreads<Effects>(), result.tally));
+        if (is_active && !own.is_number) ++result.invalid;
         const std::uint32_t end = min(pixel.threads, job.samples - first);
         for (std::uint32_t i = 0; i < end; ++i) {
-            const auto of = [&](double channel) {
-                return __shfl_sync(warp, channel, static_cast<int>(i), static_cast<int>(pixel.threads));
+            const auto of = [&](const Real& channel) {
+                const auto own_channel = static_cast<Exchanged>(to_wide(channel));
+                return static_cast<double>(
+                    __shfl_sync(warp, own_channel, static_cast<int>(i), static_cast<int>(pixel.threads)));
             };
-            result.sum = result.sum + Vec3d{of(own.sum.x), of(own.sum.y), of(own.sum.z)};
+            result.sum = result.sum + Vec3d{of(own.radiance.x), of(own.radiance.y), of(own.radiance.z)};
         }
     }
     return result;

@@ -14,9 +14,9 @@ namespace tandem::cuda {
 
 /// Samples that a warp hands out together: some of each pixel of a tile. Sample s of pixel p is item s * pixels + p.
 struct SampleSet {
-    std::uint32_t column, row;  ///< of the tile, among the tiles of the window
-    std::uint32_t first;        ///< the first of the samples, from 0
-    std::uint32_t samples;      ///< of each pixel
+    TilePlace tile;
+    std::uint32_t first;    ///< the first of the samples, from 0
+    std::uint32_t samples;  ///< of each pixel
 };
 
 /// What a warp works on, in shared memory.
@@ -119,7 +119,7 @@ class SharedSamples {
 
     /// A pixel of the set's tile.
     [[nodiscard]] __device__ __forceinline__ PixelPlace place(const SampleSet& set, std::uint32_t pixel) const {
-        return queue_.tiles.tile.pixel(set.column, set.row, pixel);
+        return queue_.tiles.tile.pixel(set.tile, pixel);
     }
     [[nodiscard]] __device__ __forceinline__ bool is_inside(PixelPlace at) const {
         return at.x < job_.width && at.y < height_;
@@ -129,7 +129,7 @@ class SharedSamples {
     /// place for one.
     __device__ __forceinline__ bool begin_set() {
         if (queue_.is_empty || queue_.begun - queue_.added == waiting_sets) return false;
-        SampleSet set = {0, 0, job_.samples, 0};
+        SampleSet set = {{0, 0}, job_.samples, 0};
         if (queue_.begun != 0) {
             set = last();
             set.first += set.samples;
@@ -144,7 +144,7 @@ class SharedSamples {
                 __syncwarp();
                 return false;
             }
-            set = {tile % queue_.tiles.across, tile / queue_.tiles.across, 0, 0};
+            set = {queue_.tiles.place(tile), 0, 0};
         }
         set.samples = min(queue_.most_samples, job_.samples - set.first);
         const unsigned int inside = __ballot_sync(all_, lane() < pixels() && is_inside(place(set, lane())));

@@ -12,6 +12,11 @@ struct PixelPlace {
     std::uint32_t x, y;
 };
 
+/// The place of a tile among those of the window.
+struct TilePlace {
+    std::uint32_t column, row;
+};
+
 /// A rectangle of pixels; its width and height are powers of two.
 struct WarpTile {
     std::uint32_t width_bits, height_bits;
@@ -21,10 +26,10 @@ struct WarpTile {
     [[nodiscard]] TANDEM_HD constexpr std::uint32_t pixel_bits() const { return width_bits + height_bits; }
     [[nodiscard]] TANDEM_HD constexpr std::uint32_t pixels() const { return 1U << pixel_bits(); }
 
-    /// Pixel `number` of the tile in this column and row of tiles; pixels are numbered row by row.
-    [[nodiscard]] TANDEM_HD constexpr PixelPlace pixel(std::uint32_t column, std::uint32_t row,
-                                                       std::uint32_t number) const {
-        return {(column << width_bits) + (number & (width() - 1U)), (row << height_bits) + (number >> width_bits)};
+    /// Pixel `number` of a tile; pixels are numbered row by row.
+    [[nodiscard]] TANDEM_HD constexpr PixelPlace pixel(TilePlace at, std::uint32_t number) const {
+        return {(at.column << width_bits) + (number & (width() - 1U)),
+                (at.row << height_bits) + (number >> width_bits)};
     }
 };
 
@@ -40,10 +45,14 @@ struct WindowTiles {
     WarpTile tile;
     std::uint32_t across, count;
 
+    /// Column and row of tile `number`.
+    [[nodiscard]] TANDEM_HD constexpr TilePlace place(std::uint32_t number) const {
+        const std::uint32_t row = number / across;
+        return {number - row * across, row};
+    }
     /// Pixel `pixel` of tile `number`.
     [[nodiscard]] TANDEM_HD constexpr PixelPlace pixel(std::uint32_t number, std::uint32_t pixel) const {
-        const std::uint32_t row = number / across;
-        return tile.pixel(number - row * across, row, pixel);
+        return tile.pixel(place(number), pixel);
     }
 };
 

@@ -26,6 +26,13 @@ TEST(SharedPixels, HaveThreadsThatAreRarelyIdle) {
     }
 }
 
+TEST(SharedPixels, HaveFewerThreadsInAHierarchyOfFewPrimitives) {
+    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(41)), 4U);
+    EXPECT_EQ(sharing_threads(5, most_sharing_threads_for(41)), 2U);
+    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(1000)), most_sharing_threads);
+    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(std::size_t{1} << 32)), most_sharing_threads);
+}
+
 TEST(WarpTile, IsASquareOrTwo) {
     for (const unsigned int threads : {1U, 2U, 4U, 8U, 16U, 32U}) {
         const WarpTile tile = warp_tile(threads);
@@ -56,9 +63,10 @@ TEST(WindowTiles, HaveEachPixelOnce) {
 TEST(SharedPixels, CoverTheWindow) {
     for (const std::uint32_t width : {1U, 7U, 8U, 9U, 131U}) {
         for (const std::uint32_t height : {1U, 3U, 97U}) {
-            for (const std::uint32_t samples : {1U, 2U, 4U, 8U}) {
-                const RenderGrid grid = shared_pixels(width, height, samples);
-                const WarpTile tile = warp_tile(grid.threads.x);
+            for (const unsigned int threads : {1U, 2U, 4U, 8U}) {
+                const RenderGrid grid = shared_pixels(width, height, threads);
+                const WarpTile tile = warp_tile(threads);
+                EXPECT_EQ(grid.threads.x, threads);
                 EXPECT_EQ(grid.threads.x * grid.threads.y, block_threads);
                 EXPECT_GE(grid.blocks.x * 2 * tile.width(), width);
                 EXPECT_LT((grid.blocks.x - 1) * 2 * tile.width(), width);
