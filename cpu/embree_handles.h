@@ -1,4 +1,4 @@
-/// Owners of what Embree allocates, and its errors as exceptions.
+/// Owners of Embree's objects, and Embree's errors as exceptions.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ using EmbreeScene = EmbreeHandle<RTCScene, rtcReleaseScene>;
 using EmbreeGeometry = EmbreeHandle<RTCGeometry, rtcReleaseGeometry>;
 using EmbreeTree = EmbreeHandle<RTCBVH, rtcReleaseBVH>;
 
-/// Throws what Embree last reported on this thread.
+/// Throws the error that Embree last reported on this thread, if there is one.
 inline void check_embree(RTCDevice device, const char* doing) {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_NONE) return;

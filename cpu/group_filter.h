@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// The lanes for the primitives of groups: as those of I, but at most as many as a group has primitives.
+/// The lanes for the primitives of a group: those of I, but no more than a group has primitives.
 template <class I>
 struct GroupIsa {
     static constexpr int bytes = I::bytes < 4 * group_size ? I::bytes : 4 * group_size;

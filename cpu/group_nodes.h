@@ -1,4 +1,4 @@
-/// The nodes of the hierarchy of groups, which single rays go through (docs/performance.md, "CPU").
+/// The nodes of the hierarchy of groups, which single rays traverse (docs/performance.md, "CPU").
 #pragma once
 
 #include "cpu/primitive_groups.h"
@@ -9,10 +9,10 @@ namespace tandem {
 /// The most children of a node.
 inline constexpr int group_node_width = 8;
 
-/// A child of a node is the number of a node, or that of a group and this bit.
+/// A child of a node is the number of a node, or the number of a group with this bit set.
 inline constexpr std::uint32_t group_bit = 0x80000000U;
 
-/// The boxes of up to eight children. In places without a child they are empty, so that no ray enters them.
+/// The boxes of up to eight children. Where there is no child they are empty, so that no ray enters them.
 struct alignas(64) GroupNode {
     float plane[6][group_node_width];  ///< the lower ones by axis, then the upper ones
     std::uint32_t child[group_node_width];

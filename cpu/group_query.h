@@ -44,7 +44,8 @@ struct GroupQuery {
     }
 
   private:
-    /// A primitive by its place: its numbers are in the cache already, those of the scene are not.
+    /// A primitive by its place in the group: the numbers of the group are in the cache already, those of the scene are
+    /// not.
     struct Member {
         std::uint32_t group;
         int place;

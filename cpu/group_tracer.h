@@ -8,7 +8,7 @@
 
 namespace tandem {
 
-/// One ray on its way. `Isa`: the instruction set, which Real does not tell.
+/// The traversal of one ray. `Isa`: the instruction set, which Real does not determine.
 template <Search search, class Real, class Isa>
 class GroupRay {
   public:
@@ -46,7 +46,7 @@ class GroupRay {
         return true;
     }
 
-    /// Visits one node or group. False at the end of the way.
+    /// Visits one node or group. False at the end of the traversal.
     TANDEM_HD_INLINE bool advance(const CpuSceneView& view) {
         const std::uint32_t child = walk_.at();
         if ((child & group_bit) == 0) {
@@ -93,7 +93,7 @@ class GroupRay {
 };
 
 /// Nearest hits, or whether shadow rays are blocked, for all rays of a batch. Memory is loaded for one ray while others
-/// are on their way: each visit of a node or group asks for the next one of its ray, and goes on with another ray.
+/// advance: after each visit of a node or group, the next one of the same ray is prefetched, and another ray continues.
 template <Search search, class Isa, class Real, class Finish>
 TANDEM_HD_INLINE void trace_groups(const CpuSceneView& view, const RayBatch<Real>& batch, const Finish& finish) {
     GroupRay<search, Real, Isa> rays[RayBatch<Real>::most];

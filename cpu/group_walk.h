@@ -1,4 +1,4 @@
-/// The way of one ray through the hierarchy of groups.
+/// The traversal of the hierarchy of groups by one ray.
 #pragma once
 
 #include "cpu/group_filter.h"
@@ -15,7 +15,8 @@ inline constexpr int group_depth = 33;
 /// the difference is rounded to 2 u S. So 12 u S, which the padding of the boxes covers (proposal.h). Nothing
 /// overflows: S < 1e19, and 1 / d < 1e19 (make_node_ray()). Tested by tests/cpu/group_tracer_test.cpp.
 ///
-/// Nothing branches on the signs of the direction: they differ from ray to ray, and rays take turns.
+/// No code branches on the signs of the direction: they differ from ray to ray, and the traversals of several rays are
+/// interleaved.
 template <class Isa>
 class GroupWalk {
   public:
@@ -51,7 +52,7 @@ class GroupWalk {
         return false;
     }
 
-    /// Goes on to the nearest child of a node that the ray enters within [start, limit], and keeps the others; to
+    /// Goes on to the nearest child of a node that the ray enters within [start, limit], and keeps the others; as
     /// next() if it enters none.
     TANDEM_HD_INLINE bool enter(const GroupNode& node, float limit) {
         alignas(64) float distance[group_node_width];
@@ -62,7 +63,7 @@ class GroupWalk {
             entered &= entered - 1;
             return make_entry(distance[i], node.child[i]);
         };
-        // others in no order: sorting them takes as long as it saves
+        // the others are not sorted: sorting takes as long as it saves
         Entry nearest = take();
         while (entered != 0) {
             const Entry other = take();
@@ -76,8 +77,8 @@ class GroupWalk {
   private:
     using Lane = Lanes<float, GroupIsa<Isa>>;
 
-    /// A child, and above it where the ray enters it: the bits of a float that is not negative are in its order. So the
-    /// nearer of two is found without a branch.
+    /// A child in the low half, and in the high half the distance at which the ray enters it: floats that are not
+    /// negative are ordered as their bits are. So the nearer of two is found without a branch.
     using Entry = std::int64_t;
     TANDEM_HD_INLINE static Entry make_entry(float distance, std::uint32_t child) {
         return static_cast<Entry>(std::uint64_t{bits_of(distance)} << 32 | child);
@@ -87,7 +88,7 @@ class GroupWalk {
     }
     TANDEM_HD_INLINE static std::uint32_t child_of(Entry entry) { return static_cast<std::uint32_t>(entry); }
 
-    /// The children that the ray enters as bits, and where.
+    /// The children that the ray enters, as bits, and the distances at which it enters them.
     TANDEM_HD_INLINE unsigned enter_boxes(const GroupNode& node, float limit, float* distance) const {
         using group_detail::load;
         unsigned entered = 0;

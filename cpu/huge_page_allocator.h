@@ -1,4 +1,4 @@
-/// Memory for arrays that rays read in no order: with larger pages, fewer reads miss the processor's table of pages
+/// Memory for arrays that rays read in random order: with larger pages, fewer reads miss the processor's TLB
 /// (docs/performance.md, "CPU").
 #pragma once
 

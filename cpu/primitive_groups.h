@@ -1,4 +1,4 @@
-/// Groups of neighbouring primitives. In the hierarchy that single rays go through, a leaf is a group, so that a ray is
+/// Groups of neighbouring primitives. In the hierarchy that single rays traverse, a leaf is a group, so that a ray is
 /// tested against several primitives at once (docs/performance.md, "CPU").
 #pragma once
 
@@ -9,7 +9,7 @@ namespace tandem {
 /// The most primitives of a group.
 inline constexpr int group_size = 8;
 
-/// Numbers of the primitives of a group, one after the other. In places without a primitive they are those of another
+/// Numbers of the primitives of a group, one after the other. Where there is no primitive they are those of another
 /// one, and the id is no_primitive.
 template <class T>
 using OfGroup = T[group_size];

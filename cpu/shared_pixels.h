@@ -11,7 +11,8 @@
 
 namespace tandem {
 
-/// The lanes of a packet: `sharing` neighbours have a pixel, and each of them every so manieth sample of it.
+/// The lanes of a packet: `sharing` neighbours share a pixel, and each of them computes every `sharing`-th of its
+/// samples.
 template <class Real>
 struct SharedLanes {
     std::uint32_t sharing;

@@ -23,8 +23,8 @@ inline unsigned int blocks_for(std::size_t items, std::size_t per_block) {
     return static_cast<unsigned int>((items + per_block - 1) / per_block);
 }
 
-// A warp with a queue of its own (cuda/shared_queue.h) hands out sets of so many samples, and begins a set only if
-// fewer than so many wait for their last samples.
+// A warp with a queue of its own (cuda/shared_queue.h) hands out sets of set_size samples. It begins a set only if
+// fewer than waiting_sets sets wait for their last samples.
 inline constexpr unsigned int set_size = 32;
 inline constexpr unsigned int waiting_sets = 8;
 
@@ -60,7 +60,8 @@ inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, unsig
 
 /// Of the current GPU.
 [[nodiscard]] unsigned int multiprocessor_count();
-/// So many blocks for each multiprocessor of the current GPU, together as large as one block of the kernel may be.
+/// A grid with this number of blocks on each multiprocessor of the current GPU; together these are as large as one
+/// block of the kernel may be.
 [[nodiscard]] RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocessor);
 
 }  // namespace tandem::cuda

@@ -41,7 +41,7 @@ TANDEM_HD_INLINE bool has_child(const BvhNode& node, int child) {
 
 /// The work that a build spends on the quality of the tree.
 struct BuildEffort {
-    std::uint32_t top_clusters;  ///< so many clusters are joined from the top down, on the host; 1: none
+    std::uint32_t top_clusters;  ///< how many clusters are joined from the top down, on the host; 1: none
     int passes;                  ///< how often subtrees move to better places
     bool far;                    ///< clusters look for the nearest within 12 places of the curve, else within 8
 };
@@ -51,10 +51,10 @@ struct BuildEffort {
     return primitives <= 2'000'000 ? BuildEffort{4096, 8, true} : BuildEffort{512, 0, false};
 }
 
-/// What a hierarchy takes at least while it is built, in bytes of GPU memory per primitive.
+/// The least GPU memory that a hierarchy takes while it is built, in bytes per primitive.
 inline constexpr std::size_t build_bytes_per_primitive = 200;
 
-/// What a build needs of GPU memory.
+/// The GPU memory that a build uses.
 struct BuildMemory {
     Buffer<DeviceMemory> tree;     ///< receives the BVH
     Buffer<DeviceMemory> scratch;  ///< about 200 bytes a primitive; free after the build
@@ -69,7 +69,7 @@ struct BuildMemory {
 ///         for both, so that something merges in every round. If the number of rounds could exceed the depth limit,
 ///         neighbours merge whatever their areas. The last few thousand clusters are joined from the top down
 ///         (compile/binary_tree.h): large boxes then overlap less, which the areas alone do not show. Then subtrees
-///         move to better places (reinsertion_kernels.h). At last the binary tree becomes nodes of four children
+///         move to better places (reinsertion_kernels.h). Finally the binary tree becomes nodes of four children
 ///         (kernel/traversal/collapse.h), level by level. Places come from prefix sums, and moves compete by their
 ///         gains, so the same scene always gives the same bytes.
 /// Source: D. Meister, J. Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction",

@@ -41,7 +41,7 @@ static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, 
     list[place] = place;
 }
 
-/// How far merging has come. On the GPU, so that the host need not wait for it after each round.
+/// The progress of merging. On the GPU, so that the host need not wait for it after each round.
 struct MergeState {
     std::uint32_t clusters;  ///< on the list
     std::uint32_t nodes;     ///< made so far, with the leaves

@@ -16,7 +16,8 @@ namespace tandem {
 /// The models of this machine's GPUs, by CUDA's numbers. Throws EnvironmentError if there is no driver.
 [[nodiscard]] std::vector<std::string> cuda_gpu_names();
 
-/// Why the backend cannot run; empty if there is a GPU with a driver that can run this build. Needs neither itself.
+/// Why the backend cannot run; empty if there is a GPU with a driver that can run this build. Needs neither a GPU nor a
+/// driver.
 [[nodiscard]] std::string why_cuda_unavailable();
 
 }  // namespace tandem

@@ -17,7 +17,7 @@ __device__ inline void write_entry(const SceneView& scene, const TreeArrays& to,
     visit_primitive(scene, id, [&](const auto& primitive) { to.spheres[entry] = sphere_around(primitive); });
 }
 
-/// Entries that children which are not there may name: those of the last primitive once more.
+/// Spare entries, which absent children may refer to: copies of the last primitive's entry.
 static __global__ void spare_entries_kernel(TreeArrays to, std::uint32_t count) {
     const std::uint32_t entry = count + threadIdx.x;
     to.ids[entry] = to.ids[count - 1];
@@ -35,7 +35,8 @@ static __global__ void placements_kernel(SceneView scene, RoughPlacement* placem
     }
 }
 
-/// Writes what no node of the tree writes: spare entries, and the placements that are not in the order of entries.
+/// Writes the parts that no node of the tree writes: spare entries, and the placements that are not in the order of
+/// entries.
 inline void write_rest(const SceneView& scene, const TreeArrays& to, const char* doing, cudaStream_t stream) {
     const std::uint32_t placements = to.placed_by_entry ? 0 : scene.ellipsoid_count + scene.parallelepiped_count;
     launch(doing, spare_entries_kernel, 1, spare_entries, stream, to, primitive_count(scene));

@@ -67,7 +67,7 @@ struct DeviceRays {
     DeviceCounters* counters;
     std::size_t count;
     void* candidates;   ///< candidate_bytes for each ray, if may_refill()
-    bool are_coherent;  ///< neighbouring rays take nearly the same way
+    bool are_coherent;  ///< neighbouring rays visit nearly the same nodes
     std::uint32_t row;  ///< rays per row of an image, a multiple of 8; 0: the rays are no image
     std::size_t tiled;  ///< the rays of the rows in whole tiles of 8 x 4
 };
@@ -77,7 +77,7 @@ struct DeviceRays {
     return structure_of(scene) == Structure::bvh && (!are_coherent || scene.diverges);
 }
 
-/// What a ray's candidates take between the two kernels that trace incoherent rays.
+/// The size of a ray's candidates between the two kernels that trace incoherent rays.
 inline constexpr std::size_t candidate_bytes = 16;
 
 /// The queries of a trace: nearest hits of rays that start in space or on surfaces, or whether shadow rays are blocked.
@@ -91,8 +91,7 @@ enum class Ask { nearest, nearest_from_surface, occluded };
 /// Starts tracing the rays.
 using TraceLaunch = void(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream);
 
-// For each query and tier: trace.cu; for scenes of instances: trace_instanced.cu, for which fast has the code of
-// strict.
+// For each query and tier: trace.cu; for scenes of instances: trace_instanced.cu, where fast uses the code of strict.
 extern TraceLaunch trace_instanced_strict, trace_instanced_precise;
 #define TANDEM_TIER(name, promise) \
     extern TraceLaunch trace_nearest_##name, trace_nearest_from_surface_##name, trace_occluded_##name;

@@ -1,4 +1,4 @@
-/// The levels of 8 bits of a film, found on the GPU.
+/// The 8-bit levels of a film, computed on the GPU.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -18,8 +18,8 @@ struct LevelRule {
     const std::uint32_t* entries;
 };
 
-/// What find_levels() writes: the levels, three for a pixel, and behind them, at a multiple of 8 bytes, how many means
-/// were NaN.
+/// The output of find_levels(): three levels for each pixel and, after them at a multiple of 8 bytes, the number of
+/// means that were NaN.
 struct LevelLayout {
     std::size_t values;
     [[nodiscard]] std::size_t nan_values() const { return (values + 7) / 8 * 8; }

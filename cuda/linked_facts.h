@@ -1,6 +1,6 @@
 /// The facts that a render kernel is linked for (cuda/scene_kernels.h): one struct, made on the host from the scene and
 /// the job, or when Tandem is built (compiled_facts.cu). A constant to the kernel once it is linked. This header
-/// includes none that asks for a fact, because linked_kernel.cu says afterwards where the facts are.
+/// includes no header that reads a fact, because linked_kernel.cu defines only afterwards where the facts are.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct LinkedFacts {
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };
 
-/// What holds for all scenes with no other effects and no other PrimitiveKinds.
+/// The facts that hold for all scenes with no other effects and no other PrimitiveKinds.
 constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds) {
     constexpr std::uint32_t any = LinkedFacts::any;
     return {.effects = effects.bits(),

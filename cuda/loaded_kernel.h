@@ -1,6 +1,6 @@
 /// A kernel from a cubin or a fat binary, through the runtime's library interface: like all of the runtime it opens the
-/// driver only when it is used, so that programs start without one. The only other way to launch a kernel than
-/// launch.h; host code can use it.
+/// driver only when it is used, so that programs start without one. Besides launch.h, the only way to launch a kernel;
+/// host code can use it.
 #pragma once
 
 #include <cuda_runtime_api.h>

@@ -1,7 +1,7 @@
-/// The tracing of rays whose neighbours may take other ways, in two kernels. In the first, threads whose rays have
-/// ended take new ones, and only candidates are kept; in the second, all threads decide. With a decision in the loop
-/// that refills, the walk would have no registers left. Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray
-/// Traversal on GPUs", HPG 2009, section 4 (persistent
+/// Traces rays that may be incoherent, in two kernels. In the first, threads whose rays have ended take new ones, and
+/// only candidates are kept; in the second, all threads decide. A decision in the loop that refills would leave the
+/// traversal no registers.
+/// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 4 (persistent
 ///         threads, replacement of ended rays).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace tandem::cuda {
 
-/// Whether a tracer decides behind its walk, so that the walk can be a kernel of its own.
+/// Whether a tracer defers decisions, so that its traversal can be a kernel of its own.
 template <class Tracer>
 inline constexpr bool can_refill = false;
 template <std::uint32_t kinds>
@@ -25,17 +25,17 @@ inline constexpr unsigned int refill_blocks = std::is_same_v<Real, double>      
                                               : (Tracer::kinds & ~PrimitiveKinds::bodies) != 0 ? 8
                                                                                                : 10;
 
-/// In the first place of FoundCandidates: there were too many; a shadow ray is certainly blocked.
+/// Marks in the first place of FoundCandidates: there were too many candidates; the shadow ray is certainly blocked.
 inline constexpr std::uint32_t crowded = no_primitive - 1, blocked = no_primitive - 2;
 
-/// What a walk kept, as decide_kept() takes it; no_primitive where there is none.
+/// The candidates that a traversal kept, as decide_kept() takes them; no_primitive in unused places.
 template <int most>
 struct alignas(4 * most) FoundCandidates {
     std::uint32_t id[most];
 };
 static_assert(sizeof(FoundCandidates<4>) <= candidate_bytes);
 
-/// The stack of a walk: what is used most in shared memory, the rest in local memory.
+/// The stack of a traversal: the lower part, which is used most, in shared memory, the rest in local memory.
 class SharedStack {
   public:
     static constexpr int quick = 20;
@@ -68,16 +68,16 @@ class SharedStack {
     std::int32_t* rest_;
 };
 
-/// Rays of a warp are replaced when fewer than this walk.
+/// The ended rays of a warp are replaced when fewer threads than this are still traversing.
 inline constexpr int least_walking = 26;
-/// Entries wait until so many threads have one, or hardly any other walks.
+/// Entries wait until this many threads have one, or until fewer other threads than this are still visiting nodes.
 inline constexpr int entry_batch = 6;
 /// Nodes that a thread visits before the warp counts its threads again.
 inline constexpr int steps_per_count = 2;
 /// Rays that a warp takes from the queue at a time.
 inline constexpr std::uint32_t queue_chunk = 64;
 
-/// Walks with all rays, and keeps the candidates of each in job.candidates.
+/// Traverses the hierarchy with all rays, and keeps the candidates of each in job.candidates.
 template <class Real, Ask ask, class Tracer>
 __global__ void __launch_bounds__(block_threads, refill_blocks<Real, Tracer>)
     find_candidates(const __grid_constant__ Tracer tracer, const __grid_constant__ DeviceRays job) {
@@ -212,7 +212,7 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
     if (first == crowded) [[unlikely]] {
         closest = tracer.template decide_crowd<search>(tracer, ray, source, closest, 3e38F);
     } else {
-        // each from memory, because an index into registers would put them there
+        // each is read from memory, because indexing registers would move them to memory anyway
         TANDEM_KEEP_LOOP
         for (int k = 0; k < Tracer::most_candidates; ++k) {
             const std::uint32_t kept = static_cast<const Found*>(job.candidates)[i].id[k];

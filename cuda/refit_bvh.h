@@ -1,4 +1,5 @@
-/// Moves a BVH with its primitives: from frame to frame of an animation their number stays, and near ones stay near.
+/// Moves a BVH with its primitives: between frames of an animation their number stays the same, and near primitives
+/// stay near.
 #pragma once
 
 #include "cuda/build_bvh.h"
@@ -16,12 +17,14 @@ namespace tandem::cuda {
 [[nodiscard]] BuiltBvh refit_bvh(const SceneView& scene, const BuiltBvh& built, BuildMemory& memory,
                                  cudaStream_t stream);
 
-/// The cost of rays may rise by so much until a tree is built again. Chosen by measurement (docs/performance.md).
+/// The factor by which the cost of rays may rise before a tree is built again. Chosen by measurement
+/// (docs/performance.md).
 inline constexpr double most_wear = 1.05;
 
 /// Whether a tree that was `built` and refitted has become so bad that it should be built again: by its cost relative
-/// to the area of the root, or by the sum of the areas themselves. The first alone would miss a primitive that flies
-/// far away, which makes the root large; the second alone an object that shrinks while its parts change places.
+/// to the area of the root, or by the sum of the areas themselves. The first alone would miss a primitive that moves
+/// far away, which makes the root large; the second alone would miss an object that shrinks while its parts change
+/// places.
 [[nodiscard]] inline bool is_worn(const BuiltBvh& refitted, const BuiltBvh& built) {
     const bool is_fit = refitted.cost <= most_wear * built.cost &&
                         refitted.cost * refitted.root_area <= most_wear * built.cost * built.root_area;
@@ -43,12 +46,12 @@ struct KindCounts {
     return counts;
 }
 
-/// A BVH that lives through several scenes.
+/// A BVH that is kept over several scenes.
 class LastingBvh {
   public:
-    /// The BVH of `scene`: the one from before, moved, if that fits and is `allowed`; else a new one.
+    /// The BVH of `scene`: the previous one, refitted, if that fits and is `allowed`; else a new one.
     [[nodiscard]] BuiltBvh of(const SceneView& scene, BuildMemory& memory, cudaStream_t stream, bool allowed);
-    /// Whether the last one was moved.
+    /// Whether the last one was refitted.
     [[nodiscard]] bool was_refitted() const { return was_refitted_; }
 
   private:

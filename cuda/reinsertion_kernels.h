@@ -1,6 +1,6 @@
 /// The kernels that improve a binary tree: a subtree moves to where it makes the areas of all boxes smaller. Included
-/// by build_bvh.cu. Source: D. Meister, J. Bittner, "Parallel Reinsertion for Bounding Volume Hierarchy Optimization",
-/// Computer Graphics
+/// by build_bvh.cu.
+/// Source: D. Meister, J. Bittner, "Parallel Reinsertion for Bounding Volume Hierarchy Optimization", Computer Graphics
 ///         Forum 37(2), 2018.
 #pragma once
 
@@ -15,7 +15,7 @@ struct Move {
     std::uint32_t ancestor = 0;  ///< common to the subtree and the target
 };
 
-/// What a box would be without a part of it is not known, so the boxes of ancestors are merged again on the way up.
+/// The box of an ancestor without the subtree is not stored, so it is merged again on the way up.
 ///
 /// Method: climbs from the parent of the subtree. At each ancestor it searches the other child from the top. Leaving an
 ///         ancestor brings the area that it loses, going down into a node costs the area that it gains, and the new
@@ -65,9 +65,9 @@ static __global__ void search_kernel(BuildTree tree, std::uint32_t nodes, Move* 
     moves[node] = best;
 }
 
-/// Calls visit(node) for all nodes that a move reads or changes: the ways from the subtree and from the target to their
-/// common ancestor, and the neighbours of the parent that goes along. Moves without a common one can be made in any
-/// order, and make no cycle.
+/// Calls visit(node) for all nodes that a move reads or changes: those on the paths from the subtree and from the
+/// target to their common ancestor, and the neighbours of the parent that moves along. Moves that have no such node in
+/// common can be made in any order, and make no cycle.
 template <class Visit>
 __device__ void visit_moved(const BuildTree& tree, std::uint32_t node, const Move& move, Visit visit) {
     const std::uint32_t parent = tree.parents[node];
@@ -117,7 +117,7 @@ static __global__ void move_kernel(BuildTree tree, std::uint32_t nodes, const Mo
     tree.parents[target] = parent;
 }
 
-/// Loads what another multiprocessor may have written, past the first cache.
+/// Loads a value that another multiprocessor may have written, bypassing the L1 cache.
 template <class T>
 __device__ T load_fresh(const T* from) {
     static_assert(sizeof(T) % 16 == 0);
@@ -129,7 +129,7 @@ __device__ T load_fresh(const T* from) {
 }
 
 /// Makes the boxes again from the leaves up, or, with `weighs`, the costs by which children of wide nodes are chosen.
-/// Of the two threads that come to a node the second goes on. `arrivals`: zeros.
+/// Of the two threads that reach a node, the second continues. `arrivals`: zeros.
 template <bool weighs>
 static __global__ void climb_kernel(BuildTree tree, double whole, std::uint32_t* arrivals) {
     std::uint32_t node = thread_number();

@@ -28,8 +28,8 @@ __device__ __forceinline__ void keep(const PixelSum<Real>& pixel, std::size_t at
     count<Effects>(pixel, threadIdx.x, counters);
 }
 
-/// The slots of primitives that camera rays of a warp's tile may hit: each thread asks for one, in double. Worth its
-/// time from a few samples on. All threads of the warp call it.
+/// The slots of primitives that camera rays of a warp's tile may hit: each thread tests one slot, in double. This pays
+/// from a few samples on. All threads of the warp call it.
 template <class Effects>
 __device__ __forceinline__ std::uint32_t slots_in_tile(const ConstantMemoryTracer& tracer, const PixelJob& job,
                                                        WarpTile tile, PixelPlace corner) {
@@ -135,7 +135,7 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
 }
 
 /// Paths of one vertex whose code exceeds the instruction caches, where primitives are found in a hierarchy: a warp
-/// takes tiles of shared pixels. All have as many samples, so the threads of a block stay together.
+/// takes tiles of shared pixels. All pixels have the same number of samples, so the threads of a block stay together.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_tiles(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                                     Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {

@@ -53,7 +53,7 @@ inline void fetch_bytes(void* to, const void* from, std::size_t bytes, const Buf
     std::memcpy(to, word.data(), bytes);
 }
 
-/// Not padded. `at`: on the GPU, to work in. Minima and maxima do not depend on an order. Waits for the stream.
+/// Not padded. `at`: working memory on the GPU. Minima and maxima do not depend on the order. Waits for the stream.
 inline Aabb scene_bounds(const SceneView& scene, OrderedBounds* at, const Buffer<PinnedMemory>& word, const char* doing,
                          cudaStream_t stream) {
     constexpr std::uint32_t most_threads = 1U << 18;

@@ -55,7 +55,7 @@ class SceneKernels {
     /// Not safe from several threads at once. Throws EnvironmentError if none can be linked and compiled() has none.
     [[nodiscard]] Found find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts);
 
-    /// The one of compiled_code() that draws this scene; lives as long as this. Throws as LoadedCode, and
+    /// The kernel of compiled_code() that renders this scene; lives as long as this object. Throws as LoadedCode, and
     /// EnvironmentError if the build lacks the tier. Not for several threads at once.
     [[nodiscard]] const SceneKernel& compiled(Tier tier, const DeviceSceneView& scene, std::size_t variant);
 
@@ -67,7 +67,7 @@ class SceneKernels {
     std::map<std::tuple<Tier, Structure, bool, std::size_t>, std::unique_ptr<SceneKernel>> compiled_;
 };
 
-/// Starts a kernel that SceneKernels gave for this scene: the sums of all pixels. `culls_pixels`: as in
+/// Starts a kernel that SceneKernels gave for this scene; it computes the sums of all pixels. `culls_pixels`: as in
 /// BackendOptions. `sums`, `radiances` (of radiance_bytes()) and `counters` are in device memory.
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, void* radiances, DeviceCounters* counters, cudaStream_t stream);

@@ -52,7 +52,7 @@ __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, co
         const std::uint32_t sample = first + pixel.thread;
         const bool is_active = is_inside && sample < job.samples;
         id.sample = job.first_sample + sample;
-        // also where no sample is left: the tracers want all threads of a warp
+        // also where no sample is left: the tracers need all threads of a warp
         const Addend<Real> own = addend_of(sample_radiance<Effects>(tracer, tracer.scene, job, rays, id, is_active,
                                                                     BlockThreads<Effects>(), result.tally));
         if (is_active && !own.is_number) ++result.invalid;

@@ -32,7 +32,7 @@ struct SharedQueue {
     bool is_empty;                     ///< no tile is left
 };
 
-/// The queue of a warp, from the side of one of its threads. All of them must call each function except keep().
+/// The queue of a warp, as seen by one of its threads. All threads of the warp must call each function except keep().
 template <class Real>
 class SharedSamples {
   public:
@@ -49,7 +49,7 @@ class SharedSamples {
         __syncwarp();
     }
 
-    /// Hands items to the threads that want one; take(x, y, sample) gets what there is.
+    /// Hands items to the threads that want one, if any are left, by calls of take(x, y, sample).
     template <class Take>
     __device__ __forceinline__ void hand_out(bool wants, Take take) {
         unsigned int waiting = __ballot_sync(all_, wants);
@@ -76,7 +76,8 @@ class SharedSamples {
         }
     }
 
-    /// The sample of this thread is done. Returns whether it is a number; otherwise nothing is added for it.
+    /// Keeps the radiance of this thread's sample, which is done. Returns whether it is a number; otherwise nothing is
+    /// added for the sample.
     __device__ __forceinline__ bool keep(const Vec3<Real>& radiance) {
         const Addend<Real> addend = addend_of(radiance);
         radiances_[item_] = addend.radiance;

@@ -1,5 +1,5 @@
 /// The CUDA kernels that trace rays, as templates over the Real of a tier (math/real.h) and the query. trace.cu and
-/// trace_instanced.cu have them, compiled with the flags of each tier and with TANDEM_SHORT_PATHS
+/// trace_instanced.cu instantiate them, compiled with the flags of each tier and with TANDEM_SHORT_PATHS
 /// (cuda/CMakeLists.txt).
 #pragma once
 

@@ -1,4 +1,4 @@
-/// What the kernels that trace rays share.
+/// Code that the kernels that trace rays share.
 #pragma once
 
 #include "cuda/block_shape.h"

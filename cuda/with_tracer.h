@@ -1,4 +1,5 @@
-/// How kernels that are no linked ones (scene_kernels.h) get the tracer that fits a scene. Included by .cu files.
+/// Chooses the tracer that fits a scene, for kernels other than the linked ones (scene_kernels.h). Included by .cu
+/// files.
 #pragma once
 
 #include <type_traits>

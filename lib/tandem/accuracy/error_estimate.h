@@ -17,9 +17,9 @@ struct ErrorEstimate {
 };
 
 /// The mean of one error per seed, at least two of them, with the interval of Student's t on the logarithm of the mean:
-/// with the standard error s, from mean * exp(-t s / mean) to mean * exp(t s / mean). So the interval is positive, it
-/// is symmetric on a logarithmic axis, and it is one of the mean, not of the median, as that of the mean of logarithms
-/// would be. Whole images are replicated because pixels are not independent. If t s exceeds the mean, the interval goes
+/// with the standard error s, from mean * exp(-t s / mean) to mean * exp(t s / mean). So the interval is positive and
+/// symmetric on a logarithmic axis. It is an interval of the mean; one from the mean of logarithms would be of the
+/// median. Whole images are replicated because pixels are not independent. If t s exceeds the mean, the interval goes
 /// from 0 to mean + t s (at least t s).
 ///
 /// `shared_variance`: of what all seeds have in common (ErrorMeter::reference_variance()). Covers less than 95 % if the

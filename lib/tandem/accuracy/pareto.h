@@ -1,4 +1,4 @@
-/// Which configurations are worth their time.
+/// Which configurations are not dominated by others.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,9 @@ struct PricedError {
 };
 
 /// For every point another one that dominates it, or nothing. A point dominates another if neither its time nor its
-/// error is larger, and the intervals of one of the two do not overlap: what the measurement cannot tell apart does not
-/// dominate. Of several, the one with the least error is named, and of these the one with the least time.
+/// error is larger, and the intervals of one of the two do not overlap: points that the measurement cannot tell apart
+/// do not dominate each other. Of several, the one with the least error is named, and of these the one with the least
+/// time.
 [[nodiscard]] std::vector<std::optional<std::size_t>> dominating(std::span<const PricedError> points);
 
 /// The fastest of those points within `seconds` whose error cannot be told from the least one there; nothing if none

@@ -1,4 +1,4 @@
-/// What the errors of an image are measured against.
+/// The references that the errors of an image are measured against.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 namespace tandem {
 
 /// Makes "cpu", "cuda" or "oracle". "cuda:1" is GPU 1, "cuda:0,1" are two GPUs as one backend, "cuda:all" all of them;
-/// "cuda" has those of `options`. Throws InputError for another name, and EnvironmentError, with the reason, for a
+/// "cuda" uses those of `options`. Throws InputError for another name, and EnvironmentError, with the reason, for a
 /// backend that this build or this machine cannot run.
 [[nodiscard]] std::unique_ptr<Backend> make_backend(const std::string& name, const BackendOptions& options = {});
 

@@ -1,5 +1,5 @@
-/// Loops on several threads. What they compute must not depend on the number of threads: the parts of a loop are the
-/// same for any number, and a loop that sums something up keeps one sum for each part.
+/// Loops on several threads. Their results must not depend on the number of threads: the parts of a loop are the same
+/// for any number, and a loop that sums something up keeps one sum for each part.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Chunk {
 
 /// Calls work(i) for every i below `count`, on several threads, and returns when all are done. They have the
 /// floating-point environment of the caller. If calls throw, the exception of the lowest i is passed on: that of a loop
-/// on one thread. Numbers above it may be left out. A loop within a loop runs on its thread.
+/// on one thread. Numbers above it may be left out. A nested loop runs on the thread that calls it.
 void run_parallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// Calls body(chunk) for every part of the numbers below `count`; `size` is the length of all parts but the last. A

@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// What node_ray.h takes for a child's box, in exact arithmetic, without the part of a step that rounding needs.
+/// The box that node_ray.h tests for a child, in exact arithmetic, less the fraction of a step that rounding needs.
 struct ChildBox {
     Vec3d lower, upper;
 };
@@ -20,7 +20,7 @@ struct ChildBox {
             {plane(0, node.upper_x, -1), plane(1, node.upper_y, -1), plane(2, node.upper_z, -1)}};
 }
 
-/// Of a child that is not there.
+/// Whether it is the box of an absent child.
 [[nodiscard]] inline bool is_empty(const ChildBox& box) { return box.lower.x > box.upper.x; }
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-/// From the environment that an author sets to what kernels read of it.
+/// Converts the environment that an author sets to the data that kernels read.
 #pragma once
 
 #include "tandem/compile/prepared_scene.h"
@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// What an author sets of a kind of environment of lights.def has, in its header,
+/// The authored type of each kind of environment of lights.def has, in its header,
 ///
 /// in_words(authored)         "a picture with 8 x 4 texels", for the reason of the effect
 /// check(authored, require)   calls require(condition, where, problem) for each condition of a valid one: validate()

@@ -8,8 +8,8 @@
 
 namespace tandem {
 
-/// Finds extents with the hierarchy of a mesh, whose boxes are relative to `centre`: a few boxes and faces are looked
-/// at, not all corners, and the box may be larger by a sixteenth. What it is made from must outlive it.
+/// Finds extents with the hierarchy of a mesh, whose boxes are relative to `centre`: this inspects a few boxes and
+/// faces, not all corners, and the box may be larger by a sixteenth. `bvh` and `faces` must outlive it.
 class MeshExtent {
   public:
     MeshExtent(const Bvh& bvh, std::span<const Triangle> faces, const Vec3d& centre)
@@ -22,7 +22,7 @@ class MeshExtent {
     [[nodiscard]] Range under(const Matrix3& linear) const;
 
   private:
-    /// Not below the dot product of any corner, less the centre, with `direction`.
+    /// Not below the dot product of `direction` with any corner relative to the centre.
     [[nodiscard]] double along(const Vec3d& direction) const;
 
     const Bvh& bvh_;

@@ -1,4 +1,4 @@
-/// What prepare() refuses and leaves out, by node.
+/// Checks for nodes that prepare() refuses or leaves out.
 #pragma once
 
 #include <cmath>

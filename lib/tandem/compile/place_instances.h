@@ -19,8 +19,8 @@ struct MeshUse {
 };
 
 /// The meshes that are kept once: triangles alone, with an opaque material that neither emits nor transmits, 64 faces
-/// or more, and 8 instances or more. Of all scenes in which these have together at least `least_faces`, and which have
-/// no quads and nothing that transmits.
+/// or more, and 8 instances or more. Empty if their instances have fewer than `least_faces` faces in all, or if the
+/// scene has quads or a material that transmits.
 [[nodiscard]] std::set<MeshUse> instanced_uses(const Scene& scene, std::uint64_t least_faces);
 
 class InstanceList {
@@ -33,7 +33,8 @@ class InstanceList {
     [[nodiscard]] bool take(const MeshUse& use, const PlacedSurface& surface);
     [[nodiscard]] bool is_kept(const MeshUse& use) const { return uses_.count(use) > 0; }
 
-    /// Adds the instances to what the origin is chosen from. Only faces of those near the camera are looked at.
+    /// Adds the instances to the surfaces from which the origin is chosen. Inspects faces only of instances near the
+    /// camera.
     void add_to(RenderOrigin& origin, const Vec3d& camera) const;
 
     /// Removes and returns the instances of closed meshes with culled faces in whose boxes the camera may be.

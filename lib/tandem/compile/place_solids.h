@@ -15,11 +15,11 @@
 namespace tandem {
 
 /// The spheres and boxes of a scene at one instant. There may be a hundred million, as instances of a few geometries,
-/// so none is kept in double between the two passes: the first finds what each becomes, the second computes it again
+/// so none is kept in double between the two passes: the first finds the kind of each, the second computes each again
 /// and writes it to its place.
 ///
 /// Spheres under rotation and uniform scale stay spheres, and boxes under diagonal transforms stay boxes; the others
-/// become ellipsoids and parallelepipeds. So do those with a picture, or brushed, that are turned or mirrored.
+/// become ellipsoids and parallelepipeds. So do textured or brushed ones that are rotated or mirrored.
 class Solids {
   public:
     /// The first pass. `world_from_node`: by node. `prepared`: its camera, still in world space, and all that belongs
@@ -36,7 +36,7 @@ class Solids {
     void add_to(RenderOrigin& origin) const;
 
     /// The second pass: writes all solids, moved to `origin` in double and rounded once, with their materials and
-    /// nodes. `result` has no primitives yet, and will get so many faces at most.
+    /// nodes. `result` has no primitives yet, and will get at most `faces` faces.
     void place(const Vec3d& origin, std::size_t faces, PreparedScene& result) const;
 
   private:
@@ -45,7 +45,7 @@ class Solids {
     /// The spheres or boxes of a geometry. They are numbered in the order of nodes, geometries and instances.
     struct Part : InstanceRange {
         bool is_masked_out;    ///< by its material
-        bool has_orientation;  ///< a picture, or grooves
+        bool has_orientation;  ///< a texture, or grooves
     };
     /// What the first pass finds in a part of the numbers.
     struct Tally {

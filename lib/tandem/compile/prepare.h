@@ -21,7 +21,7 @@ struct PrepareOptions {
     ForcedEffects effects{};        ///< forced on, or forced off even if the scene needs them
     std::optional<double> time{};   ///< seconds: an instant instead of the frame's time, with the shutter closed
     RenderSettings settings{};
-    /// Meshes that appear many times are kept once if together they have at least so many faces (docs/instances.md).
+    /// Meshes that appear many times are kept once if together they have at least this many faces (docs/instances.md).
     std::uint64_t instanced_from = 2'000'000;
 };
 

@@ -27,12 +27,12 @@ class RenderOrigin {
     void add_triangle(const Vec3d& v0, const Vec3d& v1, const Vec3d& v2);
     /// A box that contains a surface, which is not nearer to the camera than distance().
     void add_far(const Vec3d& lower, const Vec3d& upper) { add_extent(lower, upper); }
-    /// Of the nearest surface point so far from the camera; infinite if there is none.
+    /// From the camera to the nearest surface point so far; infinite if there is none.
     [[nodiscard]] double distance() const { return distance_; }
     /// A point without a surface: the position of a light.
     void add_point(const Vec3d& point);
-    /// All that was added to another one with the same camera, after what is here: of two points at the same distance
-    /// the first counts.
+    /// Adds everything that was added to another origin with the same camera, as if after the points of this one: of
+    /// two points at the same distance the first counts.
     void add(const RenderOrigin& other);
 
     /// {0, 0, 0} if there is no surface, or if coordinates relative to another origin would exceed coordinate_limit.

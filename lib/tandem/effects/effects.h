@@ -66,7 +66,7 @@ struct EffectSet {
     }
 };
 
-// What tables of lobes and lights may have in place of effects.
+// Values that tables of lobes and lights may have in place of effects.
 inline constexpr EffectMask always = EffectMask::from_bits(~0U);
 inline constexpr EffectMask never;
 

@@ -29,8 +29,8 @@ inline constexpr double flip_model_error = 0.05;
 struct ErrorSums {
     double pixels = 0;
     double sum = 0;
-    double squares = 0;  ///< of the errors of pixels: says how few pixels the sum is from
-    double cubes = 0;    ///< likewise: says from how few pixels its spread is; 0: from very many
+    double squares = 0;  ///< of the errors of pixels: tells how few pixels the sum comes from
+    double cubes = 0;    ///< likewise: tells how few pixels its spread comes from; 0: very many
 
     ErrorSums& operator+=(const ErrorSums& other) {
         pixels += other.pixels;
@@ -55,10 +55,10 @@ struct ErrorSums {
 }
 
 /// The expected squared error of each pixel's mean over all samples, from the variance of later samples alone. `all`:
-/// the film of all samples; `fresh`: the film of some of them; both with the plane variance. If nothing that `fresh`
-/// shows decided how many samples there are, the estimate has no bias. `film_mean`: that of all pixels and channels,
-/// for relmse. The square of the true value is then taken as m^2 + 3v, where m is the mean of the samples that are not
-/// in `fresh`, and so independent of its variance, and v the variance of m: for small noise, the inverse of that has no
+/// the film of all samples; `fresh`: the film of some of them; both with the plane variance. The estimate has no bias
+/// if the number of samples was chosen without regard to `fresh`. `film_mean`: that of all pixels and channels, for
+/// relmse. The square of the true value is then taken as m^2 + 3v, where m is the mean of the samples that are not in
+/// `fresh`, and so independent of its variance, and v the variance of m: for small noise, the inverse of that has no
 /// bias of second order. Not for flip.
 [[nodiscard]] ErrorSums squared_errors(const Film& all, const Film& fresh, ErrorMetric metric, double film_mean);
 
@@ -73,16 +73,16 @@ struct StatedError {
 /// error of a film and its estimate differ by a relative variance of at most 2 / n': that of the error itself is (2 +
 /// kurtosis / N), that of the estimate from n of N samples (2 / (n - 1) + kurtosis / n), and the expectation of
 /// `squares` is higher than the squared variances by the factor (1 + 2 / (n - 1) + kurtosis / n). So the standard error
-/// of the mean is k = sqrt(2 / n') of it. The interval has 2.5 % of films above it: a sum of squares is skewed, and the
-/// more so the fewer pixels its spread is from, which `cubes` tells. Below it are fewer than 2.5 %, by the normal
-/// distribution: 1 - 1.96 k, but no less than 1 / (1 + 1.96 k)^2 unless few pixels carry all. `cubes` of 0, as of FLIP:
-/// 1 + 1.96 k above.
+/// of the mean is k = sqrt(2 / n') of it. The errors of 2.5 % of films are above the interval: a sum of squares is
+/// skewed, the more so the fewer pixels its spread comes from, which `cubes` tells. Those of fewer than 2.5 % are below
+/// it: the lower end is that of the normal distribution, 1 - 1.96 k, but no less than 1 / (1 + 1.96 k)^2 unless few
+/// pixels carry all. If `cubes` is 0, as for FLIP, the upper end is 1 + 1.96 k.
 [[nodiscard]] StatedError estimate_error(const ErrorSums& errors, ErrorMetric metric);
 
-/// The mean error of pixels, and a standard error more: sqrt(2 / n') of it.
+/// The mean error of pixels plus its standard error, sqrt(2 / n') of it.
 [[nodiscard]] double cautious_mean(const ErrorSums& errors);
 
-/// The mean error of pixels that the target is: its square for rmse.
+/// The target as a mean error of pixels: its square for rmse.
 [[nodiscard]] double mean_of_target(double target, ErrorMetric metric);
 
 /// "0.00981, 0.0096 to 0.0101".

@@ -22,7 +22,7 @@ class Film {
     Film() = default;
     /// Zeroed, in ordinary memory.
     Film(int width, int height, int samples, PlaneMask planes = {});
-    /// Over film_bytes() of memory that `owner` keeps alive: the sums, and the planes behind them.
+    /// Over film_bytes() of memory that `owner` keeps alive: the sums, and the planes after them.
     Film(int width, int height, int samples, std::shared_ptr<Vec3d> owner, PlaneMask planes = {});
 
     [[nodiscard]] int width() const { return width_; }

@@ -19,7 +19,7 @@ class FastDeflate {
     FastDeflate(const FastDeflate&) = delete;
     FastDeflate& operator=(const FastDeflate&) = delete;
 
-    /// Begins a piece, which knows nothing of bytes before it.
+    /// Begins a piece, which is independent of the bytes before it.
     void begin();
 
     /// What follows the bytes: more of this piece; another piece, which starts at a whole byte; or nothing.
@@ -29,7 +29,7 @@ class FastDeflate {
     /// the next call. Throws std::runtime_error with ISA-L's number of the error.
     [[nodiscard]] std::span<const std::uint8_t> compress(std::span<const std::uint8_t> bytes, Then then);
 
-    /// The checksum Adler-32 (RFC 1950) of bytes behind those with the checksum `before`, which is 1 for none.
+    /// The checksum Adler-32 (RFC 1950) of bytes that follow those with the checksum `before`, which is 1 for none.
     [[nodiscard]] static std::uint32_t adler32(std::uint32_t before, std::span<const std::uint8_t> bytes);
 
   private:

@@ -25,7 +25,7 @@ struct ByteImage {
     std::vector<std::uint8_t> values;  ///< red, green, blue of each pixel: 3 * width * height
 };
 
-/// The values of a ByteImage in memory of somebody else.
+/// A ByteImage whose values are in memory that something else owns.
 struct ByteImageView {
     ByteImageView() = default;
     ByteImageView(int columns, int rows, std::span<const std::uint8_t> levels)

@@ -10,8 +10,8 @@
 
 namespace tandem {
 
-/// The rows behind the filter "sub", as a stream of zlib (RFC 1950). The strips are the same however many threads
-/// compress them, and each starts without a memory of those before: at a multiple of 256 KiB of pixels or so, which
+/// The rows after the filter "sub", as a stream of zlib (RFC 1950). The strips are the same however many threads
+/// compress them, and each is compressed independently of those before it. A strip has about 256 KiB of pixels, so this
 /// costs less than a thousandth of the size.
 class PngStrips {
   public:

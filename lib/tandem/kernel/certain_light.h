@@ -3,17 +3,17 @@
 ///
 /// Needs: a valid CertainView; a hit that certain_hit() gave for the direction; no effects.
 /// Gives: the radiance that advance() gives for the sample in strict, bit for bit, or false.
-/// Method: what reaches float is the cosine of the diffuse lobe and the power of the highlight. Each is bounded from
-///         both sides by the errors of this code and of the general code together. The radiance grows with both, so
-///         that of the lower bounds and that of the upper bounds enclose the general one. Where these two have the
+/// Method: only the cosine of the diffuse lobe and the power of the highlight are rounded to float. Each is bounded
+///         from both sides by the errors of this code and of the general code together. The radiance grows with both,
+///         so that of the lower bounds and that of the upper bounds enclose the general one. Where these two have the
 ///         same bits, the general one has them too.
 /// Bounds: u = 2^-53, f = origin - centre, r the radius, h half the chord, s the distance along the ray, G = |f|^2 / (h
-///         r) >= 1, L the way to the light, S = `extent`. Each bound is for this code plus the general code; |f|
+///         r) >= 1, L the vector to the light, S = `extent`. Each bound is for this code plus the general code; |f|
 ///         >= 1.15 r gives s <= |f| and b >= |f| / 2.
 ///         - s: here b errs by 7 u |f| and the discriminant b^2 - c by 15 u |f|^2, so h by 7.5 u |f|^2 / h + 3 u h;
 ///           there the discriminant errs by 13 u r^2 and c by 5 u |f|^2. Together below 41 u G r; a box: 11 u s.
 ///         - normal: 23 u G + 21 u G + 12 u; of a box exact.
-///         - way to the light, divided by |L|: (8 u S + 41 u G r) / |L| + 12 u; of a box (19 u S) / |L| + 12 u.
+///         - vector to the light, divided by |L|: (8 u S + 41 u G r) / |L| + 12 u; of a box (19 u S) / |L| + 12 u.
 ///         - cosine of light and normal: the sum of these and 6 u, below
 ///           E = u (64 + 64 G + (32 S + 64 G r) / |L|).
 ///         - highlight 2 (L.N) (N.V) - L.V: twice the errors of both cosines, once that of L.V, below 8 E.
@@ -128,7 +128,7 @@ struct CertainCosines {
     T inverse_distance;  ///< of the light
 };
 
-/// `facing`: the cosine of the normal and the way back.
+/// `facing`: the cosine of the normal and the direction back along the ray.
 template <class T>
 TANDEM_HD_INLINE CertainCosines<T> cosines_at(const CertainPoint<T>& point, const CertainLight& light,
                                               const Vec3<T>& along, const T& facing) {

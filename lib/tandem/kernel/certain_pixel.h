@@ -13,9 +13,9 @@ namespace tandem {
 
 /// The directions of a pixel's camera rays, as sample_ray() gives them. The steps are 2^-24 of those of PixelRays, and
 /// offsets are whole numbers: neither rounds, because the steps of a view are 0 or far above the smallest floats. In
-/// the tier fast, offsets are of 32 random bits instead of 24, rounded, which saves a shift. `is_level`: with only x of
-/// the direction changing along rows and only y along columns. Then the other products are zeros, which change nothing
-/// but the sign of a zero.
+/// the tier fast, offsets are of 32 random bits instead of 24, rounded, which saves a shift. `is_level`: only x of the
+/// direction changes along rows, and only y along columns. Then the other products are zeros, which change nothing but
+/// the sign of a zero.
 template <class Real, bool is_level>
 struct PixelDirections {
     Vec3<Real> corner, dx, dy;
@@ -156,8 +156,8 @@ TANDEM_HD_INLINE PixelSum<Real> render_among_slots(const Tracer& tracer, const C
                 } else {
                     certain = hit.slot != CertainHit::unsure && certain_light<Light>(view, plain, hit, radiance);
                 }
-                // All threads leave the loop for what one is not certain of: with the call in the loop, nvcc would keep
-                // the loop's values in memory.
+                // All threads leave the loop when one of them is not certain: with the call in the loop, nvcc would
+                // keep the loop's values in memory.
                 if (companions.any(!certain)) break;
                 result.sum = result.sum + to_wide(radiance);  // a view is valid only if its light is finite
             }

@@ -25,8 +25,8 @@ TANDEM_HD bool has_environment_light(const SceneView& scene) {
     return Effects::has(Effect::environment_light) && scene.environment.illuminates != 0;
 }
 
-/// What kernels read of a kind of environment is a plain struct without undefined bytes, because scene_hash() reads all
-/// of them. Value-initialised it means that the scene has no such environment. It has
+/// The data that kernels read of each kind of environment is a plain struct without undefined bytes, because
+/// scene_hash() reads all of them. Value-initialised, it means that the scene has no such environment. It has
 ///
 /// is_there(kind)         whether the scene has it
 /// view_of(kind, scene)   the same with the arrays that it reads: a view, which has
@@ -47,8 +47,8 @@ concept EnvironmentKind = std::is_trivially_copyable_v<Kind> && requires(const K
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) static_assert(EnvironmentKind<Type>);
 #include "tandem/kernel/lights/lights.def"
 
-/// A direction sampled by the environment `view`, weighted against paths that follow a lobe. Phong highlights do not
-/// show the environment, nor the gradient.
+/// A direction sampled by the environment `view`, weighted against paths that follow a lobe. Phong highlights show
+/// neither the environment nor the gradient.
 template <class Effects, class Real, class View>
 TANDEM_HD_CALL_ON(host)
 IncidentLight<Real> sample_environment_light(const SceneView& scene, const View& view, const LitVertex<Real>& at) {

@@ -1,5 +1,5 @@
 /// The planes of a film beside its colour: what the samples of a pixel hit first. A separate pass over the same camera
-/// rays, so that the path loop need not know of it.
+/// rays computes them, so that the path loop does not depend on them.
 #pragma once
 
 #include "tandem/film/film_planes.h"

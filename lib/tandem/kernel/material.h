@@ -1,4 +1,4 @@
-/// From a material, and what its textures say at a point, to the lobes of a surface.
+/// Converts a material, with the values of its textures at a point, to the lobes of a surface.
 #pragma once
 
 #include "tandem/kernel/surface_lobes.h"

@@ -19,7 +19,7 @@ struct PixelJob {
     // the window in the film
     std::uint32_t film_width;
     std::uint32_t left, top;
-    // last, so that nvcc reads the other members together as if there were none
+    // last, so that nvcc reads the other members together, as without this one
     PixelFilter filter = PixelFilter::box;
 
     /// The number that keys the random numbers of a pixel: in the film, so the bits of a pixel do not depend on the

@@ -1,5 +1,5 @@
-/// Which of a few primitives the camera rays of a tile of pixels may hit, from all of them at once. So a tile of the
-/// background tests nothing, however many samples it takes.
+/// Which of a few primitives the camera rays of a tile of pixels may hit, determined for all rays at once. So a tile of
+/// background tests no primitive for its samples, however many there are.
 ///
 /// Needs: a camera and primitives within coordinate_limit.
 /// Gives: every primitive that a camera ray of the tile hits, and perhaps others.

@@ -38,7 +38,7 @@ struct LocalView {
 /// Where microfacets are anisotropic, x is the direction in which they are rougher; elsewhere it does not matter.
 ///
 /// Where interpolation or a normal map turns the shading normal away from a viewer who is in front of the surface, the
-/// surface looks as from the same angle before it: else silhouettes would have black borders.
+/// surface looks as if seen from the same angle in front of it: otherwise silhouettes would have black borders.
 template <class Effects, class Real>
 TANDEM_HD LocalView<Real> local_view(const Surface<Real>& surface, const SurfacePoint<Real>& point,
                                      const Vec3<Double<Real>>& to_viewer) {

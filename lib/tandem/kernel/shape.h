@@ -14,10 +14,11 @@ namespace tandem {
 /// A plain struct with these functions. They are checked for single rays; packets use the same templates.
 /// - bounds();
 /// - may_touch(): the filter in float, which never rejects a hit;
-/// - hit_interval(): where a ray may hit it, and whether it surely does, in float, for tracers that decide later;
+/// - hit_interval(): where a ray may hit it, and whether it certainly does, in float, for tracers with deferred
+///   decisions;
 /// - first_hit(): the nearest hit in front of the ray's origin, decided in Double<Real>; for a solid also
 ///   first_hit_or_exit(), the hit of a ray that starts on it;
-/// - record_hit(): what the next three need to know about a hit;
+/// - record_hit(): the data about a hit that the next three need;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
 /// - parametrisation(): texture coordinates and their derivatives;
 /// - where area_lights_detail::is_light: view_light() and shines(), to sample it as an area light.

@@ -7,7 +7,7 @@
 ///                         time grow with the depth of calls. The CPU backend compiles kernels once per instruction
 ///                         set and tier, so there the function's name carries both (TANDEM_ISA_TAG): otherwise the
 ///                         linker could keep the copy that an older machine cannot run.
-/// TANDEM_HD_INLINE        host and device, always inline: for what the path loop is made of (math, shapes, lobes).
+/// TANDEM_HD_INLINE        host and device, always inline: for the parts of the path loop (math, shapes, lobes).
 ///                         Not for lights: kernels took a third longer to compile, and were no faster. Not forced on
 ///                         the host in a build with sanitizers (TANDEM_ONE_INSTRUCTION_SET), in kernels that are
 ///                         compiled quickly and in tests (TANDEM_QUICK_KERNELS).

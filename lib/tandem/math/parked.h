@@ -9,8 +9,8 @@
 
 namespace tandem {
 
-/// Keeps a value in local memory on the GPU, so that it takes no registers until it is needed again. The compiler
-/// would keep it in registers, and spill values that a loop in between uses.
+/// Keeps a value in local memory on the GPU, so that it takes no registers until it is needed again. Otherwise the
+/// compiler would keep it in registers, and spill values that a loop in between uses.
 template <class T>
 class Parked {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);

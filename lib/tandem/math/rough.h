@@ -29,7 +29,7 @@ TANDEM_HD_INLINE float rough_inverse_square_root(float a) {
 #endif
 }
 
-/// lesser() and greater(), but for the sign of a zero, where `a` is no NaN: a single instruction on a GPU.
+/// lesser() and greater(), except for the sign of a zero, where `a` is no NaN: a single instruction on a GPU.
 TANDEM_HD_INLINE float rough_lesser(float a, float b) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
     float result;

@@ -1,6 +1,6 @@
-/// The levels of 8 bits of sums of samples, written once for the host (images/tone_curve.h) and for GPUs. A transfer
+/// The 8-bit levels of sums of samples, written once for the host (images/tone_curve.h) and for GPUs. A transfer
 /// function is applied in two steps: place() is arithmetic alone, so compilers vectorise loops over it; at() may look
-/// into a table. In one loop, the table would keep all of it scalar.
+/// into a table. In a single loop, the table would prevent vectorisation.
 #pragma once
 
 #include <array>

@@ -18,7 +18,7 @@ struct OracleHit {
 };
 
 /// The nearest hit in front of the origin of a ray from `source`; at equal t the lower id wins. Rays that are not
-/// traceable miss. Tries every primitive, where the backend leaves out those whose bounding ball the line passes.
+/// traceable miss. Tries every primitive; the backend leaves out those whose bounding ball the line misses.
 [[nodiscard]] OracleHit oracle_trace(const PreparedScene& scene, const Ray<float>& ray, const RaySource& source = {});
 
 [[nodiscard]] std::unique_ptr<Backend> make_oracle_backend(const BackendOptions& options);

@@ -9,7 +9,7 @@
 
 namespace tandem::oracle {
 
-/// Separate random numbers in [0, 1), for what the oracle estimates in another way than the backends.
+/// Separate random numbers in [0, 1), for quantities that the oracle estimates in another way than the backends.
 class Chance {
   public:
     Chance(const SampleId<float>& sample, std::uint32_t vertex) : sample_(sample), vertex_(vertex) {}

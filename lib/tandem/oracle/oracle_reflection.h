@@ -24,9 +24,9 @@ struct Reflectances {
     Real shininess;
     bool has_facets = false;
     bool is_hidden = false;  ///< microfacets and fibres on the back of a single-sided surface reflect no light source
-    Vector f0{0, 0, 0};      ///< of microfacets: reflectance head-on
+    Vector f0{0, 0, 0};      ///< of microfacets: reflectance at normal incidence
     Real f90 = 1;            ///< the same at grazing angles
-    Real border = 0;         ///< the same of what covers the diffuse base
+    Real border = 0;         ///< the same of the layer over the diffuse base
     Real alpha = 0;          ///< of GGX: the least of all directions
     Real alpha_along = 0;    ///< the most, in the direction `along`, which is 0 where both are equal
     Vector along{0, 0, 0};

@@ -25,9 +25,9 @@ struct TargetFrame {
     double mean_samples = 0;   ///< per pixel
 };
 
-/// A render that can be saved between two windows of its film, and go on later.
+/// A render that can be saved between two windows of its film, and resumed later.
 struct Resumption {
-    std::optional<RoundState> begin;  ///< where to go on from
+    std::optional<RoundState> begin;  ///< where to resume
     RenderCounters counters{};        ///< of what is in `begin`
     /// Called now and then, and before an interrupted render returns, unless it is empty.
     std::function<void(const RoundState&, const RenderCounters&)> save{};
@@ -35,15 +35,15 @@ struct Resumption {
 };
 
 /// Renders square tiles of target_tile_edge() pixels in rounds, which allot() decides. After each round it knows the
-/// errors of all tiles from all samples so far, and decides the next round by them. What a last round shows has decided
-/// nothing: so the error that is reported is estimated from the samples of the last round alone, those that did not
-/// stop it, or from those since the first such round if it did not end the render. (Two-stage sampling: C. Stein, "A
-/// two-sample test for a linear hypothesis whose power is independent of the variance", Annals of Mathematical
-/// Statistics, 1945.) If that error, at the lower end of its interval, is above the target, rounds go on. The interval
-/// also has that of the error from all samples, which have decided something, but are more: they show what the film
-/// itself has caught. (Not for flip, which is always estimated from all.)
+/// errors of all tiles from all samples so far, and decides the next round by them. The samples of a last round have
+/// not decided that it is the last. So the reported error is estimated from these samples alone or, if the first such
+/// round did not end the render, from all samples since that round began. (Two-stage sampling: C. Stein, "A two-sample
+/// test for a linear hypothesis whose power is independent of the variance", Annals of Mathematical Statistics, 1945.)
+/// If that error, at the lower end of its interval, is above the target, rounds go on. The interval also contains that
+/// of the error estimated from all samples. Some of these have decided something, but they are more: they show what the
+/// film itself has caught. (Not for flip, which is always estimated from all.)
 ///
-/// Decisions depend on the film alone, so in the exact tiers every backend draws the same bits. The time limit is the
+/// Decisions depend on the film alone, so in the exact tiers every backend renders the same bits. The time limit is the
 /// exception: a round does not start if, by the time of the rounds before, it would end too late; the first always
 /// does. Once `interrupted` is set, no window of the film starts; nothing is returned if a tile has no samples, or if
 /// the render was saved. `clock`: seconds.
@@ -66,7 +66,7 @@ struct Resumption {
 /// The sum over tiles.
 [[nodiscard]] ErrorSums sum_of(const std::vector<TileErrors>& tiles);
 
-/// Throws InputError that says what to do if the plan is blurred.
+/// Throws InputError that says what to do if the plan has motion blur.
 void check_still(const FramePlan& plan);
 
 }  // namespace tandem

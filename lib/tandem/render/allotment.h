@@ -19,18 +19,19 @@ namespace tandem {
 /// The samples of every tile in the first round, or the most samples if these are fewer.
 inline constexpr int first_round_end = 16;
 
-/// A tile, and its errors as its samples so far show them.
+/// A tile, and its errors as estimated from its samples so far.
 struct TileErrors {
     ErrorSums errors;     ///< with `samples`
     double exponent = 1;  ///< the errors fall with the number of samples to the power -exponent
     int samples = 0;      ///< per pixel
-    /// errors.sum as the tiles around suggest it too; what parts gain is judged by it, if it is there.
+    /// errors.sum, estimated from the tiles around it as well; if it is there, the gain of parts is computed from it.
     std::optional<double> likely{};
 };
 
 /// Sets `likely` of every tile of a grid: a fifth of it is the mean of the tile and its neighbours, each as if it had
-/// the samples of the tile. Bright samples that are rare are found in some tiles and not in others that have as many of
-/// them. By its own samples alone a tile without one would get no more, and would keep an error that nothing shows.
+/// the samples of the tile. Rare bright samples are found in some tiles and missed in others where they are as
+/// frequent. Judged by its own samples alone, a tile that missed them would get no more samples, and would keep an
+/// error that nothing shows.
 void look_around(std::vector<TileErrors>& tiles, const TileGrid& grid);
 
 struct Allotment {
@@ -45,10 +46,10 @@ struct Allotment {
 /// samples (J. Neyman, "On the Two Different Aspects of the Representative Method", Journal of the Royal Statistical
 /// Society 97 (4), 1934).
 ///
-/// If no tile needs more than twice its samples, the round is the last: what it shows has decided nothing. Otherwise
-/// only the tiles that need more than that get samples in this round, twice as many as they have, and the next round is
-/// allotted by what is known then. If the target is not reached, and all tiles with an error have the most samples, no
-/// tile is in the round. If the target has no error, all tiles get twice as many.
+/// If no tile needs more than twice its samples, the round is the last: its samples decide nothing. Otherwise only the
+/// tiles that need more than that get samples in this round, twice as many as they have, and the next round is allotted
+/// by what is known then. If the target is not reached, and all tiles with an error have the most samples, no tile is
+/// in the round. If the target has no error, all tiles get twice as many.
 [[nodiscard]] Allotment allot(std::span<const TileErrors> tiles, const RenderTarget& target, int most);
 
 /// The errors of a tile if it had `samples`.

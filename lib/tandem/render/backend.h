@@ -23,7 +23,7 @@ namespace tandem {
 
 struct PreparedScene;
 
-/// What one of several backends that work together has done so far (combined_backend.h).
+/// The work that a member of a combined backend has done so far (combined_backend.h).
 struct MemberWork {
     std::string name;           ///< "GPU 1"
     std::string device;         ///< its own Capabilities::device
@@ -66,10 +66,10 @@ class PendingFrame {
     [[nodiscard]] virtual RenderResult get() = 0;
 };
 
-/// A frame in levels of 8 bits: what tone_map() makes of its film.
+/// A frame in 8-bit levels: the result of tone_map() for its film.
 struct ImageResult {
     ByteImageView image;
-    std::shared_ptr<const void> memory;  ///< of the values; it returns to the backend when the last pointer goes
+    std::shared_ptr<const void> memory;  ///< of the values; it returns to the backend when the last pointer is released
     std::size_t nan_values = 0;          ///< how many values were NaN and became 0
     RenderStats stats;
 };
@@ -114,8 +114,8 @@ class Backend {
     [[nodiscard]] virtual std::unique_ptr<PendingFrame> submit(std::shared_ptr<ResidentScene> scene,
                                                                const RenderJob& job) = 0;
 
-    /// Starts a frame of which only the levels are wanted. A GPU finds them itself, and its film stays there. Throws
-    /// InputError if the job has planes. By default tone_map() takes the film of submit().
+    /// Starts a frame of which only the levels are needed. A GPU computes them itself, and the film stays in its
+    /// memory. Throws InputError if the job has planes. By default tone_map() takes the film of submit().
     [[nodiscard]] virtual std::unique_ptr<PendingImage> submit_image(std::shared_ptr<ResidentScene> scene,
                                                                      const RenderJob& job, const Display& display);
 
@@ -133,7 +133,8 @@ class Backend {
     /// A film, with undefined contents, in memory that submit_to() fills fast. May be called from any thread.
     [[nodiscard]] virtual Film make_film(int width, int height, int samples, PlaneMask planes);
 
-    /// So many frames, or windows of one, should be submitted before the first is waited for, lest the processor idle.
+    /// The number of frames, or windows of one, to submit before waiting for the first, so that the processor is not
+    /// idle.
     [[nodiscard]] virtual std::size_t frames_in_flight() const { return 2; }
 };
 

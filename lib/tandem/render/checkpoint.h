@@ -11,7 +11,7 @@
 namespace tandem {
 
 struct Checkpoint {
-    ImageMetadata frame;  ///< describe(): what the tiles are of
+    ImageMetadata frame;  ///< describe() of the frame that the tiles belong to
     RenderCounters counters;
     TiledFilm film;
     std::optional<Round> round{};  ///< in progress, of a render to a target
@@ -22,7 +22,7 @@ struct Checkpoint {
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 
 /// Reads it back, bit for bit. Throws InputError that says what to do if the file cannot be read, is no checkpoint, is
-/// damaged, or was written by a version with another form.
+/// damaged, or was written by a version with another format.
 [[nodiscard]] Checkpoint read_checkpoint(const std::string& path);
 
 }  // namespace tandem

@@ -26,7 +26,8 @@ void check_output(const CheckpointOptions& options);
 /// render_frame(), whenever and wherever parts of it were rendered. The file of the checkpoint stays: remove it when
 /// the image is written.
 ///
-/// Throws InputError if the checkpoint is of another scene, job or version, with what differs, or is damaged.
+/// Throws InputError if the checkpoint is of another scene, job or version (the message says what differs), or is
+/// damaged.
 [[nodiscard]] std::optional<RenderedFrame> render_with_checkpoints(Backend& backend, const Scene& scene,
                                                                    const FramePlan& plan, const ImageMetadata& frame,
                                                                    const CheckpointOptions& options,

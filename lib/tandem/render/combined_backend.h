@@ -31,7 +31,7 @@ struct CombinedOptions {
 /// have the bits that any of the members gives. Small windows are not cut; several of them are rendered at once
 /// (frames_in_flight()).
 ///
-/// A member that throws is left out from then on, and other members do again what it had taken. `options.report`, the
+/// A member that throws is left out from then on, and other members redo its unfinished parts. `options.report`, the
 /// warning of the next frame, and capabilities() report this. Only an InputError, which says that the scene or the job
 /// is wrong, is passed on. If no member is left, the error names all of them and their failures: an
 /// EnvironmentError, unless one of the failures was a bug.

@@ -38,7 +38,7 @@ class Pace {
     double seconds_per_unit_ = 0;
 };
 
-/// The same over all that it has done, because parts differ: the last rows of a frame say little about others.
+/// The same over all of its work, because parts differ: the last rows of a frame say little about others.
 class MeanPace {
   public:
     void add(double units, double seconds) {
@@ -46,7 +46,7 @@ class MeanPace {
         units_ += units;
         seconds_ += seconds;
     }
-    /// What was measured so far counts half from now on.
+    /// From now on, the measurements so far have half their weight.
     void fade() { units_ *= 0.5, seconds_ *= 0.5; }
     [[nodiscard]] double get() const { return units_ > 0 ? seconds_ / units_ : 0; }
 
@@ -214,10 +214,10 @@ class Crew {
     void finish(std::size_t index, std::unique_lock<std::mutex>& lock);
     /// A member no longer holds a band of the frame.
     void settle(SharedFrame& frame);
-    /// What happens if a member's band number `which` throws.
+    /// Handles a failure of a member's band number `which`.
     void fail(std::size_t index, std::size_t which, const std::exception_ptr& error);
     void end_with(SharedFrame& frame, const std::exception_ptr& error);
-    /// Gives the member no more work, and what it holds to the others.
+    /// Gives the member no more work, and gives its bands to the others.
     void leave_out(std::size_t index, const std::exception_ptr& error);
 
     [[nodiscard]] bool works_nobody() const;

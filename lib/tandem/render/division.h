@@ -54,11 +54,11 @@ class Division {
 /// A processor that takes part in the work.
 struct Worker {
     double pace = 0;  ///< seconds for a unit; 0: not known yet
-    double busy = 0;  ///< seconds until it has done what it took
+    double busy = 0;  ///< seconds until it has finished the parts that it took
 };
 
-/// Workers that are less than twice as slow as the fastest get the mean pace of these. The rows of a picture may differ
-/// much in cost, so what two workers needed for different rows does not tell which of them is somewhat faster; and if
+/// Workers that are less than twice as slow as the fastest get the mean pace of these. The rows of an image may differ
+/// much in cost, so the times of two workers for different rows do not tell which of them is somewhat faster; and if
 /// one is, it takes more parts.
 inline void level(std::vector<Worker>& workers) {
     double least = std::numeric_limits<double>::infinity(), sum = 0, near = 0;
@@ -97,8 +97,8 @@ inline void level(std::vector<Worker>& workers) {
     }
 }
 
-/// How much a worker takes of its portion: one of `steps` equal parts, so that later parts can make up for what was not
-/// foreseen, such as rows that cost more than others; all of it if less than `least` would be left. So the parts become
+/// How much a worker takes of its portion: one of `steps` equal parts, so that later parts can make up for unforeseen
+/// costs, such as rows that cost more than others; all of it if less than `least` would be left. So the parts become
 /// smaller towards the end. Before its pace is known it takes a sixteenth, to learn it. (Guided self-scheduling: C.
 /// Polychronopoulos, D. Kuck, IEEE Transactions on Computers C-36(12), 1987.)
 [[nodiscard]] inline std::size_t part_size(double portion, int steps, bool is_known, std::size_t least) {

@@ -21,8 +21,8 @@ namespace tandem {
 ///   value x becomes m + max(0, 1 - v / s^2) (x - m). (J.-S. Lee, "Digital Image Enhancement and Noise Filtering by Use
 ///   of Local Statistics", IEEE PAMI 2 (2), 1980.) Noise in both images would hide differences of edges and points. In
 ///   windows of 9 x 9 and then of 17 x 17 pixels whose s^2 is not significantly above v, the value becomes m, and the
-///   variance of the pixel's noise v. What little noise a smooth region kept would be clipped beside white as the
-///   film's is, and few samples know their own variance badly.
+///   variance of the pixel's noise v. Otherwise the little noise that a smooth region kept would be clipped next to
+///   white, as the film's is, and the variance estimated from few samples is inaccurate.
 /// - The noise of a pixel is a random combination of the differences between the means of fresh and of other samples,
 ///   of the pixel and its eight neighbours: so the channels are correlated as in the film. Each channel is scaled to
 ///   the variance of the pixel's mean, or to v.

@@ -8,15 +8,15 @@
 
 namespace tandem {
 
-/// What decides the film of a frame, as metadata: the hash of its scene (FrameHash), the job, the backend and Tandem's
-/// version. The film's hash and the display stay empty.
+/// Everything that determines the film of a frame, as metadata: the hash of its scene (FrameHash), the job, the backend
+/// and Tandem's version. The film's hash and the display stay empty.
 [[nodiscard]] ImageMetadata describe(const RenderJob& job, std::string scene_hash, std::string backend);
 
 /// The job that `metadata` describe, without planes. Throws InputError for values that describe none.
 [[nodiscard]] RenderJob job_of(const ImageMetadata& metadata);
 
-/// What of describe(), or of the target, differs, except for the backend: "seed is 1 there, but 2 here; ...". Empty if
-/// nothing does: then the films have equal bits.
+/// The differences in describe(), or in the target, except for the backend: "seed is 1 there, but 2 here; ...". Empty
+/// if there are none: then the films have equal bits.
 [[nodiscard]] std::string difference_of_films(const ImageMetadata& there, const ImageMetadata& here);
 
 }  // namespace tandem

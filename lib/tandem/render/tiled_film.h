@@ -1,4 +1,4 @@
-/// A film in tiles, each with samples of its own: for renders that go on later, and for adaptive sampling.
+/// A film in tiles, each with samples of its own: for renders that are resumed later, and for adaptive sampling.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-/// Frames rendered tile by tile, so that a render can stop between tiles and go on later, on any backend, with the bits
-/// of a render without a stop.
+/// Frames rendered tile by tile, so that a render can stop between tiles and be resumed later, on any backend, with the
+/// bits of an uninterrupted render.
 #pragma once
 
 #include <functional>

@@ -7,9 +7,9 @@
 
 namespace tandem {
 
-/// A self-contained page: plots are SVG, images are data: URIs, styles are inline. A script is part of it only if
-/// it compares pictures. It is light
-/// or dark like the reader's system. All text is escaped. The machine and all rows are at the end.
+/// A self-contained page: plots are SVG, images are data: URIs, styles are inline. It contains a script only if it
+/// compares pictures. It is light or dark like the reader's system. All text is escaped. The machine and all rows are
+/// at the end.
 [[nodiscard]] std::string to_html(const Report& report);
 
 }  // namespace tandem

@@ -63,7 +63,7 @@ TANDEM_HD_INLINE constexpr bool is_complete(LobeFlags flags) {
 /// sample(wo, u)  a direction; u: uniform numbers in [0, 1), of 24 bits or more
 /// albedo(wo)     approximate albedo for light that leaves along wo, RGB, to choose a lobe. Above 0 where the albedo is
 /// colour()       its nominal albedo, RGB, for the albedo plane (kernel/first_hit.h)
-/// scatters()     the lanes in which it may not be black; L{} is black
+/// scatters()     the lanes in which it may be other than black; L{} is black
 /// select(mask, a, b)  `a` in the lanes of `mask`, else `b`
 ///
 /// Where wo is below the surface, f and pdf are 0 and samples are not valid; for a lobe that only reflects, also where

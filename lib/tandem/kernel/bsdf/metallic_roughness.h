@@ -30,7 +30,7 @@ struct MetallicRoughnessLobes {
 ///
 /// Schlick's reflectance is linear in f0, so the specular parts of dielectric and metal are one lobe, whose f0 is the
 /// mix of theirs: the sum is that of the appendix, and no approximation. The direction of KHR_materials_anisotropy is
-/// the frame's x. Held by tests/kernel/bsdf/metallic_roughness_test.cpp.
+/// the frame's x. Tested by tests/kernel/bsdf/metallic_roughness_test.cpp.
 template <class Real>
 TANDEM_HD_INLINE MetallicRoughnessLobes<Real> lobes_of(const MetallicRoughness<Real>& material) {
     using D = Double<Real>;

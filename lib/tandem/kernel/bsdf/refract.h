@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-/// The ray behind an interface. Valid where `transmits`; elsewhere all light is reflected.
+/// The ray beyond an interface. Valid where `transmits`; elsewhere all light is reflected.
 template <class Real>
 struct Refraction {
     Mask<Real> transmits;

@@ -27,11 +27,11 @@ struct CameraView {
     std::int32_t blades = 0;                 ///< of the aperture; 0: round
 };
 
-/// The rays through a pixel: those of its corner, and what an offset adds to them.
+/// The rays through a pixel: the one through its corner, and the steps that an offset adds to it.
 template <class Real>
 struct PixelRays {
     Vec3<Real> origin, direction;  ///< through the corner
-    Vec3<Real> dx, dy;  ///< the steps of what changes: of the origin if `orthographic`, else of the direction
+    Vec3<Real> dx, dy;             ///< the steps of the origin if `orthographic`, else of the direction
     bool orthographic;
 
     /// The ray through an offset from the corner: in [0, 1)^2, or farther with a wide filter (sampler/pixel_filter.h).

@@ -1,4 +1,4 @@
-/// What an environment gives for a direction.
+/// A sampled direction of an environment, and the radiance along a direction.
 #pragma once
 
 #include "tandem/math/vec.h"

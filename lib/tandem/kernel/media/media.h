@@ -99,7 +99,7 @@ struct Interface {
 };
 
 // The interface of a solid of `material`, hit from inside or outside, in the lanes of `active`. Updates `stack` to the
-// state behind the interface.
+// state beyond the interface.
 template <class Effects, class Real>
 TANDEM_HD_INLINE Interface<Real> cross_interface(const SceneView&, NoMediumStack<Real>&, const UInt<Real>& material,
                                                  const Mask<Real>& from_inside, const Mask<Real>&) {

@@ -9,7 +9,7 @@
 namespace tandem {
 
 /// Each has a block of four numbers for every vertex of a path. Samplers other than random make them in pairs of
-/// numbers (first_of_pairs()): what is a point should be a pair.
+/// numbers (first_of_pairs()): the coordinates of a point should be a pair.
 enum class Dimension : std::uint32_t {
     film = 0,         ///< numbers 0 and 1: position in the filter of the pixel; at vertex 0 only
     scatter = 1,      ///< number 0: choice of a lobe; 1: reflection or refraction; 2: Russian roulette
@@ -64,8 +64,8 @@ TANDEM_HD_INLINE PhiloxBlock<Word> sobol_block(JobSampler sampler, const Word& p
     if (first_of_pairs(dimension) == 1) return {{b.v, a.u, a.v, b.u}};
     return {{a.u, a.v, b.u, b.v}};
 }
-/// The same for kernels that are linked for the sampler, and for all others, which should be as if they had only
-/// random.
+/// The same for kernels that are linked for the sampler, and then for all others: out of line, so that these are
+/// compiled as if they had only random.
 template <class Word>
 TANDEM_HD_CALL_ON(device)
 PhiloxBlock<Word> sobol_by_call(JobSampler sampler, Word pixel, Word sample, Word use, Dimension dimension) {

@@ -12,8 +12,8 @@ struct PhiloxBlock {
 
 inline constexpr int philox_rounds = 10;
 
-/// The keys of the rounds. Host code forms them once for a seed: on a GPU they are then constants of the kernel's
-/// parameters, where forming them takes two additions a round.
+/// The keys of the rounds. Host code forms them once for a seed: on a GPU they are then constants among the kernel's
+/// parameters; forming them there would take two additions a round.
 struct PhiloxKeys {
     std::uint32_t of_round[philox_rounds][2];
 };

@@ -20,7 +20,7 @@ enum class PixelFilter : std::uint32_t {
 #undef TANDEM_PIXEL_FILTER
 };
 
-/// A number that LinkedFacts::filter has if a kernel is for every filter.
+/// The value of LinkedFacts::filter in a kernel for every filter.
 inline constexpr std::uint32_t any_filter = ~0U;
 
 /// The filter of a job: the constant of the kernel (cuda/linked_facts.h), if there is one.
@@ -81,7 +81,7 @@ TANDEM_HD_INLINE Real offset(PixelFilter filter, const Real& u) {
     return half + select(side < zero, zero - distance, distance);
 }
 
-/// Out of line, for kernels that are for every filter and should be as if they had only box.
+/// Out of line, so that kernels for every filter are compiled as if they had only box.
 template <class Real>
 TANDEM_HD_CALL Vec2<Real> offsets_aside(PixelFilter filter, Real u, Real v) {
     return {offset(filter, u), offset(filter, v)};

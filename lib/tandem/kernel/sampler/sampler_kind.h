@@ -23,7 +23,7 @@ struct JobSampler {
     return {kind, hashed(key + frame)};
 }
 
-/// A number that LinkedFacts::sampler has if a kernel is for every sampler.
+/// The value of LinkedFacts::sampler in a kernel for every sampler.
 inline constexpr std::uint32_t any_sampler = ~0U;
 
 /// Whether the sampler is a constant in this kernel (cuda/linked_facts.h).

@@ -33,8 +33,8 @@ TANDEM_HD_INLINE Mask<Real> is_closer(const Double<Real>& t, const UInt<Real>& p
     return t < best.t || (t == best.t && primitive < best.primitive);
 }
 
-/// What the surface point, the normals and the parametrisation of a hit need beside t. record_hit() of each shape
-/// computes it once.
+/// The data, besides t, that determine the surface point, the normals and the parametrisation of a hit. record_hit() of
+/// each shape computes it once.
 template <class Real>
 struct HitRecord {
     UInt<Real> part = UInt<Real>(0U);            ///< box: the face (box.h); quad: the triangle, 0 or 1

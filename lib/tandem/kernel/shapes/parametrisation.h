@@ -5,9 +5,9 @@
 ///                         towards +x (3/4); v = 0 at the pole +y, 1 at -y. At the poles u is 1/2
 ///   box, parallelepiped   the whole square on each face, not mirrored, seen from outside. +x, -x, +z, -z: upright, the
 ///                         top at +y. +y: its top at -z, and -y: its top at +z
-///   triangle, quad        what their corners say, linear in each triangle; else a quad has the whole square,
-///                         v0 (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1), a triangle its half with v0, v1 (1, 0), v2 (0,
-///                         1)
+///   triangle, quad        the coordinates of their corners, linear in each triangle; without these, a quad has the
+///                         whole square, v0 (0, 0), v1 (1, 0), v2 (1, 1), v3 (0, 1), and a triangle the half with
+///                         v0 (0, 0), v1 (1, 0), v2 (0, 1)
 ///
 /// Spheres and boxes have the axes of the world, ellipsoids and parallelepipeds those of their object space. So
 /// prepare() converts textured primitives that are rotated or mirrored to the latter.

@@ -300,7 +300,7 @@ TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, c
 ///         triangles at an edge. They are computed in double, with differences of products that do not cancel, and
 ///         exactly where a sign is within its error of zero; so is the sign of t. This needs no shear and no
 ///         reciprocal. t comes from the plane, in pairs of doubles. In double alone it would cancel for an origin just
-///         above a large triangle, and its last bit would give shared edges now to one id, now to the other.
+///         above a large triangle, and its last bit would decide at random which id wins at a shared edge.
 /// Source: the volumes are those of S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
 ///        2013, before their shear; W. Kahan for the differences of products; J. R. Shewchuk, "Adaptive Precision
 ///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by

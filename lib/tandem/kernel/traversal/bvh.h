@@ -12,12 +12,12 @@
 namespace tandem {
 
 inline constexpr int bvh_width = 4;
-/// Behind the entries of all primitives, those that children that are not there may name.
+/// The number of spare entries after those of all primitives: absent children may refer to them.
 inline constexpr int spare_entries = bvh_width - 1;
 
 /// The planes of the children's boxes are multiples of the node's steps, from its corner: 48 bytes, three loads of 16.
-/// Inner children come first. A child that is not there has an empty box; rounding may let a ray enter it, so its
-/// entry exists as well.
+/// Inner children come first. An absent child has an empty box; rounding may let a ray enter it, so its entry
+/// exists as well.
 struct alignas(16) BvhNode {
     float corner[3];
     std::uint32_t frame;       ///< a byte per axis: the exponent of 128 steps, as in a float; then the inner children

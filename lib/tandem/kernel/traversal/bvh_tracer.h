@@ -1,4 +1,4 @@
-/// Traces rays through the hierarchy, and decides in its leaves or behind the walk.
+/// Traces rays through the hierarchy, and decides in its leaves or after the traversal.
 #pragma once
 
 #include "tandem/kernel/traversal/bvh_walk.h"
@@ -25,10 +25,10 @@ TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source
 
 }  // namespace bvh_detail
 
-/// Where a BvhStructure decides. The bits are the same.
+/// Where a BvhStructure decides. The choice changes no bit.
 enum class Decisions {
     in_leaves,    ///< at once
-    behind_walk,  ///< the walk keeps candidates by their intervals (hit_interval.h), and all threads decide together
+    behind_walk,  ///< after the traversal, by all threads together, for candidates kept by interval (hit_interval.h)
 };
 
 /// `kind_set`: as for LoopTracerFor. Rays of the tier fast are decided in leaves in any case.
@@ -36,7 +36,7 @@ template <std::uint32_t kind_set, Decisions decisions = Decisions::in_leaves>
 struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
     static constexpr bool has_hierarchy = true;
-    /// At the edges of a mesh more faces than two are unsure.
+    /// At the edges of a mesh more than two faces are unsure.
     static constexpr int most_candidates = (kinds & PrimitiveKinds::faces) != 0 ? 4 : 2;
 
     template <class Real>
@@ -83,12 +83,12 @@ struct BvhStructure {
         return false;
     }
 
-    /// Whether a candidate is the number of its entry, else it is the id. The walk then reads no ids.
+    /// Whether a candidate is the number of its entry instead of its id. Then the traversal reads no ids.
     template <class From>
     static constexpr bool keeps_entries = std::is_same_v<From, NoSource> &&
                                           (kinds == PrimitiveKinds::sphere || kinds == PrimitiveKinds::parallelepiped);
 
-    /// keep() for all entries on the ray's way.
+    /// Calls keep() for all entries that the ray may hit.
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE bvh_detail::WalkEnd collect(const From& source, const QueryRay& query, float enough, float& limit,
                                                  Candidates<most_candidates>& candidates) const {
@@ -117,9 +117,9 @@ struct BvhStructure {
                                [&](const auto& primitive) { test_primitive(primitive, id, ray, source, true, best); });
     }
 
-    /// For the few rays with too many candidates: walks once more, with what is known of the limit. Unsure hits are
-    /// decided at once, and certain ones if there is no place for them. Out of line, so that other rays need no
-    /// registers for it.
+    /// For the few rays with too many candidates: traverses the hierarchy once more, with the limit that is known by
+    /// now. Unsure hits are decided at once, and certain ones if there is no place for them. Out of line, so that other
+    /// rays need no registers for it.
     template <Search search, class Real, class From>
     TANDEM_HD_CALL Closest<Real> decide_crowd(const BvhStructure& self, Ray<Real> ray, From source, Closest<Real> best,
                                               float limit) {
@@ -160,7 +160,7 @@ struct BvhStructure {
         return (kinds & kind) != 0 && ((kinds & ~kind) == 0 || !may_have(kinds & ~kind));
     }
 
-    /// After a walk whose stack was full.
+    /// After a traversal whose stack was full.
     template <class Real, class From>
     TANDEM_HD_INLINE void try_what_was_missed(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         bvh_detail::count(bvh.stack_overflows);

@@ -1,4 +1,4 @@
-/// The walk of a ray through the hierarchy: nearest child first, the others on a stack in local memory.
+/// The traversal of the hierarchy by a ray: nearest child first, the others on a stack in local memory.
 /// Source: T. Aila, S. Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009.
 #pragma once
 
@@ -17,8 +17,8 @@ struct BvhView {
     const RoughPlacement* placements;      ///< of the ellipsoids, then the parallelepipeds; or see placed_by_entry
     StructureFrame frame;
     unsigned long long* stack_overflows;  ///< counts rays whose stack was full; may be null
-    /// The bits of 8 in half precision, whose lower byte becomes that of a plane. A member, so that the compiler does
-    /// not know it: a permutation of bytes takes one constant, and that is its pattern.
+    /// The bits of 8 in half precision, whose lower byte becomes that of a plane. A member, so that it is no constant
+    /// to the compiler: a permutation of bytes takes one constant, which is its pattern.
     std::uint32_t bits_of_8 = 0x4800U;
     std::uint32_t placed_by_entry =
         0;  ///< 1: all primitives are parallelepipeds, with placements in the order of entries
@@ -99,13 +99,13 @@ TANDEM_HD_INLINE void count(unsigned long long* counter) {
 #endif
 }
 
-/// How a walk ended.
+/// How a traversal ended.
 struct WalkEnd {
     bool stopped;
     bool stack_was_full;  ///< not all entries were visited
 };
 
-/// The stack of a walk in local memory.
+/// The stack of a traversal, in local memory.
 struct LocalStack {
     std::int32_t entries[bvh_stack_size];
 
@@ -113,8 +113,8 @@ struct LocalStack {
     [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
 };
 
-/// A place in the hierarchy, and on a stack. The stack is the caller's: as a member its array would take all of the
-/// walk into local memory.
+/// The state of a traversal: a place in the hierarchy, and on a stack. The stack belongs to the caller: as a member,
+/// its array would move the whole state to local memory.
 struct Walk {
     std::int32_t at;   ///< 0 or more: a node; negative: ~entry; or no_child, at the end
     std::int32_t top;  ///< of the stack, in a register, so that the next node is known before the memory answers
@@ -145,7 +145,7 @@ struct Walk {
             pop(stack);
             return;
         }
-        // a full stack ends the walk, without a branch of its own, because that would make warps diverge
+        // a full stack ends the traversal, without a branch of its own, because that would make warps diverge
         constexpr int fullest = bvh_stack_size - (bvh_width - 1);
         const bool is_full = depth > fullest;
         depth = is_full ? fullest : depth;

@@ -32,7 +32,7 @@ struct Candidates {
         overflow = placed ? overflow : 1U;
     }
 
-    /// Whether the next one would have no place.
+    /// Whether there is no place for another one.
     [[nodiscard]] TANDEM_HD_INLINE bool is_full(float limit) const {
         bool full = true;
         for (int k = 0; k < most; ++k) full = full && lo[k] <= limit;

@@ -4,7 +4,7 @@
 /// Gives: the primitive that the exact tests give, or that nothing is hit, or that float does not suffice. Of a box
 ///        also the axis of the face that the ray enters.
 /// Method: as in hit_interval.h, with intervals of the parameter t |d|^2 and without a unit direction. A solid that may
-///         or may not be hit, an overlap of the two nearest, and an edge of a box are left open.
+///         or may not be hit, an overlap of the two nearest, and an edge of a box are left undecided.
 /// Bounds: u = 2^-24, f = origin - centre, rounded to float.
 ///         Sphere: b = -f . d errs by 4 u |f| |d|, so b^2 errs by 8 u |f|^2 |d|^2; c |d|^2, with c < |f|^2, errs by
 ///         6 u |f|^2 |d|^2. So the discriminant b^2 - c |d|^2 errs by less than e = 24 u |f|^2 |d|^2 (`margin`, which
@@ -30,7 +30,8 @@ struct CertainHit {
 
 namespace certain_detail {
 
-/// One of the intervals so far, and the least beginning of the others: where it ends before that, it is the nearest.
+/// One of the intervals so far, and the least lower end of the others: if the interval ends before that, its hit is the
+/// nearest.
 struct Nearest {
     static constexpr float infinity = __builtin_huge_valf();
 
@@ -85,8 +86,8 @@ TANDEM_HD_INLINE void meet(const CertainBox& box, std::uint32_t slot, const Vec3
 
 }  // namespace certain_detail
 
-/// `slots`: the solids that the ray may hit, as in ConstantMemoryStructure; best the same for all threads of a warp.
-/// `among_few`: they are in few_slots.
+/// `slots`: the solids that the ray may hit, as in ConstantMemoryStructure; preferably the same for all threads of a
+/// warp. `among_few`: they are in few_slots.
 template <bool among_few = false>
 TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& direction, std::uint32_t slots) {
     constexpr std::uint32_t all_spheres = (1U << CertainView::max_spheres) - 1;
@@ -99,7 +100,7 @@ TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& di
 #pragma unroll
 #endif
     for (std::uint32_t i = 0; i < spheres; ++i) {
-        // the end is looked for now and then alone, because that costs as much as a slot
+        // checks for the end only now and then, because the check costs as much as a slot
         if (!among_few && i % 4 == 0 && (slots & (all_spheres << i & all_spheres)) == 0) break;
         if ((slots >> i & 1U) != 0) certain_detail::meet(view.spheres[i], i, direction, d2, nearest);
     }
@@ -111,7 +112,7 @@ TANDEM_HD_INLINE CertainHit certain_hit(const CertainView& view, const Vec3f& di
 #endif
         for (std::uint32_t i = 0; i < boxes; ++i) {
             const std::uint32_t slot = CertainView::max_spheres + i;
-            // if there is but one, it is there
+            // with a single slot, the test above has found its box
             if (boxes == 1 || (slots >> slot & 1U) != 0) {
                 certain_detail::meet(view.boxes[i], slot, inverse, d2, nearest);
             }

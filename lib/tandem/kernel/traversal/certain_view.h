@@ -2,8 +2,8 @@
 /// certain_light() need, in the parameters of the kernel. The host makes it for each job.
 ///
 /// Needs: a perspective camera without a lens; spheres and boxes that do not contain it and are not near it; whole
-///        shininesses; magnitudes far from the limits of float. If something is missing, the view is not valid, and
-///        the kernel computes every sample by the general code.
+///        shininesses; magnitudes far from the limits of float. Otherwise the view is not valid, and the kernel
+///        computes every sample by the general code.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct CertainLight {
 struct CertainView {
     static constexpr std::uint32_t max_spheres = 8, max_boxes = 4, max_lights = 4;
     static constexpr std::uint32_t max_shininess = 1024;
-    /// The first slots, for which there is code that asks for no others.
+    /// The first slots, for which there is code that tests no others.
     static constexpr std::uint32_t few_spheres = 4, few_boxes = 1;
     static constexpr std::uint32_t few_slots = ((1U << few_spheres) - 1) | ((1U << few_boxes) - 1) << max_spheres;
 
@@ -65,7 +65,7 @@ struct CertainView {
     std::uint32_t is_finite_sky;  ///< 1: the background of camera rays is finite, with any camera of moderate size
 };
 
-/// What the host keeps of a scene to make its views.
+/// The data of a scene that the host keeps to make its views.
 struct CertainScene {
     Sphere spheres[CertainView::max_spheres];
     Box boxes[CertainView::max_boxes];

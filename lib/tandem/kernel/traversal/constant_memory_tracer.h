@@ -32,7 +32,7 @@ struct ConstantMemoryStructure {
         find_among<search>(all_slots, ray, source, best);
     }
 
-    /// `slots`: those that the ray may hit, best the same for all threads of a warp.
+    /// `slots`: those that the ray may hit, preferably the same for all threads of a warp.
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE void find_among(std::uint32_t slots, const Ray<Real>& ray, const From& source,
                                      Closest<Real>& best) const {

@@ -1,15 +1,16 @@
-/// Where a ray hits a primitive, as an interval, from float alone. So that a traversal need not decide in its loop: it
-/// keeps the few primitives whose intervals overlap at the nearest, and test_primitive() decides about them behind it.
+/// Where a ray hits a primitive, as an interval computed in float alone. With intervals, a traversal need not decide in
+/// its loop: it keeps the few primitives whose intervals overlap the nearest one, and test_primitive() decides about
+/// them afterwards.
 ///
 /// Needs: a QueryRay of a traceable ray, and a primitive within coordinate_limit.
 /// Gives: an interval that contains the query parameter of the hit, if there is one; certain_miss only if there is
 ///        none; a finite `hi` only if there is one. The parameter is that of the t that first_hit_from() returns. Lower
 ///        ends are not negative. NaN and overflow give [0, infinity].
 /// Method: rounding is seen as a small change of the primitive. A solid is grown and shrunk by a bound of all errors,
-///        as lengths: where the ray enters the grown one, no hit is before; where it enters the shrunk one, it has hit.
+///        as lengths: before the ray enters the grown one, there is no hit; where it enters the shrunk one, it has hit.
 ///        A face's volumes are compared with their errors, as in may_touch_triangle().
-/// Bounds: with u = 2^-24, lengths as 1-norms, f = origin - centre. What moves a point of the query ray near the solid
-///        of radius R: the direction and its length, 9 u (|f| + R); the rounding of f, u |f|; products and sums, at
+/// Bounds: with u = 2^-24, lengths as 1-norms, f = origin - centre. Near the solid of radius R, these move a point of
+///        the query ray: the direction and its length, 9 u (|f| + R); the rounding of f, u |f|; products and sums, at
 ///        most 6 u |f|; square roots, reciprocals and their products, 8 u R. The margins are 24 u (|f| + R) + drift or
 ///        more. Terms with 1e-36 keep them above the loss by underflow. With or without fused multiply-adds. Tested
 ///        against exact arithmetic by tests/kernel/traversal/hit_interval_test.cpp.
@@ -143,7 +144,7 @@ TANDEM_HD_INLINE void cut(SolidCrossings& c, float position, float speed, float 
 
 inline constexpr SolidCrossings whole_line = {-infinity, infinity, -infinity, infinity, false};
 
-/// What a placement moves the ray to: a unit solid's space, in float.
+/// The ray that a placement moves to the space of a unit solid, in float.
 struct ObjectQuery {
     Vec3f row_norms;
     Vec3f origin, direction;
@@ -279,7 +280,7 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Quad& quad,
 
 namespace interval_detail {
 
-/// What remains certain of a hit if those at or before the last masked one do not count.
+/// The interval of a hit if hits at or before the last masked one do not count.
 template <class Primitive>
 TANDEM_HD_INLINE HitInterval beyond_masked(const HitInterval& hit, const QueryRay& ray) {
     if (ray.passed == 0.0F || hit.lo > ray.passed) return hit;

@@ -1,5 +1,5 @@
-/// Traces rays through a scene with instanced meshes: two levels propose, and the faces as they are in render space
-/// decide. The bounds of the moved ray are in docs/instances.md.
+/// Traces rays through a scene with instanced meshes: hierarchies of two levels propose faces, and the tests decide on
+/// the faces in render space. The bounds of the moved ray are in docs/instances.md.
 #pragma once
 
 #include "tandem/kernel/traversal/bvh_tracer.h"
@@ -15,7 +15,7 @@ struct alignas(16) EntryFace {
 };
 static_assert(sizeof(EntryFace) == 48);
 
-/// What a walk needs of an instance: an entry of the upper hierarchy, 64 bytes.
+/// The data of an instance that a traversal needs: an entry of the upper hierarchy, 64 bytes.
 struct alignas(16) EntryInstance {
     Vec3f object_from_render[3];  ///< rows, without the translation
     Vec3f centre;                 ///< of the mesh's box, in render space
@@ -113,12 +113,12 @@ TANDEM_HD_INLINE EntryFace load_entry_face(const InstancedBvhView& bvh, std::uin
             static_cast<FaceSides>(r.c)};
 }
 
-/// On a stack: the place where a ray leaves an instance.
+/// A mark on a stack: there the ray leaves an instance.
 inline constexpr std::int32_t leave = no_child - 1;
-/// An instance that is none.
+/// The number that means no instance.
 inline constexpr std::uint32_t outside = 0xFFFFFFFFU;
 
-/// The stack of a walk through both levels, in local memory.
+/// The stack of a traversal of both levels, in local memory.
 struct Stack {
     std::int32_t entries[2 * bvh_stack_size + 1];
 
@@ -126,7 +126,7 @@ struct Stack {
     [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
 };
 
-/// A walk through both levels that can be interrupted.
+/// A traversal of both levels that can be interrupted.
 struct Walk {
     bvh_detail::Walk place;
     std::uint32_t instance = outside;  ///< whose mesh it is in
@@ -135,7 +135,7 @@ struct Walk {
     [[nodiscard]] TANDEM_HD_INLINE bool is_done() const { return place.is_done(); }
 
     /// Calls leaf(instance, face) for the faces that the ray may hit in [start, limit] until one returns true, or the
-    /// walk is done. `leaf` may lower `limit`.
+    /// traversal is done. `leaf` may lower `limit`.
     template <bool starts_late, class Leaf>
     TANDEM_HD_INLINE void go_on(Stack& stack, const InstancedBvhView& bvh, const MeshInstance* instances,
                                 const Parked<QueryRay>& query, const Parked<ExactQuery>& exact, const float& limit,
@@ -147,7 +147,7 @@ struct Walk {
         NodeRay ray{};
         float from = 0;  // the query parameter where `ray` starts
         std::uint32_t number = 0;
-        // that of the level where the walk is; the root of the hierarchy there
+        // takes the ray of the current level; returns the root of the hierarchy there
         const auto take_ray = [&] {
             const QueryRay same_query = query.get();
             if (instance == outside) {
@@ -165,7 +165,7 @@ struct Walk {
         (void)take_ray();
         while (!place.is_done()) {
             if (!place.is_at_entry() && place.at != leave) {
-                // from the query parameter to that of the moved ray, with what the subtraction rounds
+                // from the query parameter to that of the moved ray, with the rounding of the subtraction
                 const float last = loose_multiply_add(4.0F * float_roundoff, limit, limit - from);
                 const float first =
                     starts_late ? loose_multiply_add(-4.0F * float_roundoff, start, start - from) : 0.0F;
@@ -218,7 +218,7 @@ struct InstancedStructure {
         instanced_detail::Stack stack;
         instanced_detail::Walk walk(stack);
         bool blocked = false;
-        // the few rays with as many candidates as are kept decide about those, and go on
+        // the few rays that fill all places decide about their candidates, and go on
         do {
             Candidates<most_candidates> candidates;
             const auto keep = [&](const MeshInstance& instance, const EntryFace& face) {
@@ -254,7 +254,7 @@ struct InstancedStructure {
         }
     }
 
-    /// Of the hits that may replace `best`. No interval starts before 0.
+    /// The limit for hits that may replace `best`. No interval starts before 0.
     template <class Real>
     TANDEM_HD_INLINE static float limit_of(const Proposal<Real>& proposal, const Closest<Real>& best) {
         return greater(to_plain(proposal.limit(best.t)), 0.0F);

@@ -62,7 +62,7 @@ struct Proposal {
     TANDEM_HD_INLINE Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 
   private:
-    /// `length` and `sign` times what a subnormal length in float may be off by. A normal one is off by a few 2^-24 of
+    /// `length` plus `sign` times the largest error of a subnormal length in float. A normal one errs by a few 2^-24 of
     /// itself, which the callers allow for.
     TANDEM_HD_INLINE Double<Real> length_within(double sign) const {
         if constexpr (is_fast<Real>) return widen(length);

@@ -11,8 +11,8 @@ namespace tandem {
 ///
 /// With u = 2^-24, every component of the direction is within 2 u of its own size of a line in the true direction, up
 /// to a common factor within 6 u of 1. So the point at s is within 9 u s of the true one.
-/// `drift` bounds the distance of the origin from the true one, and what the double precision of t and t_offset may
-/// change s by: 8 u S + 3 u t_offset * length for an origin that was moved, where S is the reach of the scene's bounds
+/// `drift` bounds the distance of the origin from the true one, and the change of s by the rounding of t and t_offset
+/// in double: 8 u S + 3 u t_offset * length for an origin that was moved, where S is the reach of the scene's bounds
 /// (the rounding of the origin is sqrt(3) u S; t errs by 2^-26 of itself at most); 2 u S where an origin in double was
 /// rounded; for others 1e-30, so that no margin underflows.
 struct QueryRay {

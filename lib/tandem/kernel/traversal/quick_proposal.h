@@ -1,4 +1,5 @@
-/// propose() for one ray in float, without divisions and roots: the set-up of a ray costs as much as some nodes.
+/// propose() for one ray in float, without divisions and roots: the set-up of a ray costs as much as visiting some
+/// nodes.
 ///
 /// Bound, with u = 2^-24: the square of the length errs by 3 u, its inverse root by 4 u more, and the products round
 /// once. So every component of the direction is within u of its own size of a line in the true direction, up to a

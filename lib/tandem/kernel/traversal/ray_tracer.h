@@ -1,4 +1,4 @@
-/// What the tracers that follow one ray at a time share.
+/// Code that the tracers that follow one ray at a time share.
 #pragma once
 
 #include "tandem/kernel/traversal/intersect.h"

@@ -1,5 +1,5 @@
-/// Meshes that appear many times and are kept once. Their faces are placed when a ray meets them, by the operations
-/// with which place_mesh() places those of other meshes, so no bit depends on it (docs/instances.md).
+/// Meshes that appear many times and are kept once. Their faces are placed when a ray reaches them, by the operations
+/// with which place_mesh() places those of other meshes. So keeping a mesh once changes no bit (docs/instances.md).
 #pragma once
 
 #include <cstdint>

@@ -45,8 +45,8 @@ struct SceneView {
 #include "tandem/kernel/lights/lights.def"
 };
 
-/// A scene with meshes that are kept once. The ids of their faces follow those of all other primitives. A view of its
-/// own, so that kernels of other scenes are as they would be without.
+/// A scene with meshes that are kept once. The ids of their faces follow those of all other primitives. A type of its
+/// own, so that kernels of other scenes contain no code for instances.
 struct InstancedView : SceneView {
     const MeshInstance* instances;
     const InstancedMesh* meshes;  ///< in the order of their ids
