@@ -1,5 +1,5 @@
-/// The paths of the oracle, in extended precision. It shares only the random numbers with lib/tandem/kernel, and so the
-/// choices that depend on them.
+/// The paths of the oracle, in extended precision, after the camera ray. They share only the random numbers with
+/// lib/tandem/kernel, and so the choices that depend on them.
 #pragma once
 
 #include "tandem/film/film_planes.h"
