@@ -1,5 +1,5 @@
 # cmake --install: the programs (component "programs"), and the library with its headers and its CMake package
-# (component "library"). What find_package(Tandem) runs is TandemConfig.cmake.in.
+# (component "library"). find_package(Tandem) runs the configured TandemConfig.cmake.in.
 if(NOT TANDEM_INSTALL)
   return()
 endif()
@@ -14,8 +14,8 @@ install(
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
 )
 
-# tandem_install_header(HEADER): installs a header under lib/, and our headers that it includes. Those of the lobes
-# and of the environments stay here: only kernels ask for them.
+# tandem_install_header(HEADER): installs a header under lib/, and our headers that it includes, except those of the
+# lobes and of the environments: only kernels need them.
 function(tandem_install_header header)
   get_property(known GLOBAL PROPERTY tandem_installed_headers)
   if(header IN_LIST known)
@@ -54,7 +54,7 @@ install(
   COMPONENT library
 )
 
-# Where programs find a shared library once they are installed, and both what is not in the system's folders.
+# Where installed programs find a shared library, and where both find libraries outside the system's folders.
 file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(tandem PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 foreach(program tandem-render tandem-bench tandem-gltf)

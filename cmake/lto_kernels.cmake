@@ -1,6 +1,6 @@
-# Kernels that are linked with facts (cuda/jit_link.h): compiled to LTO-IR, whose bytes become part of a target, and linked
-# already when Tandem is built with facts that hold for many scenes. By commands of their own, because CMake 3.25 has no
-# rule that compiles CUDA to a fat binary, nor one that links a single kernel.
+# Kernels that are linked with facts (cuda/jit_link.h): compiled to LTO-IR, whose bytes become part of a target, and
+# also linked when Tandem is built, with facts that hold for many scenes. These are custom commands, because CMake 3.25
+# can neither compile CUDA to a fat binary nor link a single kernel.
 
 # CMAKE_CUDA_ARCHITECTURES without collective names: "80", "80-real" or "80-virtual".
 function(tandem_cuda_architectures result)
@@ -25,9 +25,9 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# tandem_share_optimiser(TARGET): for kernels whose code does not ask for the GPU. For GPUs before 9.0 the optimiser runs
-# once, for the lowest of them, and machine code is assembled from its output; from 9.0 on, instructions differ that the
-# kernels use (docs/performance.md).
+# tandem_share_optimiser(TARGET): for kernels whose code does not depend on the GPU. For GPUs before 9.0 the optimiser
+# runs once, for the lowest of them, and machine code is assembled from its output. From 9.0 on, some instructions that
+# the kernels use are different (docs/performance.md).
 function(tandem_share_optimiser target)
   tandem_cuda_architectures(architectures)
   tandem_lowest_architecture(lowest)
@@ -120,8 +120,8 @@ endfunction()
 #
 #   std::span<const std::byte> NAMESPACE::NAME()    // declare it where you use it; "": the namespace is tandem::cuda
 #
-# with the bytes of FATBIN, which is called NAME.fatbin. TARGET has to be made in the folder that calls this; for what goes
-# into the library itself that is an object library.
+# with the bytes of FATBIN, which is called NAME.fatbin. TARGET has to be made in the folder that calls this; for code
+# of the library itself, it is an object library.
 function(tandem_embed_fatbin target fatbin namespace)
   if(NOT namespace)
     set(namespace tandem::cuda)
@@ -138,8 +138,8 @@ function(tandem_embed_fatbin target fatbin namespace)
   target_sources(${target} PRIVATE ${embedded})
 endfunction()
 
-# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...]
-# [DEFINES NAME=VALUE...]): tandem_compile_to_lto() of FILE, whose bytes FUNCTION of TARGET gives for JitInput::code
+# tandem_add_lto_kernels(TARGET NAME FUNCTION SOURCE FILE TIER TIER [NAMESPACE NAMESPACE] [INCLUDES DIRS...] [DEFINES
+# NAME=VALUE...]): tandem_compile_to_lto() of FILE, whose bytes FUNCTION of TARGET returns for JitInput::code
 # (tandem_embed_fatbin()).
 function(tandem_add_lto_kernels target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;SOURCE;TIER;NAMESPACE" "INCLUDES;DEFINES")
@@ -169,8 +169,8 @@ function(tandem_add_compiled_kernels target)
   set(name ${CMAKE_CURRENT_BINARY_DIR}/${arg_NAME})
   set(kernel ${CMAKE_CURRENT_BINARY_DIR}/${arg_LINKS}.fatbin)
   set(facts ${CMAKE_CURRENT_BINARY_DIR}/${arg_FACTS}.fatbin)
-  # The link decides about contraction and flushes: without an option for it, nvlink contracts, whatever nvcc's options
-  # were. With one it passes on all of them, with nvcc's values for divisions and square roots.
+  # The link decides on contraction and flush-to-zero: without an option of its own, nvlink contracts, whatever nvcc's
+  # options were. With one, it passes on all of these options, with nvcc's values for divisions and square roots.
   get_target_property(options tandem_cuda_${arg_TIER} TANDEM_LINK_OPTIONS)
   list(TRANSFORM options PREPEND -Xnvvm=)
   # One link for all GPUs, because the optimiser's output does not depend on the GPU (docs/performance.md): PTX of the lowest,

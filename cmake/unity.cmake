@@ -2,7 +2,7 @@
 # goes into those headers and into templates that its neighbours instantiate too (docs/performance.md).
 
 if(TANDEM_UNITY)
-  # g++ collects garbage as often as suits small files: a tenth of the time of these.
+  # g++ collects garbage as often as small files need; in these files that takes a tenth of the time.
   add_compile_options(
     "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:SHELL:--param=ggc-min-heapsize=1000000 --param=ggc-min-expand=200>"
   )

@@ -40,11 +40,12 @@ namespace {
 /// Up to this number of primitives a packet tests all of them; for more, it queries Embree (docs/performance.md).
 constexpr std::size_t loop_limit = 24;
 
-/// What Embree's hierarchy takes at least while it is built: 115 measured with Embree 3.13.
+/// The least memory that Embree's hierarchy takes while it is built; we measured 115 bytes with Embree 3.13.
 constexpr std::size_t bvh_bytes_per_primitive = 100;
 
-/// From this number of primitives on, single rays may go through a hierarchy of groups (docs/performance.md). While it
-/// is built the peak rose by 117 bytes a primitive, for three million spheres and for 1.3 million triangles of a mesh.
+/// From this number of primitives on, single rays may go through a hierarchy of groups (docs/performance.md). Its build
+/// raised the peak of the memory by 117 bytes a primitive, for three million spheres and for 1.3 million triangles of a
+/// mesh.
 constexpr std::size_t least_for_groups = 20'000;
 constexpr std::size_t group_bytes_per_primitive = 120;
 
@@ -83,7 +84,7 @@ class CpuScene final : public ResidentScene {
         times_.build = watch.seconds();
     }
 
-    /// With the time for groups, once there are any.
+    /// Includes the time for groups, once there are any.
     [[nodiscard]] PhaseTimes load_times() const override {
         PhaseTimes times = times_;
         times.build += group_seconds_;
@@ -131,7 +132,7 @@ class CpuScene final : public ResidentScene {
         view_.first_id[embree_quads] = count - quads;
         view_.first_id[embree_triangles] = count - quads - triangles;
         view_.first_id[our_primitives] = 0;
-        // Embree counts floats of faces in 32 bits
+        // Embree's 32-bit indices count the floats of the faces
         const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
         const bool own_faces = tier() != Tier::fast || scene_->triangles.size() > most || scene_->quads.size() > most;
         add_primitives(device, kernels, own_faces ? count : count - quads - triangles);
@@ -163,7 +164,7 @@ class CpuScene final : public ResidentScene {
         const EmbreeGeometry geometry(
             rtcNewGeometry(device, is_quad ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE));
         check_embree(device, "making a scene");
-        // of faces, not of corners: a stride of one float reaches the corners of both kinds
+        // of a face, not of a corner: with a stride of one float, indices reach the corners of both kinds
         constexpr std::size_t floats = sizeof(Face) / sizeof(float);
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, faces.data(), 0,
                                    sizeof(float), faces.size() * floats);
@@ -210,8 +211,8 @@ class CpuBackend final : public Backend {
         : set_(choose_instruction_set(options.instruction_set)), tile_size_(checked_tile_size(options.tile_size)) {
         const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
         if (options.threads < 0) throw InputError("the number of threads must be 0 (one per core) or more");
-        // More threads than cores are allowed: results do not depend on their number, as tests check. Only for these,
-        // because the least value of all backends counts for the whole process.
+        // More threads than cores are allowed: results do not depend on their number, as tests check. The control is
+        // made only then, because the lowest value of all backends applies to the whole process.
         if (threads > tbb::info::default_concurrency()) {
             parallelism_ = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                                  static_cast<std::size_t>(threads));
@@ -234,7 +235,7 @@ class CpuBackend final : public Backend {
     }
 
     [[nodiscard]] std::shared_ptr<ResidentScene> load(const PreparedScene& scene, Tier tier) override {
-        // without its copies it is another scene, which CpuScene makes
+        // CpuScene makes its own scene, without the copies
         if (!scene.copies.empty()) {
             return load_shared(std::shared_ptr<const PreparedScene>(std::shared_ptr<void>(), &scene), tier);
         }

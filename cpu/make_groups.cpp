@@ -45,7 +45,7 @@ void* make_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* prim
     leaf->children = 0;
     leaf->count = static_cast<std::uint32_t>(count);
     for (std::size_t i = 0; i < count; ++i) leaf->id[i] = primitives[i].primID;
-    // the order in which threads met them is not always the same
+    // their order depends on the threads
     std::sort(leaf->id, leaf->id + count);
     return static_cast<TreeNode*>(leaf);
 }

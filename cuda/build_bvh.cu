@@ -61,7 +61,8 @@ class Builder {
                                                MergeCounts{nearest_, state});
     }
 
-    /// One scratch block for everything. `count_` + 1 sums, and in the plan at most a node for each primitive.
+    /// Reserves one block of scratch memory for all arrays. There are `count_` + 1 sums, and the plan has at most one
+    /// node per primitive.
     void reserve() {
         Arena arena;
         const std::size_t n = count_;
@@ -166,7 +167,7 @@ class Builder {
             run_kernel(merge_kernel, most, tree_, nearest_, summed(), most, now, then, list, next);
             std::swap(list, next);
             std::swap(now, then);
-            // short rounds follow each other without a look at the number of clusters
+            // in short rounds, the host fetches the number of clusters only once in rounds_per_look rounds
             if (most > long_round || round % rounds_per_look == 0) state = fetch(now);
         }
         std::uint32_t nodes = state.nodes;
@@ -178,7 +179,7 @@ class Builder {
     /// Joins the clusters on the list from the top down, on the host. `spare`: memory for as many numbers.
     std::uint32_t build_top(const std::uint32_t* list, std::uint32_t clusters, std::uint32_t nodes,
                             std::uint32_t* spare) {
-        auto* boxes_there = reinterpret_cast<Aabb*>(codes_);  // of 24 bytes: reserve() knows
+        auto* boxes_there = reinterpret_cast<Aabb*>(codes_);  // of 24 bytes, for which reserve() makes room
         run_kernel(gather_boxes_kernel, clusters, tree_.nodes, list, clusters, boxes_there);
         const std::vector<Aabb> boxes = download(boxes_there, clusters);
         const std::vector<std::uint32_t> numbers = download(list, clusters);
@@ -224,7 +225,7 @@ class Builder {
         check(cudaStreamSynchronize(stream_), doing);
     }
 
-    /// Moves subtrees to better places, as many at once as do not disturb each other.
+    /// Moves subtrees to better places: at once all moves that do not conflict.
     void improve() {
         const std::uint32_t nodes = root_ + 1;
         auto* claims = reinterpret_cast<unsigned long long*>(codes_);
@@ -241,7 +242,7 @@ class Builder {
         run_kernel(kernel, count_, tree_, whole_, lists_);
     }
 
-    /// How often that many clusters can halve until one is left.
+    /// How often that many clusters can be halved until one is left.
     static int rounds_of_halving(std::uint32_t clusters) {
         int rounds = 0;
         while (clusters > 1) {
@@ -335,7 +336,7 @@ class Builder {
 BuiltBvh build_bvh(const SceneView& scene, BuildMemory& memory, cudaStream_t stream, const BuildEffort& effort) {
     check_bvh_size(primitive_count(scene));
     const BuiltBvh built = Builder(scene, memory, stream, effort).run();
-    // the top and moves may make a tree deeper than rays can walk
+    // the top and the moves may make a tree too deep for the traversal
     return built.levels <= max_bvh_depth ? built : Builder(scene, memory, stream, {1, 0, false}).run();
 }
 

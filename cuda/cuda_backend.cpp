@@ -231,8 +231,8 @@ class CudaBackend final : public Backend {
         return std::make_unique<CudaImage>(std::move(begun), std::move(on_host), window.width, window.height);
     }
 
-    /// Frames of parts take turns in two streams: when the last pixels of one leave multiprocessors idle, the next
-    /// frame has begun there.
+    /// Frames for parts of a film alternate between two streams: when the last pixels of one leave multiprocessors
+    /// idle, the next one already runs there.
     [[nodiscard]] std::unique_ptr<PendingFrame> submit_to(Film film, int left, int top,
                                                           std::shared_ptr<ResidentScene> scene,
                                                           const RenderJob& job) override {
@@ -270,9 +270,9 @@ class CudaBackend final : public Backend {
         return std::make_unique<CudaFrame>(std::move(begun), std::move(place));
     }
 
-    /// For so many pixels at least, a frame for a part of the film reserves memory. A larger frame than any before
-    /// would wait there: memory is not freed before the GPU has done all its work. So it is a quarter of the film,
-    /// unless that is much.
+    /// A frame for a part of the film reserves memory for at least this many pixels: a quarter of the film, up to a
+    /// limit. With less, a frame larger than all before it would have to wait, because memory is not freed before the
+    /// GPU has done all its work.
     static std::size_t pixels_of_parts(const Film& film) {
         constexpr std::size_t most = std::size_t{1} << 23;
         return std::min(film.pixel_count() / 4, most);
@@ -281,7 +281,7 @@ class CudaBackend final : public Backend {
         return static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
     }
 
-    /// What is queued for the download from now on starts after the frame's kernels.
+    /// Downloads that are queued from now on start after the frame's kernels.
     void begin_download(FrameMemory& memory) {
         download_.wait_for(memory.render_end);
         memory.download_start.record(download_.get());
@@ -293,7 +293,7 @@ class CudaBackend final : public Backend {
         memory.download_end.record(download_.get());
     }
 
-    /// Starts the kernels of a frame on a stream. `least_pixels`: reserves memory for so many.
+    /// Starts the kernels of a frame on a stream. `least_pixels`: reserves memory for at least this many.
     [[nodiscard]] Begun begin(std::shared_ptr<ResidentScene> scene, const RenderJob& job, Stream& compute,
                               std::size_t least_pixels = 0) {
         (void)selected(gpu_);
@@ -385,7 +385,7 @@ class CudaBackend final : public Backend {
         return reinterpret_cast<const std::uint32_t*>(level_entries_.data());
     }
 
-    /// Starts the download of sums and planes. What is a whole film is one copy, and so is each plane of whole rows.
+    /// Starts the download of sums and planes. A whole film is one copy, and so is each plane of whole rows.
     void download_film(Vec3d* sums, std::size_t pixels, FilmPlace& place) {
         const FilmWindow& window = place.window;
         Film& film = place.film;
@@ -514,7 +514,7 @@ class CudaBackend final : public Backend {
     bool culls_pixels_;
     bool refits_;
     std::optional<SceneKernels> kernels_;
-    std::map<const void*, KernelFacts> facts_;  ///< of those
+    std::map<const void*, KernelFacts> facts_;  ///< by kernel
     cudaDeviceProp properties_{};
     Stream upload_;
     Stream download_{Stream::Priority::first};  ///< so that levels are found while the next frame is rendered

@@ -54,7 +54,7 @@ class Layout {
   private:
     static constexpr std::size_t alignment = 256, piece_bytes = std::size_t{1} << 24, bytes_at_once = 1U << 20;
 
-    /// Copies what the parts have of a range of `staging`, whose first byte is byte `begin` of all.
+    /// Fills a range of `staging` from the parts. The first byte of `staging` is byte `begin` of the layout.
     void fill(std::byte* staging, std::size_t begin, const Chunk& range) const {
         for (const Part& part : parts_) {
             const std::size_t from = std::max(part.offset, begin + range.begin);
@@ -75,10 +75,11 @@ class Layout {
     std::size_t bytes_ = 0;
 };
 
-/// Whether rays pass many triangles near by before they hit one: from the boxes of some triangles, whose areas over the
-/// area of the scene's box add up to the number of boxes that a line through the scene meets. Then neighbouring rays
-/// take ways of different lengths. It is 4 for a sphere of fine triangles, and 8.9 for a million triangles without
-/// order (named:triangles/1000000), the two scenes in which the limit was tried (docs/performance.md).
+/// Whether rays pass close to many triangles before they hit one, so that traversals of neighbouring rays differ in
+/// length. The criterion is how many boxes of triangles a line through the scene hits on average: the sum of the boxes'
+/// areas, estimated from some triangles, over the area of the scene's box. This number is 4 for a sphere of fine
+/// triangles, and 8.9 for a million triangles without order (named:triangles/1000000), the two scenes in which the
+/// limit was tried (docs/performance.md).
 bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
     constexpr std::uint32_t most_inspected = 1024;
     constexpr double many = 8;
@@ -95,7 +96,7 @@ bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
 
 constexpr std::size_t much_memory = std::size_t{1} << 28;
 
-/// Memory that the next frame needs again is kept unless it is much of what the GPU has.
+/// Releases memory that the next frame needs again only if it is much of the GPU's memory.
 void release_if_large(Buffer<DeviceMemory>& scratch) {
     if (scratch.capacity() < much_memory) return;  // asking takes time
     std::size_t free = 0, all = 0;

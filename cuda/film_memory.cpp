@@ -44,7 +44,7 @@ void* FilmMemory::allocate(std::size_t bytes) {
     const std::size_t rounded = (bytes + large_page - 1) / large_page * large_page;
     std::unique_ptr<std::byte, Free> memory(static_cast<std::byte*>(std::aligned_alloc(large_page, rounded)));
     if (!memory) throw std::bad_alloc();
-    (void)::madvise(memory.get(), rounded, MADV_HUGEPAGE);  // without large pages it takes longer, and that is all
+    (void)::madvise(memory.get(), rounded, MADV_HUGEPAGE);  // may fail: without large pages it only takes longer
     touch_pages(memory.get(), rounded);
     // portable: for all GPUs, which may fill parts of one film
     check(cudaHostRegister(memory.get(), rounded, cudaHostRegisterPortable), "locking the memory of a film");

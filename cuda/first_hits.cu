@@ -1,6 +1,6 @@
 // The kernels that fill the planes of first hits, for one tier (TANDEM_FIRST_HITS_TIER), as the function
 // TANDEM_FIRST_HITS_NAME. TANDEM_FIRST_HITS_TRACERS: with_tracer, or with_instanced_tracer for scenes of instances.
-// cuda/CMakeLists.txt compiles this file for each.
+// cuda/CMakeLists.txt compiles this file for each tier and each of these.
 #include "cuda/first_hit_kernels.h"
 #include "cuda/tier_real.h"
 

@@ -36,8 +36,8 @@ RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocesso
 
 KernelFacts kernel_facts(const void* kernel) {
     const cudaFuncAttributes attributes = attributes_of(kernel);
-    // as it is launched, from its launch bounds or as its registers allow; several blocks of a queue have as many
-    // threads
+    // the threads at launch, from the launch bounds or limited by registers; several blocks of a queue share this
+    // number
     const int threads = std::min(attributes.maxThreadsPerBlock, static_cast<int>(most_queue_threads));
     int blocks = 0;
     check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, threads, 0),

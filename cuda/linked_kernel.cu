@@ -1,7 +1,6 @@
-// The render kernel, to be linked with facts: at load for a scene, and when Tandem is built for all scenes
-// (compiled_facts.cu). Compiled to LTO-IR of its own for each tier (TANDEM_LINKED_TIER), each way to find primitives
-// (TANDEM_LINKED_TRACER), and for paths that are short or long, so that a link does not go through the code of the
-// others.
+// The render kernel, to be linked with facts: for a scene when it is loaded, and for all scenes when Tandem is built
+// (compiled_facts.cu). Compiled to LTO-IR once for each tier (TANDEM_LINKED_TIER), each tracer (TANDEM_LINKED_TRACER),
+// and short and long paths, so that a link does not process code that it does not need.
 //
 // TANDEM_SHORT_PATHS is defined for paths of one vertex, without synchronising_effects. Their code fits into the
 // instruction caches, and TANDEM_HD_CALL_ON(device) is inline.
@@ -49,7 +48,7 @@ struct LinkedEffects {
     [[nodiscard]] TANDEM_HD static bool has(Effect effect) { return has_any(effect); }
 
   private:
-    /// The fact, or the number that the kernel was given if the fact says nothing.
+    /// The fact, or the argument of the kernel if the fact is LinkedFacts::any.
     [[nodiscard]] TANDEM_HD static std::uint32_t either(std::uint32_t fact, std::uint32_t given) {
         return fact == LinkedFacts::any ? given : fact;
     }

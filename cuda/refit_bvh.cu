@@ -71,7 +71,7 @@ BuiltBvh refit_bvh(const SceneView& scene, const BuiltBvh& built, BuildMemory& m
 
 BuiltBvh LastingBvh::of(const SceneView& scene, BuildMemory& memory, cudaStream_t stream, bool allowed) {
     const KindCounts counts = kind_counts(scene);
-    // nothing to move, if this throws
+    // if this throws, there is no hierarchy to refit next time
     const BuiltBvh before = std::exchange(built_, {});
     was_refitted_ = false;
     if (allowed && before.view.nodes != nullptr && counts == counts_) {

@@ -59,7 +59,7 @@ bool has_hierarchy(const DeviceSceneView& scene) {
     return structure_of(scene) == Structure::bvh || structure_of(scene) == Structure::instanced;
 }
 
-/// The tier whose kernels draw.
+/// The tier whose kernels render.
 Tier kernel_tier(Tier tier, Structure structure) {
     return structure == Structure::instanced && tier == Tier::fast ? Tier::strict : tier;
 }
@@ -89,7 +89,8 @@ std::span<const std::byte> linked_code(Tier tier, Structure structure, bool is_l
     return {};
 }
 
-/// Are kernels with these effects for long paths? Their threads take pixels from a queue, a block together.
+/// Whether kernels with these effects are for long paths. The threads of a block then take pixels from a queue
+/// together.
 bool has_queue(EffectMask effects) { return effects.has_any(synchronising_effects); }
 bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bits(facts.effects)); }
 
@@ -197,8 +198,8 @@ std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool fa
     return {};
 }
 
-// Measured on an H200 (docs/performance.md, "Blocks of kernels for long paths"). Exact tiers have much code that few
-// threads run, so more of it may exceed the caches.
+// Measured on an H200 (docs/performance.md, "Blocks of kernels for long paths"). Much of the code of exact tiers runs
+// on few threads, so it may exceed the caches by more.
 unsigned int queue_blocks(Tier tier, std::size_t code_bytes) {
     const std::size_t most = tier == Tier::fast ? 90'000 : 150'000;
     return code_bytes > 0 && code_bytes <= most ? 2 : 1;

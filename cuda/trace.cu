@@ -1,5 +1,5 @@
 // The kernels that trace rays, for one query (TANDEM_TRACE_ASK) and one tier (TANDEM_TRACE_TIER): cuda/CMakeLists.txt
-// compiles this file for each of both, because nvcc takes long for all of them together. Scenes of instances have
+// compiles this file once for each pair, because nvcc takes long for all of them together. Scenes of instances have
 // kernels of their own (trace_instanced.cu).
 #include "cuda/tier_real.h"
 #include "cuda/trace_kernels.h"

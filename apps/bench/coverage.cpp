@@ -79,7 +79,7 @@ class CoveredScene {
     }
 
   private:
-    /// The error of an image with that many samples in every pixel, from a few of them.
+    /// The error of an image with that many samples in every pixel, from a few such images.
     [[nodiscard]] RenderTarget target_of(int samples) {
         const bool is_root = metric_ == ErrorMetric::rmse;
         double sum = 0;
@@ -93,9 +93,9 @@ class CoveredScene {
         target.error = is_root ? std::sqrt(sum / pilots) : sum / pilots;
         return target;
     }
-    /// Replaces the references by ones with `reference_factor` times the samples that a render to the finest target,
-    /// of which no trial knows, gives to each tile: few pixels may carry most of the error, and have most of the
-    /// samples.
+    /// Replaces the references. A separate render to the finest target shows how many samples each tile needs; the new
+    /// references have `reference_factor` times as many. A few pixels may carry most of the error, and they then get
+    /// most of the samples.
     void refine_reference() {
         const auto finest = std::min_element(targets_.begin(), targets_.end(),
                                              [](const auto& a, const auto& b) { return a.error < b.error; });
@@ -130,7 +130,7 @@ class CoveredScene {
         job.height = options_.size.height;
         job.samples = samples;
         job.seed = seed;
-        if (scene_.truth) job.limits = unlimited;  // a closed form is of all light
+        if (scene_.truth) job.limits = unlimited;  // a closed form includes paths of any length
         return job;
     }
     [[nodiscard]] FloatImage render(int samples, std::uint64_t seed) {
@@ -180,7 +180,7 @@ std::vector<double> add_series(BenchmarkRow& row, const std::vector<Trial>& tria
     return values;
 }
 
-/// The forecasts, and how wide they are: the ratios of their ends to their values, less one, on average.
+/// The forecasts and their mean widths: the ratios of the ends of the ranges to the values, minus one.
 void add_plans(BenchmarkRow& row, const std::vector<Trial>& trials) {
     struct Quantity {
         const char* name;

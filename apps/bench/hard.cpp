@@ -25,7 +25,7 @@ using hard::Score;
 /// Kernel functions are tested on the host, whatever the backends.
 constexpr const char* host = "host";
 
-/// All digits of small numbers, else only the power of ten: the errors range from one ulp to all bits.
+/// Scientific notation, with two digits, from 1e5 on: the errors range from one ulp to all bits.
 std::string format_ulps(double ulps) { return ulps < 1e5 ? format_number(ulps) : fmt::format("{:.1e}", ulps); }
 
 /// A row of the table.
@@ -124,7 +124,7 @@ bool report_results(const std::vector<Result>& results, const std::string& capti
     return missed == 0;
 }
 
-/// Times over that of the fastest tier of the same case and backend.
+/// Divides each time by that of the fastest tier of the same case and backend.
 void compare_times(std::vector<Result>& results) {
     std::map<std::pair<std::string, std::string>, double> fastest;
     for (const Result& r : results) {

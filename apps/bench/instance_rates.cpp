@@ -25,7 +25,7 @@ struct InstanceContender {
     std::vector<Hit> hits{};
 };
 
-/// `keeps`: the mesh once. Otherwise its faces are written out.
+/// `keeps`: the mesh is kept once. Otherwise its faces are written out.
 InstanceContender make_contender(Backend& gpu, const std::string& scene, bool keeps, RaySet set,
                                  std::vector<Ray<float>> rays) {
     InstanceContender made;

@@ -30,7 +30,7 @@ struct Texts {
     std::string rays;
 };
 
-/// What of the accuracy report is made, and options of several of its parts.
+/// The parts of the accuracy report to make, and the options that several of them share.
 struct AccuracyChoice {
     std::vector<std::string> parts = {"sweep"};
     std::vector<std::string> scenes;

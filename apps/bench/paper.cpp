@@ -89,14 +89,14 @@ void explain_factor(const PaperMeasurements& m, Report& report) {
     }
 }
 
-/// The median over the frames of a figure of their differences.
+/// The median over the frames of one figure of their differences.
 double median_of(const ResidualSeries& series, double FilmDifference::*figure) {
     std::vector<double> values;
     for (const FilmDifference& difference : series.differences) values.push_back(difference.*figure);
     return median(values);
 }
 
-/// The rung below: docs/paper.md, row 20.
+/// The rasteriser, the rung below ray tracing: docs/paper.md, row 20.
 void explain_rasteriser(PaperMeasurements& m, Report& report) {
     PaperRows& rows = m.rows;
     if (rows.rasterised.seconds.empty() || m.rasterised.differences.empty()) return;
@@ -120,7 +120,7 @@ void explain_rasteriser(PaperMeasurements& m, Report& report) {
         format_number(median_of(m.noise, &FilmDifference::rms)))});
 }
 
-/// A table of what the paper prints, what follows from its numbers, and what was measured.
+/// A table of the figures that the paper prints, those that follow from its numbers, and those measured here.
 Table beside_the_paper(const PaperMeasurements& m) {
     const PaperRows& rows = m.rows;
     const auto measured = [](bool there, auto text) { return there ? text() : std::string("no GPU here"); };

@@ -22,8 +22,8 @@ namespace {
 
 constexpr int pictures_on_page = 6;
 constexpr int largest_picture_width = 500;  ///< pixels, at most
-/// Without a GPU only this many frames are rendered by the paper's method on all threads and by the rasteriser, again
-/// for the residual, and for the throughput of the animation: all of them would take minutes and show little.
+/// Without a GPU, only this many frames are rendered by the paper's method on all threads, by the rasteriser, a second
+/// time for the residual, and for the throughput of the animation: all frames would take minutes and show little.
 constexpr int repeated_frames_without_gpu = 12;
 
 /// One of the programs that take turns in each round.
@@ -169,7 +169,7 @@ class PaperRun {
         if (gpu_) variants_.push_back({all, [this](std::int32_t frame) { run_gpu(frame); }});
     }
 
-    /// Warms up each row, except the slow ones, whose frames take long enough.
+    /// Warms up each row except the slow ones, whose frames take so long that it makes no difference.
     void warm_up() {
         const std::int32_t frame = options_.frames.first;
         std::vector<float> rgb = picture_buffer();

@@ -26,7 +26,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// From this number on growth is judged: with fewer primitives the set-up of a ray dominates.
+/// Growth is judged from this number of primitives on: with fewer, the set-up of a ray dominates.
 constexpr double first_judged = 1000;
 
 /// A backend with a number of threads or GPUs; one line of every plot.
@@ -71,7 +71,7 @@ std::vector<double> numbers_of_primitives(const ScaleOptions& options) {
     return counts;
 }
 
-/// What a plot shows: a value by the number of primitives, for each line.
+/// The lines of a plot: values by the number of primitives.
 using Lines = std::map<std::string, std::vector<Point>>;
 
 LinePlot plot_of(const std::string& title, const std::string& unit, const Lines& lines) {
@@ -143,7 +143,7 @@ class KindScale {
         }
     }
 
-    /// The rays of a second vertex start where the first contender finds the coherent ones to hit.
+    /// The rays of a second vertex start at the hit points of the coherent ones, as the first contender finds them.
     void make_sets(const ScaleContender& contender, ResidentScene& resident,
                    std::map<std::string, RaysToTrace>& sets) const {
         const std::vector<Ray<float>> coherent = make_rays(RaySet::coherent, options_.ray_edge);

@@ -30,7 +30,7 @@ struct FileWork {
     std::size_t parts = 1;
     std::function<void(std::size_t part)> encode;
     std::function<void()> finish{};  ///< once, when all parts are done
-    // of the queue:
+    // state of the queue:
     std::size_t next = 0, done = 0;
     bool failed = false;
 };
@@ -122,7 +122,7 @@ class Workers {
     std::vector<std::jthread> threads_;
 };
 
-/// A frame of which the film or the levels are wanted.
+/// A frame of which either the film or the 8-bit image is wanted.
 struct InFlight {
     std::int32_t frame;
     std::unique_ptr<PendingFrame> film;

@@ -193,7 +193,7 @@ void TargetRun::gpu_first_picture(TargetResult& result) {
     if (program.empty()) return;
     BenchmarkRow row =
         time_first_picture({program, ten_million_spheres, "cuda", options_.folder, options_.repetitions});
-    (void)make("cuda", {});  // only now: a driver at work makes the others start faster
+    (void)make("cuda", {});  // only now: programs start faster while another one uses the driver
     row.label = result.id;
     const Summary start = summarize(row.seconds);
     add_rows({std::move(row)});

@@ -73,12 +73,12 @@ void print_reached(const FrameRecord& record) {
     std::fprintf(stderr, "tandem-render: %s\n", sentence.c_str());
 }
 
-/// Whether the frame has an error as its target that it was stopped short of.
+/// Whether the frame was stopped before it reached its target error.
 bool is_short(const FrameRecord& record, const SequenceOptions& options) {
     return options.target && options.target->error > 0 && record.metadata.stopped_by != to_string(StoppedBy::target);
 }
 
-/// What each of several processors has done.
+/// The work of each of several processors.
 nlohmann::ordered_json members_json(const Capabilities& capabilities) {
     double all = 0;
     for (const MemberWork& work : capabilities.members) all += static_cast<double>(work.samples);

@@ -109,8 +109,7 @@ EncodedImage encode_denoised(Film film, FrameRecord& record, const FileChoice& c
     return encode_image(image, planes, choice.format, record.metadata, choice.options);
 }
 
-/// Encodes the film of `record`. What fails without the name of a file, such as a codec that runs out of memory, gets
-/// it.
+/// Encodes the film of `record`. Adds the name of the file to errors, such as that of a codec that runs out of memory.
 EncodedImage encode_frame(Film film, FrameRecord& record, const FileChoice& choice) {
     try {
         if (choice.denoiser != nullptr) return encode_denoised(std::move(film), record, choice);
@@ -124,8 +123,8 @@ EncodedImage encode_frame(Film film, FrameRecord& record, const FileChoice& choi
 
 using SceneHash = std::shared_future<std::string>;
 
-/// The hash of a scene. That of ten million spheres takes a tenth of a second and is computed by another thread, which
-/// keeps the scene meanwhile; others are computed when they are asked for.
+/// The hash of a scene. Hashing ten million spheres takes a tenth of a second, so another thread hashes large scenes,
+/// and keeps them meanwhile. The hash of a small scene is computed when it is needed.
 SceneHash start_hash(std::shared_ptr<const PreparedScene> scene) {
     constexpr std::size_t many = 100'000;
     const auto policy = primitive_count(*scene) > many ? std::launch::async : std::launch::deferred;
@@ -133,7 +132,7 @@ SceneHash start_hash(std::shared_ptr<const PreparedScene> scene) {
     return std::async(policy, hash).share();
 }
 
-/// Hashes, encodes and writes a film in a thread of its own. `scene`: the hash for its metadata, unless that has it.
+/// Hashes, encodes and writes a film in a thread of its own. `scene`: the hash for the metadata, if they lack it.
 FrameRecord write_frame(Film film, FrameRecord record, const SceneHash& scene, FileChoice choice) {
     LapWatch watch;
     record.metadata.film_sha256 = film_hash(film);
@@ -288,7 +287,7 @@ class Sequence {
         pass_at_once(std::move(frame), plan, job, std::move(record));
     }
 
-    /// Renders a frame in tiles, and no other frame meanwhile. An interrupted frame may not start.
+    /// Renders a frame in tiles, and no other frame meanwhile. An interrupted frame is not passed on.
     void start_in_tiles(const FramePlan& plan, const RenderJob& job, FrameRecord record) {
         record.metadata = metadata_of(job, frame_hash(scene_, plan));
         if (is_finished(record)) return;
@@ -333,7 +332,7 @@ class Sequence {
         while (with_backend_ > 0) pass_to_writer();
     }
 
-    /// Whether there is a file, which may be that of the frame.
+    /// Whether the file exists and may be kept; it may also be that of another render.
     [[nodiscard]] bool may_be_finished(const FrameRecord& record) const {
         std::error_code ignored;
         return !options_.force && std::filesystem::exists(record.file, ignored);
@@ -430,7 +429,7 @@ class Sequence {
         on_frame_(record);
     }
 
-    /// After an error: reports the frames whose files are written nevertheless. Their errors are not the first.
+    /// After an error: reports the frames whose files are still written, and ignores their errors.
     void report_others() {
         while (!writing_.empty()) {
             try {

@@ -9,7 +9,7 @@ namespace tandem {
 template <class Isa, class Real>
 using IsaOf = std::conditional_t<is_fast<Real>, Fast<Isa>, Isa>;
 
-// Packets go through Embree, or test all primitives of scenes of few.
+// Packets go through Embree, or test all primitives of a small scene.
 
 template <class Isa, class Real>
 Closest<Real> closest_hit(const CpuSceneView& view, const Ray<Real>& ray, const QuerySource<Real>& source,
@@ -25,7 +25,7 @@ Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<
     return EmbreeTracer{view}.occluded(ray, t_max, source, active);
 }
 
-// Single rays go through groups, where there are any.
+// Single rays go through groups, if there are any.
 
 template <class Isa, class Real>
 void closest_hits(const CpuSceneView& view, const RayBatch<Real>& batch, Closest<Real>* hits) {

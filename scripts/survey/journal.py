@@ -12,7 +12,7 @@ class Journal:
         self.path, self.lock, self.records = path, threading.Lock(), {}
         if path and os.path.exists(path):
             with open(path, encoding="utf-8") as stream:
-                lines = stream.read().split("\n")[:-1]  # what follows the last line end was torn
+                lines = stream.read().split("\n")[:-1]  # text after the last line end is incomplete
             if lines and json.loads(lines[0]) == run:
                 self.records = {(r["source"], r["file"], r["sha256"]): r for r in map(json.loads, lines[1:])}
         if path:

@@ -48,7 +48,7 @@ class Run:
 
             timer = threading.Timer(timeout, stop)
             timer.start()
-            os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # the pid stays ours until the timer is out of the way
+            os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # the pid stays reserved until the timer ends
             done.set()
             timer.cancel()
             timer.join()

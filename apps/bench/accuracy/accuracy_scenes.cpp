@@ -43,7 +43,7 @@ Scene dark_scene(const std::string& name, const Vec3f& background) {
     return scene;
 }
 
-/// L = e + r L everywhere, so L = e / (1 - r). The emission is chosen so that L is 1, but for its rounding.
+/// L = e + r L everywhere, so L = e / (1 - r). The emission is chosen so that L is 1, apart from rounding.
 AccuracyScene furnace(const std::string& name, int percent) {
     const float reflectance = static_cast<float>(percent) / 100;
     const float emission = 1 - reflectance;
@@ -60,7 +60,7 @@ AccuracyScene furnace(const std::string& name, int percent) {
             fmt::format("every pixel is e / (1 - r), with the reflectance r = {}", reflectance)};
 }
 
-/// R + T = 1 at every interface, so the radiance of uniform light stays what it is.
+/// R + T = 1 at every interface, so uniform light keeps its radiance.
 AccuracyScene clear_glass(const std::string& name) {
     Scene scene = dark_scene("glass", {1, 1, 1});
     scene.materials[0].optics.transmission = 1;

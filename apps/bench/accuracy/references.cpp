@@ -41,7 +41,7 @@ ImageMetadata metadata_of(const AccuracyScene& scene, const Backend& backend, co
     return describe(job, frame_hash(scene.scene, plan_frame(scene.scene, {}, job)), backend.name());
 }
 
-/// What makes a stored reference another one than the wanted; empty if it is the one.
+/// How a stored reference differs from the wanted one; empty if it does not.
 std::string mismatch(const std::optional<ImageMetadata>& stored, ImageMetadata wanted) {
     if (!stored) return "there is no metadata of Tandem's beside the image";
     wanted.version = stored->version;  // it approximates the same truth

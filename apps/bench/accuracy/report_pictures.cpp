@@ -19,13 +19,14 @@ namespace {
 
 constexpr int most_width = 960;
 
-/// The samples of a setting that take about `seconds`, at the rate of its last point: from 1 to those of a reference.
+/// The number of samples that a setting takes in about `seconds`, at the rate of its last point; at most that of a
+/// reference.
 int samples_within(const SweepOptions& options, const SweepPoint& fastest, double seconds) {
     const double samples = std::round(seconds / fastest.seconds() * fastest.samples);
     return static_cast<int>(std::clamp(samples, 1.0, static_cast<double>(reference_options(options).samples)));
 }
 
-/// A picture and the map of its FLIP, whose mean and the RMSE are in the caption.
+/// A picture and the map of its FLIP. The caption of the map has the mean.
 ComparedPicture compared(const SceneSweep& sweep, const Reference& reference, const FloatImage& image,
                          const std::string& caption) {
     const FlipDifference difference = flip(reference.mean(), image, {.display = sweep.display()});

@@ -62,7 +62,7 @@ std::string failure_sentence(const SceneSweep& sweep, const std::string& backend
                        fmt::join(sweep.ladder(backend, setting).back()->failures, "; "));
 }
 
-/// A setting that has not failed against the baseline, with the most samples.
+/// Compares a setting that has not failed with the baseline, at the most samples.
 std::string setting_sentence(const SceneSweep& sweep, const std::string& backend, const Setting& setting) {
     const SweepPoint& point = *sweep.ladder(backend, setting).back();
     const SweepPoint& baseline = *sweep.ladder(backend, sweep.plan.settings.front()).back();
@@ -111,7 +111,7 @@ std::string choice_sentence(const SceneSweep& sweep, const std::string& backend)
                        fmt::join(chosen, "; "));
 }
 
-/// The time of one backend over that of another for the same error, from the laws of both.
+/// The time of one backend over that of another for the same error, at the most samples.
 std::string backends_sentence(const SceneSweep& sweep, const std::string& slow, const std::string& fast) {
     const SweepPoint& a = *sweep.ladder(slow, sweep.plan.settings.front()).back();
     const SweepPoint& b = *sweep.ladder(fast, sweep.plan.settings.front()).back();

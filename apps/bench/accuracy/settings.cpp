@@ -84,7 +84,7 @@ void add_tessellations(const Scene& scene, const std::vector<int>& levels, Setti
     }
 }
 
-/// The rung below ray tracing, and what it leaves out of the scene.
+/// The rasteriser, the rung below ray tracing, and the effects that it leaves out.
 void add_rasteriser(const PreparedScene& prepared, const std::vector<EffectNeed>& needs, Setting base,
                     SettingPlan& plan) {
     if (const std::string reason = why_not_rasterised(prepared); !reason.empty()) {

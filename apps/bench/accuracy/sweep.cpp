@@ -28,11 +28,11 @@ namespace tandem::bench {
 
 namespace {
 
-/// The share of pixels that a tier may have decided otherwise than the baseline: the samples are the same, so only
-/// wrong decisions can change a pixel by 5 %. Beyond it the tier has failed, whatever the mean error is.
+/// The share of pixels in which a tier may differ from the baseline by 5 %. The samples are the same, so only wrong
+/// decisions can cause such differences. Above this share the tier has failed, whatever its mean error.
 constexpr double most_wrong_pixels = 0.01;
 
-constexpr std::size_t most_pending_bytes = std::size_t{256} << 20;  // of images that wait for their errors
+constexpr std::size_t most_pending_bytes = std::size_t{256} << 20;  // of images whose errors are not yet computed
 
 /// A point while it is measured.
 struct Measured {
@@ -55,7 +55,7 @@ class PendingImages {
         if (bytes_ > most_pending_bytes) measure();
     }
 
-    /// Each point is at most once among the images.
+    /// No two of the images belong to the same point.
     void measure() {
         std::atomic<std::size_t> next{0};
         const auto work = [&] {
@@ -90,7 +90,7 @@ void estimate_errors(SweepPoint& point, const Measured& measured, bool exact_ref
     const auto estimate = [&](Metric metric, double variance) {
         return estimate_mean(measured.errors[static_cast<std::size_t>(metric)], variance);
     };
-    // The pixels that are left out have no part in the variance either; the others' is not more than that of all
+    // Trimmed errors: the variance of all pixels is an upper bound for that of the pixels that are kept
     point.errors = {root_of(estimate(Metric::rmse, shared.squared)), estimate(Metric::relative, shared.relative),
                     estimate(Metric::trimmed, shared.relative), estimate(Metric::flip, 0)};
     BenchmarkRow& row = point.row;
@@ -150,7 +150,7 @@ void render_first_frames(const SweepOptions& options, SceneSweep& sweep, const s
                              sweep.points.size(), format_seconds(watch.seconds() * options.seeds)));
 }
 
-/// Null, and the reason, without one.
+/// Null if there is none; then `why_not` gives the reason.
 std::shared_ptr<const Denoiser> find_denoiser(const SweepOptions& options, std::string& why_not) {
     try {
         return std::make_shared<Denoiser>(options.denoiser, options.threads);

@@ -45,7 +45,7 @@ void check(cudaError_t status, const char* what) {
     throw EnvironmentError(std::string("the naive CUDA renderer cannot ") + what + ": " + cudaGetErrorString(status));
 }
 
-/// Seconds since `start`, which moves on.
+/// Seconds since `start`, which becomes now.
 double lap(Clock::time_point& start) {
     const auto now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - start).count();
@@ -73,7 +73,7 @@ class Event {
     Event(const Event&) = delete;
     Event& operator=(const Event&) = delete;
     void record() const { check(cudaEventRecord(event_), "record an event"); }
-    /// Seconds from `start`'s record to ours; waits for both.
+    /// Seconds from the event `start` to this one; waits for both.
     double seconds_since(const Event& start) const {
         check(cudaEventSynchronize(event_), "finish its kernels");
         float milliseconds = 0;

@@ -19,7 +19,7 @@ constexpr int finest_level = 6;
 constexpr double most_pixels_off = 0.1;
 /// How far the middle of an icosahedron's face is inside the sphere, in radii. Each level quarters it.
 constexpr double depth_of_face = 0.2054;
-/// Of the scene's extent. Depth is a double, so the near plane may be this close.
+/// The distance of the near plane, as a share of the scene's extent. Depth is a double, so it may be this small.
 constexpr double near_share = 1e-6;
 
 /// 20 * 4^level.
@@ -37,7 +37,7 @@ std::size_t count_triangles(const PreparedScene& scene, LevelOf level_of) {
     return count;
 }
 
-/// Pixels that a metre covers at a point, at most.
+/// The largest number of pixels that a metre covers at a point.
 double pixels_per_metre(const CameraView& camera, const Vec3d& point, double radius) {
     if (camera.orthographic) return 1 / std::sqrt(dot(camera.origin_dx, camera.origin_dx));
     const Vec3d offset = point - camera.origin;
@@ -45,7 +45,7 @@ double pixels_per_metre(const CameraView& camera, const Vec3d& point, double rad
     return 1 / (distance * std::sqrt(dot(camera.direction_dx, camera.direction_dx)));
 }
 
-/// The least level that keeps a sphere within most_pixels_off, up to `finest`.
+/// The lowest level that keeps a sphere within most_pixels_off, or `finest`.
 int level_of_detail(const CameraView& camera, const Vec3d& centre, double radius, int finest) {
     const double pixels = radius * pixels_per_metre(camera, centre, radius);
     int level = 0;
@@ -117,7 +117,7 @@ class Tessellation {
     }
 
   private:
-    /// `mirrored`: the placement turns the corners' order around.
+    /// `mirrored`: the placement reverses the order of the corners.
     void add(RasterTriangle triangle, bool mirrored) {
         triangle.material = scene_.material_of[primitive_];
         if (mirrored) {

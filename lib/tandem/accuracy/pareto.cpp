@@ -12,7 +12,7 @@ bool dominates(const PricedError& better, const PricedError& worse) {
            better.error.interval.high < worse.error.interval.low;
 }
 
-/// The index of the least of those points that `counts` allows, by `key`.
+/// The index of the point with the least `key`, of those that `counts` allows.
 template <class Counts, class Key>
 std::optional<std::size_t> least(std::span<const PricedError> points, Counts counts, Key key) {
     std::optional<std::size_t> found;

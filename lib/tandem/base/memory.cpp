@@ -12,7 +12,7 @@ namespace tandem {
 
 namespace {
 
-/// A file that holds one number; "max" and everything else is empty.
+/// The number in a file; empty if the file holds anything else, such as "max".
 std::optional<std::size_t> number_in(const char* path) {
     std::ifstream file(path);
     std::size_t number = 0;
@@ -32,7 +32,7 @@ std::optional<std::size_t> meminfo(const std::string& name) {
     return std::nullopt;
 }
 
-/// What is left of the control group's limit. Its pages of files count as used, but can be taken back.
+/// The memory that is left within the control group's limit. Cached pages of files count as used, but can be reclaimed.
 std::optional<std::size_t> left_in_group() {
     const auto limit = number_in("/sys/fs/cgroup/memory.max");
     const auto used = number_in("/sys/fs/cgroup/memory.current");

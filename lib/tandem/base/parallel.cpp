@@ -22,8 +22,8 @@ class Numbers {
   public:
     Numbers(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {}
 
-    /// Works until none is left or one has failed. Then all lower ones are taken already, so the lowest that fails does
-    /// not depend on the threads.
+    /// Works until no number is left or one has failed. By then all lower numbers have been taken, so the lowest number
+    /// that fails does not depend on the threads.
     void work() {
         const bool was_in_loop = std::exchange(is_in_loop, true);
         while (!has_failed_) {

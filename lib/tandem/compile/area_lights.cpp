@@ -23,8 +23,8 @@ double area_of(const Body&) {
     return 0;
 }
 
-/// Can one half of a quad occlude the other? Not if it is flat, except for the rounding of its corners, and its
-/// diagonal lies within it.
+/// Whether one half of a quad can occlude the other. It cannot if the quad is flat, apart from the rounding of its
+/// corners, and its diagonal lies within it.
 bool halves_overlap(const Quad& quad) {
     const Vec3d to1 = widen(quad.v1) - widen(quad.v0);
     const Vec3d to2 = widen(quad.v2) - widen(quad.v0);
@@ -42,8 +42,8 @@ double brightness(const Optics& optics) {
     return double{optics.emission.x} + double{optics.emission.y} + double{optics.emission.z};
 }
 
-/// This part of the chances is shared equally, and the rest by power, since a weak light may be near and a strong one
-/// hidden.
+/// The lights share this part of the probability equally, and the rest by power: a weak light may be near and a strong
+/// one hidden.
 constexpr double shared_alike = 1.0 / 8;
 
 /// Gives every light its range of the 64-bit numbers. `powers`: of each light, above 0; their sum is finite.

@@ -59,8 +59,8 @@ bool same_bits(const Shape& a, const Shape& b) {
     return words_of(a) == words_of(b);
 }
 
-/// Tells hashes that occur only once from the others, mostly: two bits of a word stand for a hash, and some hashes
-/// share them. Threads may add hashes at the same time.
+/// Finds most of the hashes that occur only once: two bits of a word stand for a hash, and some hashes share them.
+/// Threads may add hashes at the same time.
 class Sieve {
   public:
     explicit Sieve(std::size_t hashes) : words_(std::bit_ceil(hashes / 8 + 1)) {
@@ -113,13 +113,15 @@ class Finder {
     static constexpr std::uint32_t empty = 0xFFFFFFFFU;
     static constexpr std::size_t batch = 32, chunk_size = 1U << 16;
 
-    /// A primitive that is not a copy, and a part of its hash, which tells most others apart without reading them.
+    /// A primitive that is not a copy, and a part of its hash, which rules out most other primitives without reading
+    /// this one.
     struct Entry {
         std::uint32_t hash;
         std::uint32_t number;
     };
 
-    /// The primitives of one kind. Few of millions are suspects, which are compared in the order of their ids.
+    /// Searches the primitives of one kind. Only the suspects, few of millions, are compared, in the order of their
+    /// ids.
     template <class Primitive>
     void search(const std::vector<Primitive>& primitives) {
         const std::uint32_t* material_of = scene_.material_of.data() + first_id_;
@@ -200,7 +202,7 @@ class Finder {
     std::vector<PrimitiveCopy> copies_;
 };
 
-/// Removes the elements of copies from an array by primitive whose first element is that of `first_id`.
+/// Removes the elements of copies from an array by primitive. The first element is that of the primitive `first_id`.
 template <class T>
 void remove(const std::vector<PrimitiveCopy>& copies, std::size_t first_id, std::vector<T>& array) {
     auto copy = std::lower_bound(copies.begin(), copies.end(), first_id,

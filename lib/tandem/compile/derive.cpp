@@ -43,7 +43,7 @@ class Needs {
 
 std::vector<bool> used_materials(const Scene& scene, const PreparedScene& prepared) {
     std::vector<bool> used(scene.materials.size(), false);
-    // millions of neighbours may have the same
+    // millions of neighbours may have the same material
     const std::vector<std::uint32_t>& material_of = prepared.material_of;
     for (std::size_t i = 0; i < material_of.size(); ++i) {
         if (i == 0 || material_of[i] != material_of[i - 1]) used[material_of[i]] = true;

@@ -29,7 +29,7 @@ Middle middle_of(const Aabb& box) {
     return {(widen(box.lower) + widen(box.upper)) * 0.5, (widen(box.upper) - widen(box.lower)) * 0.5};
 }
 
-/// Half of the box of an instance in render space, around the place of the mesh's centre.
+/// The half extent of an instance's box in render space, around the placed centre of the mesh.
 Vec3d half_of(const MeshInstance& instance, const Middle& of_mesh) {
     const Matrix3& m = instance.render_from_object.linear;
     const auto extent = [&](const Vec3d& row) {
@@ -59,7 +59,7 @@ std::span<const Triangle> faces_of(const PreparedInstances& all, const Instanced
     return {all.faces.data() + mesh.first_face, mesh.face_count};
 }
 
-/// What the walk reads of an instance. `scene_reach`: of the frame of the instances, or more.
+/// The data of an instance that the traversal reads. `scene_reach`: at least that of the frame of the instances.
 EntryInstance entry_of(const PreparedInstances& all, std::uint32_t number, const Middle& of_mesh, std::int32_t root,
                        double scene_reach) {
     const MeshInstance& instance = all.instances[number];
@@ -113,7 +113,7 @@ float margin_of(const PreparedInstances& all, const InstancedMesh& mesh, const M
     return margin;
 }
 
-/// The numbers of instances that are no copies of an earlier one of the same mesh.
+/// The numbers of instances that are not copies of an earlier one of the same mesh.
 std::vector<std::uint32_t> distinct_instances(const PreparedInstances& all) {
     std::vector<std::uint32_t> distinct;
     for (const InstancedMesh& mesh : all.meshes) {
@@ -143,7 +143,7 @@ InstancedBvh build_instanced_bvh(const PreparedInstances& all) {
         mesh_of.push_back(m);
         loose_bounds = merge(loose_bounds, loose_box(all.instances[i], middles[m]));
     }
-    // that of the tight boxes, which need the hierarchies of the meshes, is not larger
+    // the reach of the tight boxes, which need the hierarchies of the meshes, is not larger
     const float scene_reach = reach(make_structure_frame(loose_bounds).bounds);
     std::vector<Bvh> lower;
     std::vector<MeshExtent> extents;

@@ -10,7 +10,8 @@ namespace tandem {
 
 namespace {
 
-/// Of the extent along a direction: for less, no box is opened.
+/// A share of the extent along a direction: a box that reaches no more than this beyond the farthest corner stays
+/// closed.
 constexpr double slack = 1.0 / 16;
 
 }  // namespace
@@ -32,7 +33,7 @@ double MeshExtent::along(const Vec3d& direction) const {
                on_axis(direction.z, box.lower.z, box.upper.z);
     };
     double farthest = -std::numeric_limits<double>::infinity();  // corner so far
-    double bound = farthest;  // of the boxes that were not opened, because they reach hardly farther
+    double bound = farthest;  // of the boxes that were not opened, because they reach barely farther
     double enough = 0;
     std::array<Place, static_cast<std::size_t>(bvh_stack_size)> stack;
     stack[0] = {std::numeric_limits<double>::infinity(), 0};

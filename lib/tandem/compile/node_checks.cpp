@@ -20,7 +20,7 @@ bool is_hidden(const Matrix3& m) {
     if (largest == 0) return true;
     const Matrix3 columns = transpose(m);
     if (largest > 1e-60 && largest < 1e60) {
-        // most are far from it, and need no divisions: the limit below is that of the squares divided by largest^4
+        // most maps are far from flat and need no divisions: the exact limit below is for squares divided by largest^4
         const Vec3d normal = cross(columns.row[0], columns.row[1]);
         const double largest2 = largest * largest;
         if (dot(normal, normal) > 1e-20 * largest2 * largest2) return false;

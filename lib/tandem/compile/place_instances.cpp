@@ -42,7 +42,7 @@ Vec3d half_extent(const Matrix3& m, const Vec3d& half) {
 /// `scene`.
 std::vector<Triangle> faces_of(const Mesh& mesh, std::size_t instances, bool mirrors, FaceSides sides,
                                const CornerSlots& slots, PreparedScene& scene) {
-    // a mirroring changes the order of the corners; undone, it changes no coordinate
+    // place_mesh() reverses the corners under a mirroring; it is undone below, so no coordinate changes
     Transform as_it_is;
     if (mirrors) as_it_is.linear.row[0].x = -1;
     PreparedScene placed;

@@ -117,7 +117,7 @@ class Preparer {
             throw InputError(
                 fmt::format("the scene has {} primitives, over the limit of {}", count, no_primitive_limit));
         }
-        // of each kind the smaller primitive; then material and node
+        // the smaller primitive of each kind, and its material and node
         const std::size_t bytes = spheres * sizeof(Sphere) + boxes * sizeof(Box) +
                                   (count - spheres - boxes) * sizeof(Triangle) + 2 * count * sizeof(std::uint32_t);
         require_memory(bytes, fmt::format("the scene of {} primitives", count));
@@ -139,7 +139,7 @@ class Preparer {
         }
     }
 
-    /// Without copies, which are neither lights nor visible to rays.
+    /// Searches the scene without copies, which are neither lights nor visible to rays.
     void find_area_lights_and_media() {
         const auto find = [this](PreparedScene& scene) {
             find_media(scene);
@@ -160,7 +160,7 @@ class Preparer {
     static constexpr std::uint32_t first_roulette = 3;
     static constexpr std::size_t no_primitive_limit = std::size_t{1} << 30;
 
-    /// Throws what is wrong with the node, so that the first node with something wrong is named.
+    /// Throws an error about this node if it has one, so that the message names the first faulty node.
     void add_node(std::size_t index, const Solids& solids) {
         const Node& node = scene_.nodes[index];
         const Transform& world_from_node = world_from_node_[index];

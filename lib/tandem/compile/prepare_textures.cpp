@@ -140,7 +140,7 @@ class TexturePreparer {
         return with_transform(*reference, add(*reference, space, false), slots);
     }
 
-    /// Clears the textures, by material, if there is none.
+    /// Clears the textures of all materials if no material has one.
     static bool keep_if_used(std::vector<TextureUse>& uses) {
         const bool used =
             std::any_of(uses.begin(), uses.end(), [](const TextureUse& use) { return use.texture != no_texture; });

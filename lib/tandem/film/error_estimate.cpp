@@ -15,15 +15,16 @@ namespace {
 
 constexpr double normal_quantile = 1.959963984540054;  // 97.5 %
 
-/// The quantile of the chi-squared distribution over its degrees of freedom, at that quantile of the normal one: E. B.
-/// Wilson, M. M. Hilferty, "The distribution of chi-square", PNAS 17, 1931. Within 2 % above the mean.
+/// The quantile of the chi-squared distribution over its degrees of freedom, from the same quantile of the normal
+/// distribution: E. B. Wilson, M. M. Hilferty, "The distribution of chi-square", PNAS 17, 1931. Correct within 2 % for
+/// quantiles above the mean.
 double chi_squared_share(double degrees, double of_normal) {
     const double c = 2 / (9 * degrees), root = std::max(1 - c + of_normal * std::sqrt(c), 0.0);
     return root * root * root;
 }
 
-/// How far a sum of errors goes above its mean in one case of forty, in standard deviations. A pixel's squared error is
-/// its variance times a number with the chi-squared distribution of one degree of freedom. A sum of them has the first
+/// The 97.5 % quantile of a sum of errors, above its mean and in standard deviations. A pixel's squared error is its
+/// variance times a number with the chi-squared distribution of one degree of freedom. A sum of them has the first
 /// three cumulants of a + b X, where X has squares^3 / cubes^2 degrees: J. P. Imhof, "Computing the distribution of
 /// quadratic forms in normal variables", Biometrika 48, 1961.
 double deviations_above(const ErrorSums& errors) {
@@ -33,15 +34,16 @@ double deviations_above(const ErrorSums& errors) {
     return (chi_squared_share(degrees, normal_quantile) - 1) * std::sqrt(degrees / 2);
 }
 
-/// The lower end of the interval, as a share of the mean, for a standard error of k. The normal distribution has more
-/// below it than a sum of squares has, and is held above 0 here; where few pixels carry all, the errors go lower.
+/// The lower end of the interval, as a share of the mean, for a standard error of k. The lower tail of the normal
+/// distribution is heavier than that of a sum of squares; its end is kept above 0 here. If few pixels carry most of the
+/// error, the quantile of the chi-squared distribution is lower and is used instead.
 double share_below(const ErrorSums& errors, double k) {
     const double normal = normal_quantile * k, held = std::max(1 - normal, 1 / ((1 + normal) * (1 + normal)));
     if (!(errors.cubes > 0)) return held;
     return std::min(held, chi_squared_share(2 / (k * k), -normal_quantile));
 }
 
-/// Of the mean, as a share of it.
+/// The standard error of the mean, as a share of it.
 double standard_error(const ErrorSums& errors) {
     return errors.squares > 0 ? std::sqrt(2 * errors.squares) / errors.sum : 0;
 }

@@ -19,8 +19,8 @@ constexpr double most_scene_bytes = 3.8e8, bytes_per_byte = 190;
 constexpr double bytes_per_face = 235, bytes_of_normals = 36, bytes_of_texcoords = 24, bytes_of_colours = 48;
 /// Primitives without faces, and shapes, cost time too.
 constexpr double least_faces = 4;
-/// What an instance of a mesh that is kept once takes while a scene is loaded and traced, and when meshes are kept
-/// once: as in compile/place_instances.cpp.
+/// The memory of an instance of a mesh that is kept once, while a scene is loaded and traced; and the least numbers of
+/// instances and of faces for which a mesh is kept once, as in compile/place_instances.cpp.
 constexpr double bytes_per_instance = 500, least_instances = 8, least_faces_kept_once = 64;
 
 // Counts are below 2^53 and their products may be above 2^64, so they are doubles.

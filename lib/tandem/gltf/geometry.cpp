@@ -71,7 +71,7 @@ std::vector<Geometry> GeometryReader::read(std::size_t index) {
             left_out_.insert({mesh_index, i});
         }
     }
-    // there may be millions: only several primitives need copies
+    // there may be millions, so the last primitive takes them without a copy
     for (std::size_t i = 0; i + 1 < result.size(); ++i) result[i].instances = instances;
     if (!result.empty()) result.back().instances = std::move(instances);
     return result;

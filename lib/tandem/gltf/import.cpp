@@ -57,7 +57,7 @@ Transform read_matrix(const Json& matrix) {
     return {{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}, {m[12], m[13], m[14]}};
 }
 
-/// The name of what a nameless node carries.
+/// The name of the camera or the mesh of a nameless node.
 std::string carried_name(const Document& document, const Json& node) {
     for (const auto& [member, array] : {std::pair{"camera", "cameras"}, std::pair{"mesh", "meshes"}}) {
         const Json* index = find(node, member);

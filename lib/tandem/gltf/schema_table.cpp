@@ -13,11 +13,11 @@ constexpr Care strict = Care::strict;
 constexpr Care vital = Care::vital;
 
 /// glTF 2.0, section 5, and the extensions that Tandem reads. Every object may also have `extensions` and, except
-/// inside of extensions, a `name`. The arrays of the root are ordered so that elements precede the references to them.
+/// inside extensions, a `name`. The arrays of the root are ordered so that elements precede the references to them.
 ///
-/// Lenient: what a file can be rendered without, such as names, materials, cameras, lights, animations. Strict: what
-/// defines how bytes are read. Vital: what places geometry, and Tandem's own extensions, whose authors want such
-/// errors.
+/// Lenient: properties without which a file can be rendered, such as names, materials, cameras, lights, animations.
+/// Strict: properties that define how bytes are read. Vital: properties that place geometry, and Tandem's own
+/// extensions, whose authors want to see such errors.
 constexpr Property properties[] = {
     object("root", "asset", "asset").required(),
     texts("root", "extensionsUsed"),

@@ -69,7 +69,7 @@ oidn::Library open_library(const std::string& file) {
         if (library) return library;
         const char* reason = ::dlerror();
         names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-        // its own name comes first if it is not found; another one if a library that it needs is missing
+        // the reason starts with this name if the library is not found, else with the name of a missing dependency
         if (reason != nullptr && !std::string_view(reason).starts_with(name)) reasons += fmt::format("; {}", reason);
     }
     const char* folders = std::getenv("LD_LIBRARY_PATH");
@@ -128,7 +128,7 @@ struct Denoiser::State {
     State(const State&) = delete;
     State& operator=(const State&) = delete;
 
-    /// Throws the library's error since the last call, if there is one. A null device: that none could be made.
+    /// Throws the library's error since the last call, if there is one. With a null device, throws in any case.
     void check(const char* what) const {
         const char* message = nullptr;
         if (call.get_error(device, &message) == oidn::error_none && device != nullptr) return;

@@ -17,7 +17,7 @@ constexpr std::uint8_t filter_sub = 1;
 /// Deflate with a window of 32 KiB, compressed by the fastest method.
 constexpr std::uint8_t zlib_header[] = {0x78, 0x01};
 
-/// A row as the filter "sub" leaves it, behind the filter's number: each byte less that of the pixel before.
+/// Applies the filter "sub" to a row: the filter's number, then each byte minus that of the pixel before.
 void filter_row(const std::uint8_t* row, std::size_t bytes, std::uint8_t* to) {
     constexpr std::size_t pixel = 3;
     to[0] = filter_sub;

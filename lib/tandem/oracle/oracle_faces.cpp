@@ -1,5 +1,5 @@
-// Triangles for the oracle. Lines that miss by more than doubles can err need no more; all others are decided with the
-// compiler's 113-bit floats.
+// Triangles for the oracle. Doubles decide lines that miss by more than their rounding error; the compiler's 113-bit
+// floats decide all others.
 #include <cmath>
 #include <type_traits>
 

@@ -141,7 +141,7 @@ Vector area_light(const BoundedView& scene, const Reflectances& material, const 
 }
 
 /// The light of the background from one direction of the hemisphere. Microfacets whose reflection no path follows
-/// receive that of an environment too.
+/// receive the light of an environment too.
 Vector sky(const BoundedView& scene, const Reflectances& material, const Vertex& vertex, const EndingLobes& ends,
            Chance& chance) {
     const Vector direction = on_hemisphere(vertex.normal, chance);

@@ -46,7 +46,7 @@ Real azimuth(const Reflectances& material, const Vector& n, const Vector& w) {
     return std::atan2(inner(cross(n, material.along), w), inner(material.along, w));
 }
 
-/// Smith's Lambda of GGX: facets that are hidden for each that is seen, from the direction w.
+/// Smith's Lambda of GGX: the number of hidden facets per visible one, from the direction w.
 Real hidden(const Reflectances& material, const Vector& n, const Vector& w) {
     const Real cosine = inner(n, w), phi = azimuth(material, n, w);
     const Real tangent = std::sqrt(std::max<Real>(0, (1 - cosine) * (1 + cosine))) / cosine;
@@ -71,7 +71,7 @@ Real hidden_fibres(Real alpha, Real cosine) {
     return cosine < half ? std::exp(exponent(cosine)) : std::exp(2 * exponent(half)) / std::exp(exponent(1 - cosine));
 }
 
-/// Charlie by angles, times pi. `least`: of the cosines.
+/// The Charlie lobe, computed from angles, times pi. `least`: the lower limit of the cosines.
 Real fibres(Real alpha, Real least, const Vector& n, const Vector& v, const Vector& l) {
     const Vector h = unit(l + v), across = h - n * inner(n, h);
     const Real sine = std::sqrt(inner(across, across));
@@ -81,7 +81,7 @@ Real fibres(Real alpha, Real least, const Vector& n, const Vector& v, const Vect
     return pi * density / (4 * seen * cos_o * cos_i);
 }
 
-/// The sheen, and what it leaves of the rest. The bounds, and the fitted albedo that this asks for, are a part of the
+/// Adds the sheen, and reduces the rest to the light that it leaves. The limits and the fitted albedo are part of the
 /// model.
 void cover_with_fibres(const SceneView& scene, const Vertex& vertex, Reflectances& material) {
     const Sheen& sheen = scene.sheens[vertex.material];

@@ -18,7 +18,7 @@ namespace tandem {
 
 namespace {
 
-/// Of a window: an interrupt waits for two of them.
+/// Of a window: an interrupt waits for two windows.
 constexpr std::size_t most_window_samples = std::size_t{1} << 26;
 
 RoundState first_round(const RenderJob& job) {
@@ -92,7 +92,7 @@ class Rounds {
         }
     }
 
-    /// Whether the first round is not complete.
+    /// Whether the first round is incomplete.
     [[nodiscard]] bool is_too_early() const {
         const std::vector<int> samples = state_.film.samples();
         return *std::min_element(samples.begin(), samples.end()) < std::min(first_round_end, job_.samples);
@@ -130,7 +130,7 @@ class Rounds {
         if (target_.metric == ErrorMetric::flip) return fresh_errors();
         return tile_errors(state_.film, nullptr, target_);
     }
-    /// Whether the last round does not show the contrary.
+    /// True unless the last round shows that the error is above the target.
     [[nodiscard]] bool reaches_target() {
         return estimate_error(sum_of(fresh_errors()), target_.metric).low <= target_.error;
     }
@@ -150,7 +150,7 @@ class Rounds {
         return work;
     }
 
-    /// What is left of the round: the tiles with the fewest samples first, part by part.
+    /// Renders the rest of the round: the tiles with the fewest samples first, part by part.
     void render(const std::shared_ptr<ResidentScene>& scene, const std::atomic<bool>& interrupted) {
         while (!interrupted) {
             int begin = job_.samples;
@@ -168,7 +168,7 @@ class Rounds {
         if (interrupted && !round_is_complete()) save();
     }
 
-    /// The part that begins with a sample, for the tiles that are marked.
+    /// Renders the part that begins with the sample `begin`, for the marked tiles.
     void render_part(const std::shared_ptr<ResidentScene>& scene, const std::atomic<bool>& interrupted,
                      const std::vector<bool>& marked, int begin) {
         const int end = next_part_end(begin, job_.samples);

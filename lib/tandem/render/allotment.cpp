@@ -25,7 +25,7 @@ struct Step {
     bool operator<(const Step& other) const { return power != other.power ? power < other.power : order > other.order; }
 };
 
-/// What the samples of a tile leave of its errors if it had `samples`.
+/// The share of a tile's present errors that is left with `samples` samples.
 double share_left(const TileErrors& tile, int samples) {
     const double share = static_cast<double>(tile.samples) / samples;
     return tile.exponent == 1 ? share : power<float>(share, tile.exponent);
@@ -89,7 +89,7 @@ class Greedy {
 int next_part_end(int samples, int most) {
     if (most < first_round_end) return most;
     std::int64_t end = first_round_end / 2;
-    // half of a power of two beyond the last one
+    // each step is half of the last power of two
     for (std::int64_t step = end; end <= samples; end += step) {
         if (end >= 4 * step) step *= 2;
     }

@@ -38,7 +38,7 @@ std::string hash_of(std::span<const std::byte> bytes) {
     return hash.hex();
 }
 
-/// Samples of tiles as words. The text of images has none for tiles without samples.
+/// Samples of tiles as words. The text in images cannot describe tiles without samples.
 std::string line(const char* key, const std::vector<int>& samples) {
     std::string text = fmt::format("{}: ", key);
     for (const int n : samples) text += fmt::format("{} ", n);

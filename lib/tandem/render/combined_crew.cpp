@@ -18,19 +18,19 @@ namespace {
 /// multiprocessors that the last pixels of the second leave idle, without a pause in which this thread submits it.
 constexpr std::size_t most_bands = 3;
 
-/// Into how many parts a member divides its portion of what is left (part_size()).
+/// The number of parts into which a member divides its portion of the remaining rows or rays (part_size()).
 constexpr int steps = 2;
 
-/// A band has at most the rows of a member's share of the frame over this. Rows may differ much in cost.
+/// A band has at most a member's share of the frame's rows, divided by this: rows may differ much in cost.
 constexpr double most_of_share = 8;
 
-/// If downloads take more than this share of the time, they are what a frame waits for. Then a member's first band is
-/// its share of the frame over `first_of_share`, so that the first download starts soon, and a band has at most
-/// `growth` times the rows of the one before, so that it is rendered before that one is downloaded.
+/// If downloads take more than this share of the time, a frame waits for them. Then a member's first band is its share
+/// of the frame over `first_of_share`, so that the first download starts soon, and a band has at most `growth` times
+/// the rows of the one before, so that it is rendered before that one is downloaded.
 constexpr double most_downloading = 0.5, first_of_share = 16, growth = 1.5;
 
-/// How long wait_for() looks for the end of a frame whose last rows have been taken before it sleeps, in seconds.
-/// Waking up takes a thread 0.05 to 0.1 ms.
+/// wait_for() polls for the end of a frame whose last rows have been taken. After this time, in seconds, it sleeps: a
+/// thread takes 0.05 to 0.1 ms to wake up.
 constexpr double most_looking = 2e-3;
 
 constexpr double forever = std::numeric_limits<double>::infinity();

@@ -179,7 +179,7 @@ double exponent_of(double now, double later) {
     return std::clamp(exponent, 0.05, 1.0);
 }
 
-/// Of the sum of a film's FLIP over a block, from that of two films.
+/// The variance of the sum of a film's FLIP over each block, from the FLIP of two films.
 std::vector<double> block_variances(const FlipDifference& a, const FlipDifference& b) {
     const TileGrid blocks{a.width, a.height, block_edge};
     std::vector<double> variances;

@@ -18,7 +18,7 @@ namespace {
 /// The probe has a window for each of a few bands: rows of tiles, so that every processor has work.
 constexpr int most_probe_bands = 8;
 
-/// What the probe cannot show of the time, as a share of it: two standard deviations.
+/// The share of the time that the probe cannot predict: two standard deviations.
 constexpr double unknown_share_of_time = 0.2;
 
 struct ProbeBand {
@@ -75,7 +75,7 @@ Outcome outcome_of(std::vector<TileErrors> tiles, const TileGrid& grid, const Re
     }
 }
 
-/// Pixels times samples of the tiles within a window, those that are marked `factor` times.
+/// Pixels times samples of the tiles within a window. Marked tiles count `factor` times.
 double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector<int>& samples,
                const std::vector<bool>& marked, double factor) {
     double work = 0;
@@ -87,7 +87,7 @@ double work_in(const FilmWindow& window, const TileGrid& grid, const std::vector
     return work;
 }
 
-/// Renders the tiles that are marked once more, and returns their time over that of their bands for as many samples.
+/// Renders the marked tiles once more, and returns their time over that of their bands for as many samples.
 double dearness_of(Backend& backend, const std::shared_ptr<ResidentScene>& scene, RenderJob job, const TileGrid& grid,
                    const std::vector<ProbeBand>& bands, const std::vector<bool>& marked,
                    const std::function<double()>& clock) {

@@ -35,11 +35,12 @@ double distance(const Ray<float>& a, const Ray<float>& b, float reach) {
     return (norm1(widen(a.origin) - widen(b.origin)) / widen(reach)) + norm1(turn);
 }
 
-/// How much farther the other rays at `step` are than the next ones, from 0 (not at all) to 1: the mean of some places.
+/// How much farther a ray is from the one `step` places on than from the next one, from 0 (not at all) to 1; the mean
+/// over some places.
 double unlikeness(std::span<const Ray<float>> rays, float reach, std::size_t step) {
     double sum = 0;
     for (std::size_t i = 0; i < row_samples; ++i) {
-        // places that have nothing to do with the length of rows: multiples of the golden ratio, modulo 1
+        // places that do not depend on the length of rows: multiples of the golden ratio, modulo 1
         const double place = static_cast<double>(i) * 0.6180339887498949;
         const auto at =
             static_cast<std::size_t>((place - std::floor(place)) * static_cast<double>(rays.size() - step - 1));

@@ -30,7 +30,7 @@ std::vector<std::size_t> some_of(std::size_t count, const VerifyOptions& how) {
     std::mt19937_64 random(how.seed);
     const std::size_t wanted = std::min(std::max<std::size_t>(how.tiles, 1), count);
     for (std::size_t i = 0; i < wanted; ++i) {
-        // the remainder prefers small numbers by less than 2^-32, for fewer than 2^32 tiles
+        // the remainder favours small numbers by less than 2^-32, for fewer than 2^32 tiles
         std::swap(tiles[i], tiles[i + static_cast<std::size_t>(random() % (count - i))]);
     }
     tiles.resize(wanted);
@@ -46,7 +46,7 @@ FloatImage cut(const FloatImage& image, const FilmWindow& window) {
     return part;
 }
 
-/// The pixels whose three values differ: `size` bytes each.
+/// The number of pixels that differ; the values of a pixel have `size` bytes.
 std::size_t differing(const void* a, const void* b, std::size_t pixels, std::size_t size) {
     const auto* const first = static_cast<const std::byte*>(a);
     const auto* const second = static_cast<const std::byte*>(b);

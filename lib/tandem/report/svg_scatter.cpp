@@ -17,7 +17,7 @@ using namespace svg;
 namespace {
 
 constexpr double plot_height = 400;
-constexpr double failure_room = 16;  ///< above the axes, for what failed
+constexpr double failure_room = 16;  ///< above the axes, for failed points
 
 /// Paths around the origin, about 9 pixels wide: circle, square, triangle, diamond, plus, triangle upside down,
 /// hourglass, bar, ring.
@@ -142,7 +142,7 @@ std::string to_svg(const ScatterPlot& plot) {
         }
         fronts += fmt::format(R"(<g class="dots c{}">{}</g>)", colour++ % colours, clear);
     }
-    // What is dominated lies behind the rest
+    // Dominated points lie behind the rest
     svg += "<g class=\"dots faded\">" + faded + "</g>" + fronts + "<g class=\"dots failed\">" + failed + "</g>";
     return svg_element(area.bottom() + 48, plot.title, svg);
 }

@@ -26,7 +26,7 @@ struct View {
     std::string_view name;
     std::string_view words;
     int azimuth = 0;
-    std::optional<int> elevation{};  ///< empty: by how flat the scene is
+    std::optional<int> elevation{};  ///< empty: depends on how flat the scene is
 };
 
 constexpr std::string_view automatic = "auto";
@@ -54,7 +54,7 @@ int elevation_for(const Vec3d& size) {
     return rounded(50 - 30 * ramp(flatness, 0.05, 0.4));
 }
 
-/// The azimuth for a deep and narrow scene, of which the front shows little: in degrees.
+/// The azimuth for a deep and narrow scene, whose front shows little of it: in degrees.
 int azimuth_for(const Vec3d& size) { return rounded(40 * ramp(size.z, 2 * size.x, 5 * size.x)); }
 
 /// The axes of a camera in world space, as from camera_axes().

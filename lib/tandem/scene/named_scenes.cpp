@@ -284,7 +284,7 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
     return value;
 }
 
-/// What a primitive of such a scene takes at least, here and in prepare().
+/// The least memory that a primitive of such a scene takes, here and in prepare().
 std::size_t least_bytes(std::string_view kind) {
     if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
     if (kind == "quads") return 4 * 16 + 72;

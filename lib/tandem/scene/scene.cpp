@@ -266,7 +266,7 @@ class Problems {
         check_instances(geometry.instances, where);
     }
 
-    /// Good ones, of which there may be millions, cost no names.
+    /// Makes no names for valid instances, of which there may be millions.
     void check_instances(const std::vector<Trs>& instances, const std::string& where) {
         std::vector<std::vector<std::size_t>> bad(chunk_count(instances.size(), instances_at_once));
         for_each_chunk(instances.size(), instances_at_once, [&](const Chunk& chunk) {

@@ -58,7 +58,7 @@ SurfaceReach::SurfaceReach(const Scene& scene, double time)
             count_ += instance_count(geometry);
         }
     }
-    // the first ones decide, as a rule
+    // usually the first ones decide
     for (std::size_t begin = 0; is_empty_ && begin < count_; begin += shapes_at_once) {
         visit_instances(shapes_, world_from_node_, begin, std::min(begin + shapes_at_once, count_),
                         [&](const InstanceRange&, const Transform& world_from_shape) {
