@@ -289,7 +289,7 @@ bool run_coverage(const CoverageOptions& options, const BackendSource& source, R
     if (options.scenes.empty()) throw InputError("name the scenes: glTF files, named:NAME, or those of closed:");
     report.title = "Renders to a target";
     report.summary = fmt::format(
-        "Each scene is rendered {} times, with {} x {} pixels, to the {} that {} samples in every pixel have. The true "
+        "Each scene is rendered {} times, with {} x {} pixels, to the {} that {} samples per pixel reach. The true "
         "error is measured against two references, each with {} times the samples, in every tile, of a render to the "
         "finest of these targets. Times: {} clock.",
         options.trials, options.size.width, options.size.height, options.metric, fmt::join(options.equal_samples, ", "),
@@ -314,9 +314,10 @@ bool run_coverage(const CoverageOptions& options, const BackendSource& source, R
     }
     report.blocks.emplace_back(table_of(report.rows));
     report.blocks.emplace_back(
-        covers
-            ? Callout{Callout::Kind::good, "The stated intervals have the true error in 93 % of the trials or more."}
-            : Callout{Callout::Kind::bad, "For a scene, fewer than 93 % of the stated intervals have the true error."});
+        covers ? Callout{Callout::Kind::good,
+                         "The stated intervals contain the true error in at least 93 % of the trials."}
+               : Callout{Callout::Kind::bad,
+                         "For a scene, fewer than 93 % of the stated intervals contain the true error."});
     return covers;
 }
 

@@ -174,8 +174,8 @@ class KindScale {
     void add_growth() {
         Table growth{
             fmt::format(
-                "Growth of the time per ray from {:.0f} primitives on: the exponent e of n^e, and the most over "
-                "log n. 1 or less grows no faster than log n",
+                "Growth of the time per ray from {:.0f} primitives on: the exponent e of n^e, and the largest ratio to "
+                "log n. At 1 or less, the time grows no faster than log n",
                 first_judged),
             {{"Rays"}, {"e", true}, {"Over log n", true}},
             {}};
@@ -247,7 +247,7 @@ double growth_over_log(const std::vector<Point>& times) {
 std::vector<int> numbers_of_gpus(const std::vector<int>& wanted, const BackendSource& source) {
     std::set<int> numbers;
     for (const int number : wanted) {
-        if (number < 0) throw InputError(fmt::format("--gpus: {} is no number of GPUs", number));
+        if (number < 0) throw InputError(fmt::format("--gpus: {} is not a number of GPUs", number));
         if (number > 0) numbers.insert(number);
         for (int i = 1; number == 0 && i <= source.gpu_count(); ++i) numbers.insert(i);
     }

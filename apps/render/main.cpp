@@ -89,7 +89,7 @@ void declare_target(CLI::App& app, Words& words) {
         ->check(CLI::IsMember({"rmse", "relmse", "flip"}))
         ->capture_default_str();
     app.add_option("--time-budget", words.time_budget,
-                   "seconds in which to render a frame: no round of samples starts that would end later")
+                   "time budget of a frame, in seconds: a round of samples starts only if it will end in time")
         ->type_name("SECONDS")
         ->check(CLI::PositiveNumber);
 }
@@ -116,7 +116,7 @@ void declare_checkpoint(CLI::App& app, Words& words) {
         ->check(CLI::Range(0.0, 1e9))
         ->capture_default_str();
     app.add_flag("--resume", words.checkpoint.resume,
-                 "go on from the file of --checkpoint, if it exists: on any backend, with the same bits")
+                 "continue from the checkpoint file if it exists, on any backend and with the same bits")
         ->needs(file);
 }
 
@@ -241,7 +241,7 @@ void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions
         ->type_name("all|N|LIST");
     app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
     app.add_option("--threads", backend.threads,
-                   "threads of the CPU backends and of what prepares scenes; 0 is one per core")
+                   "threads for the CPU backends and for preparing scenes; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
@@ -297,7 +297,8 @@ void print_ignored_display_options(const SequenceOptions& options) {
 int render(int argc, char** argv) {
     CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
     app.footer(
-        "tandem-render verify IMAGE [SCENE] draws parts of an image again and says whether they match (tandem-render "
+        "tandem-render verify IMAGE [SCENE] renders parts of an image again and reports whether they match "
+        "(tandem-render "
         "verify --help). A scene file named 'verify' is ./verify.\nExit status: 0 done; 1 the frame did not reach its "
         "target; 2 wrong usage or input; 3 the machine lacks something; 130 interrupted.");
     RenderCommand command;

@@ -31,19 +31,19 @@ std::string where(const FilmWindow& window) {
 
 void print(const VerifyCommand& command, const Verdict& verdict, const ImageMetadata& metadata,
            const Backend& backend) {
-    std::string text = fmt::format("{}: drew {} of {} tiles again with {}, {} of {} pixels: ", command.image,
+    std::string text = fmt::format("{}: rendered {} of {} tiles again with {}, {} of {} pixels: ", command.image,
                                    verdict.drawn, verdict.tiles, backend.name(), verdict.drawn_pixels, verdict.pixels);
     if (verdict.differing_pixels > 0) {
         text += fmt::format("{} pixels differ, in {} tiles, such as {}", verdict.differing_pixels,
                             verdict.differing.size(), where(verdict.differing.front()));
     } else if (!verdict.matches()) {
-        text += "the pixels match, but the film does not have the hash that the metadata state";
+        text += "the pixels match, but the hash of the film differs from that in the metadata";
     } else if (verdict.has_film) {
         text += "all match, and so does the hash of the film";
     } else {
         text += fmt::format(
-            "all match. Tiles that differ may remain: had more than {:.3g} % of them differed, then 95 % of such draws "
-            "would have found one (--all draws every tile; --pick {} draws these)",
+            "all match. Other tiles may still differ: if more than {:.3g} % did, 95 % of such checks would find one "
+            "(--all renders every tile; --pick {} these)",
             100 * verdict.largest_unseen_share(), command.how.seed);
     }
     if (!verdict.matches() && metadata.version != version()) {

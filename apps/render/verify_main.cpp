@@ -14,7 +14,7 @@ namespace tandem {
 
 int verify(int argc, char** argv) {
     CLI::App app(
-        "Draws random tiles of an image again from the metadata that it carries, and says whether they match: bits for "
+        "Renders random tiles of an image again from its metadata, and reports whether they match: bits for "
         ".exr and .pfm, 8-bit values for .png and .ppm. Status 0: they match, 1: they differ.",
         "tandem-render verify");
     VerifyCommand command;
@@ -25,10 +25,10 @@ int verify(int argc, char** argv) {
     app.add_option("SCENE", command.scene, "its scene, if it is not where the image says")->capture_default_str();
     app.add_option("--env", command.environment, "the picture of its environment, if it is not where the image says")
         ->type_name("FILE");
-    auto* const tiles = app.add_option("--tiles", command.how.tiles, "number of tiles to draw")
+    auto* const tiles = app.add_option("--tiles", command.how.tiles, "number of tiles to render")
                             ->check(CLI::Range(1, std::numeric_limits<int>::max()))
                             ->capture_default_str();
-    app.add_flag("--all", all, "draw every tile, and check the hash of the film")->excludes(tiles);
+    app.add_flag("--all", all, "render every tile, and check the hash of the film")->excludes(tiles);
     auto* const pick = app.add_option("--pick", command.how.seed, "seed of the choice of tiles; random by default")
                            ->check(CLI::NonNegativeNumber);
     app.add_option("--backend", backend, "backend: cpu, cuda or oracle; cuda:1 is the GPU of that number")
@@ -36,7 +36,7 @@ int verify(int argc, char** argv) {
     app.add_option("--gpus", gpus, "GPUs of the backend cuda: all, how many, or a list of numbers such as 0,1")
         ->type_name("all|N|LIST");
     app.add_option("--threads", backend_options.threads,
-                   "threads of the CPU backends and of what prepares scenes; 0 is one per core")
+                   "threads for the CPU backends and for preparing scenes; 0 is one per core")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.add_flag("--quiet", command.quiet, "print only differences and errors");

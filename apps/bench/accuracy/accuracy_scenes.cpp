@@ -104,10 +104,10 @@ AccuracyScene load_accuracy_scene(const std::string& name, const FilmSize& size)
 const std::vector<ListedScene>& listed_scenes() {
     static const std::vector<ListedScene> list = {
         {"samples", "easy", "named:paper", "smooth shading, edges"},
-        {"samples", "hard", "assets/scenes/soft-shadows.gltf", "a noise of area lights over all of the image"},
+        {"samples", "hard", "assets/scenes/soft-shadows.gltf", "noise from area lights over the whole image"},
         {"tier", "easy", "named:spheres/300", "float represents the scene"},
         {"tier", "hard", "named:hard/planet", "float represents neither the planet nor the balls on it"},
-        {"tier", "hard", "named:hard/far-telescope", "from 10,000 km the balls are as large as a unit of float"},
+        {"tier", "hard", "named:hard/far-telescope", "at 10,000 km the balls are as large as one ulp of a float"},
         {"sampler", "easy", "../shared/gltf/CornellBox.glb", "plain walls, light from everywhere; a real file"},
         {"sampler", "hard", "../shared/gltf/FlightHelmet/FlightHelmet.gltf",
          "textures and normals finer than a pixel; a real file"},
@@ -118,9 +118,9 @@ const std::vector<ListedScene>& listed_scenes() {
         {"effects", "hard", "assets/scenes/glass.gltf",
          "glass in glass, with absorption: effects that depend on others"},
         {"depth", "easy", "closed:furnace/50", "half of the light is gone after each bounce"},
-        {"depth", "hard", "closed:furnace/95", "light of a hundred bounces counts"},
+        {"depth", "hard", "closed:furnace/95", "light still counts after a hundred bounces"},
         {"tessellation", "easy", "named:spheres/300", "small opaque spheres"},
-        {"tessellation", "hard", "closed:glass", "light that is bent twice at the triangles"},
+        {"tessellation", "hard", "closed:glass", "light that is refracted twice at the triangles"},
     };
     return list;
 }

@@ -43,7 +43,7 @@ ImageMetadata metadata_of(const AccuracyScene& scene, const Backend& backend, co
 
 /// How a stored reference differs from the wanted one; empty if it does not.
 std::string mismatch(const std::optional<ImageMetadata>& stored, ImageMetadata wanted) {
-    if (!stored) return "there is no metadata of Tandem's beside the image";
+    if (!stored) return "the image has no metadata written by Tandem";
     wanted.version = stored->version;  // it approximates the same truth
     return difference_of_films(*stored, wanted);
 }
@@ -53,7 +53,7 @@ FloatImage read_reference(const std::string& path, const ImageMetadata& wanted) 
     const std::string problem = mismatch(stored.metadata, wanted);
     if (!problem.empty()) {
         throw InputError(
-            fmt::format("the reference {} is not the wanted one: {}; render it again with --rebuild-references, or "
+            fmt::format("the reference {} does not match: {}; render it again with --rebuild-references, or "
                         "name another folder",
                         path, problem));
     }

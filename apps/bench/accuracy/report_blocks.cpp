@@ -170,16 +170,15 @@ Table phases_table(const SceneSweep& sweep) {
 
 Table equal_time_table(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
     return baseline_table(
-        fmt::format(
-            "{}: at equal time, the least RMSE that was measured; of those that cannot be told apart the fastest",
-            sweep.scene.name),
+        fmt::format("{}: the least RMSE measured at equal time; of those that cannot be told apart, the fastest",
+                    sweep.scene.name),
         {{"Within", true}}, sweep, backends, [](const SweepPoint& point) { return format_seconds(point.seconds()); },
         [](const Choice& choice, const SweepPoint& point) { return best_within(choice.priced, point.seconds()); });
 }
 
 Table equal_error_table(const SceneSweep& sweep, const std::vector<SweepBackend>& backends) {
     return baseline_table(
-        fmt::format("{}: at equal error, the least time that was measured; errors that cannot be told apart are equal",
+        fmt::format("{}: the least time measured at equal error; errors that cannot be told apart are equal",
                     sweep.scene.name),
         {{"RMSE up to", true}}, sweep, backends,
         [](const SweepPoint& point) { return format_number(point.error(Metric::rmse).value); },

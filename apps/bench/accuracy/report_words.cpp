@@ -36,8 +36,8 @@ std::string error_clause(const SweepPoint& point, const SweepPoint& baseline) {
 std::string price_sentence(const SceneSweep& sweep, const std::string& backend) {
     const std::vector<const SweepPoint*> ladder = sweep.ladder(backend, sweep.plan.settings.front());
     if (ladder.size() < 2) {
-        return fmt::format("On {}, the RMSE of {} is {} in {}; one number of samples has no price of a digit.", backend,
-                           ladder.front()->setting.name, in_words(ladder.front()->error(Metric::rmse)),
+        return fmt::format("On {}, the RMSE of {} is {} in {}; the price of a digit needs more numbers of samples.",
+                           backend, ladder.front()->setting.name, in_words(ladder.front()->error(Metric::rmse)),
                            format_seconds(ladder.front()->seconds()));
     }
     const double price = price_law(sweep, backend).price_of_a_digit();

@@ -116,7 +116,7 @@ void add_denoiser(const VariedAxes& axes, Setting base, SettingPlan& plan) {
     base.name = "denoised (biased)";
     plan.settings.push_back(base);
     plan.biases.emplace_back(
-        "Denoised images are biased: their error is smooth, not noise, and no statistics of a single image tells it. "
+        "Denoised images are biased: their error is smooth, not noise, and cannot be estimated from a single image. "
         "Their time includes the planes of albedo and normals, and the denoiser.");
 }
 

@@ -185,7 +185,7 @@ class Preparer {
             return;
         }
         if (directed && axis == Vec3d{0, 0, 0}) {
-            fail_at_node(scene_, node, "a light with a direction under a transform that removes it");
+            fail_at_node(scene_, node, "a light whose transform leaves it without a direction");
         }
         PunctualLight light{};
         const bool falls_off = source.inverse_square && source.kind != LightKind::directional;

@@ -97,7 +97,7 @@ void GeometryReader::complete_texcoords(Mesh& mesh, const Material& material, co
     const std::uint32_t set = tangent_set(material);
     if (!is_anisotropic(material) || !mesh.texcoords[set].empty()) return;
     report_.add(Treatment::approximated, "anisotropy without coordinates", path + ".attributes",
-                fmt::format("there is no TEXCOORD_{}; the direction is any", set));
+                fmt::format("there is no TEXCOORD_{}; the direction is arbitrary", set));
 }
 
 void GeometryReader::note_sides(const Geometry& geometry, const std::string& path) {

@@ -84,9 +84,9 @@ void check_ends(const FramePlan& plan, const TiledFilm& film) {
             if (end < samples) end += instant.job.samples;
         }
         if (end != samples) {
-            throw InputError(
-                fmt::format("tile {} has {} samples per pixel, which no instant of the frame ends with; begin it again",
-                            i, samples));
+            throw InputError(fmt::format(
+                "tile {} has {} samples per pixel, but no instant of the frame ends after that many; begin it again", i,
+                samples));
         }
     }
 }

@@ -67,9 +67,8 @@ std::size_t differing(const FloatImage& drawn, const FloatImage& file, const Dec
 const ImageMetadata& checked_metadata(const Backend& backend, const DecodedImage& image) {
     if (!image.metadata || image.metadata->scene_hash.empty()) {
         throw InputError(
-            "the image has no metadata of tandem-render: it was written by another program, or changed by one (beside "
-            "a "
-            ".pfm its .pfm.txt must lie, and belong to it)");
+            "the image has no metadata of tandem-render: it was written by another program, or changed by one (a .pfm "
+            "needs its own .pfm.txt beside it)");
     }
     const ImageMetadata& metadata = *image.metadata;
     if (!metadata.denoised.empty()) {
@@ -88,8 +87,9 @@ const ImageMetadata& checked_metadata(const Backend& backend, const DecodedImage
             "be verified");
     }
     if (!backend.capabilities().exact && metadata.backend != backend.name()) {
-        throw InputError(fmt::format("'{}' does not draw the bits of '{}', which drew the image; use --backend {}",
-                                     backend.name(), metadata.backend, metadata.backend));
+        throw InputError(
+            fmt::format("'{}' does not render the bits of '{}', which rendered the image; use --backend {}",
+                        backend.name(), metadata.backend, metadata.backend));
     }
     return metadata;
 }
