@@ -29,7 +29,7 @@ struct Lanes {
     /// Lane i holds make(i).
     template <class Make>
     TANDEM_HD_INLINE static Lanes from(Make make) {
-        Lanes result{};  // set() also reads
+        Lanes result;
         for (int i = 0; i < size; ++i) result.set(i, make(i));
         return result;
     }
