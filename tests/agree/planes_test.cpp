@@ -134,7 +134,8 @@ TEST_P(PlaneBits, AreNearTheOracle) {
                              FilmPlane::material | FilmPlane::count;
     for (const auto& [name, scene] : scenes()) {
         const Film film = render(scene, wanted);
-        const Film& right = test::film_of_the_oracle(scene, "planes", job(wanted));
+        const RenderJob same_job = job(wanted);
+        const Film& right = test::film_of_the_oracle(scene, "planes", same_job);
         const ConstFilmPlanes a = std::as_const(film).planes(), b = right.planes();
         std::size_t others = 0;
         for (std::size_t i = 0; i < film.pixel_count(); ++i) {
