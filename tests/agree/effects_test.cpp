@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
@@ -174,12 +174,12 @@ class TileMeans {
     double samples_ = 0;
 };
 
-/// The oracle's means, drawn once for all backends, with the camera rays of `precise`.
-const TileMeans& oracle_means(const EffectScene& entry, const PreparedScene& scene, int samples, int films,
+/// The oracle's means, drawn once for all backends of a tier.
+const TileMeans& oracle_means(const EffectScene& entry, const PreparedScene& scene, Tier tier, int samples, int films,
                               std::uint64_t first_seed) {
     static const auto oracle = make_backend("oracle");
-    static std::map<std::pair<std::string, std::uint64_t>, TileMeans> known;
-    const auto [place, is_new] = known.try_emplace({entry.name, first_seed}, *oracle, scene, Tier::precise, samples);
+    static std::map<std::tuple<std::string, Tier, std::uint64_t>, TileMeans> known;
+    const auto [place, is_new] = known.try_emplace({entry.name, tier, first_seed}, *oracle, scene, tier, samples);
     if (is_new) place->second.add_films(films, first_seed);
     return place->second;
 }
@@ -200,7 +200,8 @@ TEST_P(EffectBits, HaveTheMeansOfTheOracle) {
         for (const auto& [count, first_seed] : {std::pair{films, 100ULL}, std::pair{4 * films, 10000ULL}}) {
             TileMeans ours(*backend_, scene, GetParam().tier, samples);
             ours.add_films(count, first_seed);
-            const TileMeans& theirs = oracle_means(entry, scene, samples_of_oracle, count, first_seed + 800);
+            const TileMeans& theirs =
+                oracle_means(entry, scene, GetParam().tier, samples_of_oracle, count, first_seed + 800);
             drawn += ours.samples() + theirs.samples();
             std::vector<std::size_t> differ;
             for (const std::size_t tile : suspects) {
