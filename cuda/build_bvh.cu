@@ -73,6 +73,7 @@ class Builder {
         const auto moves = arena.add<Move>(effort_.passes > 0 ? 2 * n : 0);
         const auto lists = arena.add<std::uint32_t>(2 * n), nearest = arena.add<std::uint32_t>(n);
         const auto sums = arena.add<Counts>(2 * (n + 1)), plans = arena.add<WidePlan>(n);
+        const auto planned = arena.add<PlannedLevels>(1);
         std::size_t sort_bytes = 0, scan_bytes = 0, merge_scan_bytes = 0;
         cub::DoubleBuffer<std::uint64_t> no_codes;
         cub::DoubleBuffer<std::uint32_t> no_ids;
@@ -87,7 +88,7 @@ class Builder {
         cub_bytes_ = std::max({sort_bytes, scan_bytes, merge_scan_bytes});
         const auto cub_memory = arena.add<std::byte>(cub_bytes_);
         memory_.scratch.reserve(arena.bytes());
-        memory_.word.reserve(sizeof(OrderedBounds));
+        memory_.word.reserve(std::max(sizeof(OrderedBounds), sizeof(PlannedLevels)));
         const auto at = [&]<class T>(std::size_t offset, T*& pointer) {
             pointer = reinterpret_cast<T*>(memory_.scratch.data() + offset);
         };
@@ -102,6 +103,7 @@ class Builder {
         at(nearest, nearest_);
         at(sums, sums_);
         at(plans, plans_);
+        at(planned, planned_);
         at(cub_memory, cub_memory_);
         tree_.leaves = count_;
     }
@@ -257,20 +259,27 @@ class Builder {
         WidePlan root{};
         root.child[0] = root_;
         check(cudaMemcpyAsync(plans_, &root, sizeof(root), cudaMemcpyHostToDevice, stream_), doing);
-        std::uint32_t begin = 0, end = 1, entries = 0;
-        while (begin < end) {
-            built_.level_starts.push_back(begin);
-            run_kernel(find_children_kernel, end - begin + 1, tree_, plans_ + begin, end - begin, sums_);
-            scan(sums_, end - begin);
-            const Counts total = fetch(summed() + (end - begin));
-            run_kernel(place_children_kernel, end - begin, tree_, plans_, begin, end, entries, summed());
-            begin = end;
-            end += high_of(total);
-            entries += low_of(total);
+        PlanLevel level = {0, 1, 0};
+        const auto finish = [&](const PlanLevel& next) {
+            built_.level_starts.push_back(level.begin);
             ++built_.levels;
+            level = next;
+        };
+        while (level.size() != 0) {
+            if (level.size() <= build_block) {
+                launch(doing, small_levels_kernel, 1, build_block, stream_, tree_, plans_, level, planned_);
+                const PlannedLevels planned = fetch(planned_);
+                for (std::uint32_t i = 0; i < planned.count; ++i) finish(planned.next[i]);
+            } else {
+                run_kernel(find_children_kernel, level.size() + 1, tree_, plans_, level, sums_);
+                scan(sums_, level.size());
+                const Counts children = fetch(summed() + level.size());
+                run_kernel(place_children_kernel, level.size(), tree_, plans_, level, summed());
+                finish(level.next(children));
+            }
         }
-        built_.node_count = end;
-        built_.level_starts.push_back(end);
+        built_.node_count = level.begin;
+        built_.level_starts.push_back(level.begin);
     }
 
     void write_tree() {
@@ -326,6 +335,7 @@ class Builder {
     std::uint32_t* nearest_ = nullptr;
     Counts* sums_ = nullptr;  ///< counts, then their sums
     WidePlan* plans_ = nullptr;
+    PlannedLevels* planned_ = nullptr;
     Move* moves_ = nullptr;
     std::byte* cub_memory_ = nullptr;
     std::size_t cub_bytes_ = 0;
