@@ -6,7 +6,6 @@
 
 #include "cpu/kernels.h"
 #include "cpu/tile_pixels.h"
-#include "tandem/kernel/sharing.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {
@@ -25,7 +24,7 @@ template <class Real>
 class SampleSets {
   public:
     TANDEM_HD_INLINE SampleSets(const PixelJob& job, const Tile& tile, Vec3d* sums)
-        : job_(job), pixels_(tile), sums_(sums), most_samples_(sharing_of(job.samples, most_sharing)) {}
+        : job_(job), pixels_(tile), sums_(sums) {}
 
     /// The next sample to follow; false if there is none, or none until others are done.
     TANDEM_HD_INLINE bool next(SampleItem& item) {
@@ -61,7 +60,7 @@ class SampleSets {
     }
 
   private:
-    static constexpr std::uint32_t most_sharing = 8, set_size = most_sharing * Real::size, set_count = 8;
+    static constexpr std::uint32_t most_samples = 8, set_size = most_samples * Real::size, set_count = 8;
 
     struct Set {
         std::array<std::uint32_t, Real::size> x, y;
@@ -79,19 +78,12 @@ class SampleSets {
             set.pixels = last->pixels;
             set.first = last->first + last->samples;
         } else {
-            UInt<Real> x(0U), y(0U);
-            const Mask<Real> taken = pixels_.next(Mask<Real>(true), x, y);
             set.pixels = 0;
-            for (int i = 0; i < Real::size; ++i) {
-                if (!taken[i]) continue;
-                set.x[set.pixels] = x[i];
-                set.y[set.pixels] = y[i];
-                ++set.pixels;
-            }
+            while (set.pixels != Real::size && pixels_.next(set.x[set.pixels], set.y[set.pixels])) ++set.pixels;
             set.first = 0;
             if (set.pixels == 0) return false;
         }
-        set.samples = std::min(most_samples_, job_.samples - set.first);
+        set.samples = std::min(most_samples, job_.samples - set.first);
         set.open = next_ = set.pixels * set.samples;
         ++begun_;
         return true;
@@ -100,7 +92,6 @@ class SampleSets {
     const PixelJob& job_;
     TilePixels<Real> pixels_;
     Vec3d* sums_;
-    std::uint32_t most_samples_;
     std::uint32_t begun_ = 0, added_ = 0;  ///< numbers of sets
     std::uint32_t next_ = 0;               ///< samples of the last set that are not handed out
     std::array<Set, set_count> sets_;

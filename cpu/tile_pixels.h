@@ -13,15 +13,23 @@ class TilePixels {
   public:
     TANDEM_HD_INLINE explicit TilePixels(const Tile& tile) : tile_(tile), x_(tile.x0), y_(tile.y0) {}
 
-    /// Assigns the next pixels to the lanes of `free`; returns the lanes that got one.
-    TANDEM_HD_INLINE Mask<Real> next(const Mask<Real>& free, UInt<Real>& x, UInt<Real>& y) {
+    /// The next pixel; false if there is none.
+    TANDEM_HD_INLINE bool next(std::uint32_t& x, std::uint32_t& y) {
+        if (!find()) return false;
+        x = x_ + at_ % width;
+        y = y_ + at_ / width;
+        ++at_;
+        return true;
+    }
+
+    /// Assigns the next pixels to the lanes; returns those that got one.
+    TANDEM_HD_INLINE Mask<Real> next(UInt<Real>& x, UInt<Real>& y) {
         UInt<Real> got(0U);
-        for (int i = 0; i < Real::size; ++i) {
-            if (!free[i] || !find()) continue;
-            set_lane(x, i, x_ + at_ % width);
-            set_lane(y, i, y_ + at_ / width);
+        std::uint32_t to_x, to_y;
+        for (int i = 0; i < Real::size && next(to_x, to_y); ++i) {
+            set_lane(x, i, to_x);
+            set_lane(y, i, to_y);
             set_lane(got, i, 1U);
-            ++at_;
         }
         return got != UInt<Real>(0U);
     }

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "cuda/warp_tile.h"
-#include "tandem/kernel/sharing.h"
+#include "tandem/math/host_device.h"
 
 namespace tandem::cuda {
 
@@ -33,18 +33,27 @@ struct RenderGrid {
     dim3 threads;
 };
 
-/// How many threads share a pixel. More than 8 were not faster (docs/performance.md, "Threads share pixels").
-inline constexpr std::uint32_t most_sharing_threads = 8;
-[[nodiscard]] TANDEM_HD constexpr std::uint32_t sharing_threads(std::uint32_t samples,
-                                                                std::uint32_t most = most_sharing_threads) {
-    return sharing_of(samples, most);
+/// The largest power of two, up to `most`, such that if so many samples of a pixel are taken at a time, at most every
+/// `rarity`-th place stays empty at the end. `most`: a power of two.
+[[nodiscard]] TANDEM_HD constexpr std::uint32_t samples_at_a_time(std::uint32_t samples, std::uint32_t most,
+                                                                  std::uint32_t rarity) {
+    std::uint32_t at_a_time = most;
+    const auto places = [&] { return (std::uint64_t{samples - 1} / at_a_time + 1) * at_a_time; };
+    while ((places() - samples) * rarity > places()) at_a_time /= 2;
+    return at_a_time;
 }
 
-/// The most threads for paths of one vertex. In a hierarchy of few primitives, rays through larger tiles visit the same
-/// nodes too, and fewer threads begin each pixel and exchange its radiances.
-[[nodiscard]] inline std::uint32_t most_sharing_threads_for(std::size_t primitives) {
+/// How many threads share a pixel, for paths of one vertex (docs/performance.md, "Threads share pixels"). In a
+/// hierarchy of few primitives, rays through larger tiles visit the same nodes too; so fewer threads begin each pixel
+/// and exchange its radiances, and an idle thread is worth less.
+[[nodiscard]] inline std::uint32_t sharing_threads(std::uint32_t samples, std::size_t primitives) {
     constexpr std::size_t few = 256;  // measured: 4 threads are faster up to 100 primitives, 8 from 1000 on
-    return primitives <= few ? most_sharing_threads / 2 : most_sharing_threads;
+    return primitives <= few ? samples_at_a_time(samples, 4, 16) : samples_at_a_time(samples, 8, 8);
+}
+
+/// How many samples of a pixel a set has, for longer paths.
+[[nodiscard]] TANDEM_HD constexpr std::uint32_t samples_in_set(std::uint32_t samples) {
+    return samples_at_a_time(samples, 8, 5);
 }
 
 /// Blocks of 2 x 2 tiles. `threads`: of a block.

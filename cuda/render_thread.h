@@ -139,14 +139,14 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_tiles(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                                     Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const std::uint32_t threads = sharing_threads(job.samples);
-    const WindowTiles tiles = tiles_of_window(job.width, height, warp_tile(threads));
+    const WindowTiles tiles = tiles_of_window(job.width, height, warp_tile(job.sharing_threads));
     while (true) {
         std::uint32_t tile = 0;
         if (threadIdx.x % 32 == 0) tile = atomicAdd(&counters->next_in_queue, 1U);
         tile = __shfl_sync(0xFFFFFFFFU, tile, 0);
         if (__syncthreads_or(tile < tiles.count) == 0) return;
-        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tiles, tile, threads), sums, counters);
+        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tiles, tile, job.sharing_threads), sums,
+                                           counters);
     }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "cuda/block_shape.h"
@@ -261,15 +262,17 @@ std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& sce
 
 void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                    bool culls_pixels, Vec3d* sums, void* radiances, DeviceCounters* counters, cudaStream_t stream) {
-    const auto sharing = [&] {
-        if (structure_of(scene) == Structure::instanced) return sharing_threads(job.samples);
-        return sharing_threads(job.samples, most_sharing_threads_for(primitive_count(scene.scene)));
-    };
+    PixelJob shared = job;
+    if (has_hierarchy(scene)) {
+        const bool is_instanced = structure_of(scene) == Structure::instanced;
+        shared.sharing_threads = sharing_threads(
+            job.samples, is_instanced ? std::numeric_limits<std::size_t>::max() : primitive_count(scene.scene));
+    }
     const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
-                            : has_hierarchy(scene)  ? shared_pixels(job.width, height, sharing())
+                            : has_hierarchy(scene)  ? shared_pixels(job.width, height, shared.sharing_threads)
                                                     : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, job, height, sums, radiances,
+        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, shared, height, sums, radiances,
                            counters);
     };
     switch (structure_of(scene)) {

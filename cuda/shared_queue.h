@@ -41,7 +41,7 @@ class SharedSamples {
                                              Vec3<Real>* radiances, DeviceCounters* counters)
         : queue_(queue), job_(job), height_(height), radiances_(radiances), counters_(counters) {
         if (lane() == 0) {
-            queue.most_samples = sharing_threads(job.samples);
+            queue.most_samples = samples_in_set(job.samples);
             queue.tiles = tiles_of_window(job.width, height, warp_tile(queue.most_samples));
             queue.begun = queue.added = queue.next = 0;
             queue.is_empty = false;

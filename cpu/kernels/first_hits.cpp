@@ -16,7 +16,7 @@ void write_first_hits(const CpuSceneView& view, const PixelJob& job, const Tile&
     TilePixels<Real> pixels(tile);
     Word x(0U), y(0U);
     while (true) {
-        const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
+        const Mask<Real> used = pixels.next(x, y);
         if (!any(used)) return;
         const FirstHits<Real> hits = find_first_hits<Real>(tracer, view.scene, job, x, y, used);
         const Word at = y * Word(job.width) + x;

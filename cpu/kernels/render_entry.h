@@ -18,7 +18,7 @@ TANDEM_HD TileStats render_pixels(const Tracer& tracer, const SceneView& scene, 
     TilePixels<Real> pixels(tile);
     Word x(0U), y(0U);
     while (true) {
-        const Mask<Real> used = pixels.next(Mask<Real>(true), x, y);
+        const Mask<Real> used = pixels.next(x, y);
         if (!any(used)) return stats;
         const auto pixel = render_pixel<Effects, Real>(tracer, scene, job, x, y, used);
         const Word at = y * Word(job.width) + x;

@@ -4,33 +4,46 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
 namespace tandem::cuda {
 namespace {
 
-TEST(SharedPixels, HaveThreadsThatAreRarelyIdle) {
-    EXPECT_EQ(sharing_threads(1), 1U);
-    EXPECT_EQ(sharing_threads(2), 2U);
-    EXPECT_EQ(sharing_threads(3), 1U);
-    EXPECT_EQ(sharing_threads(7), 8U);
-    EXPECT_EQ(sharing_threads(12), 4U);
-    EXPECT_EQ(sharing_threads(64), most_sharing_threads);
-    EXPECT_EQ(sharing_threads(0xFFFFFFFFU), most_sharing_threads);
-    for (std::uint32_t samples = 1; samples <= 5000; ++samples) {
-        const unsigned int threads = sharing_threads(samples);
-        const unsigned int turns = (samples + threads - 1) / threads;
-        ASSERT_LE(turns * threads * 4, samples * 5) << samples << " samples: more than a fifth of the threads are idle";
-        ASSERT_EQ(most_sharing_threads % threads, 0U) << samples << " samples";
-    }
-}
+struct Rule {
+    std::uint32_t (*of)(std::uint32_t samples);
+    std::uint32_t most;
+    double idle_share;
+};
+constexpr std::size_t few_primitives = 41, many_primitives = 1000;
+constexpr Rule rules[] = {
+    {[](std::uint32_t samples) { return sharing_threads(samples, few_primitives); }, 4, 1.0 / 16},
+    {[](std::uint32_t samples) { return sharing_threads(samples, many_primitives); }, 8, 1.0 / 8},
+    {[](std::uint32_t samples) { return samples_in_set(samples); }, 8, 1.0 / 5},
+};
 
-TEST(SharedPixels, HaveFewerThreadsInAHierarchyOfFewPrimitives) {
-    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(41)), 4U);
-    EXPECT_EQ(sharing_threads(5, most_sharing_threads_for(41)), 2U);
-    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(1000)), most_sharing_threads);
-    EXPECT_EQ(sharing_threads(64, most_sharing_threads_for(std::size_t{1} << 32)), most_sharing_threads);
+TEST(SharedPixels, LeaveFewThreadsIdle) {
+    const auto idle_share = [](double samples, std::uint32_t threads) {
+        return 1 - samples / (std::ceil(samples / threads) * threads);
+    };
+    for (const Rule& rule : rules) {
+        for (std::uint32_t samples = 1; samples <= 5000; ++samples) {
+            const std::uint32_t threads = rule.of(samples);
+            ASSERT_EQ(rule.most % threads, 0U) << samples << " samples";
+            ASSERT_LE(idle_share(samples, threads), rule.idle_share) << samples << " samples";
+            if (threads == rule.most) continue;
+            ASSERT_GT(idle_share(samples, 2 * threads), rule.idle_share) << samples << " samples: more could share";
+        }
+        EXPECT_EQ(rule.of(1), 1U);
+        EXPECT_EQ(rule.of(2), 2U);
+        EXPECT_EQ(rule.of(64), rule.most);
+        EXPECT_EQ(rule.of(0xFFFFFFFFU), rule.most);
+    }
+    EXPECT_EQ(sharing_threads(10, many_primitives), 2U);
+    EXPECT_EQ(sharing_threads(7, many_primitives), 8U);
+    EXPECT_EQ(sharing_threads(7, few_primitives), 1U);
+    EXPECT_EQ(sharing_threads(64, std::size_t{1} << 32), 8U);
 }
 
 TEST(WarpTile, IsASquareOrTwo) {

@@ -21,6 +21,7 @@ struct PixelJob {
     std::uint32_t left, top;
     // last, so that nvcc reads the other members together, as without this one
     PixelFilter filter = PixelFilter::box;
+    std::uint32_t sharing_threads = 1;  ///< of a GPU: how many share a pixel in a hierarchy
 
     /// The number that keys the random numbers of a pixel: in the film, so the bits of a pixel do not depend on the
     /// window; for sobol_blue on a Morton curve.
