@@ -21,7 +21,7 @@ namespace tandem {
 /// - record_hit(): the data about a hit that the next three need;
 /// - surface_point(): the point there, and normal_at(), the shading normal;
 /// - parametrisation(): texture coordinates and their derivatives;
-/// - where area_lights_detail::is_light: view_light() and shines(), to sample it as an area light.
+/// - where is_light: view_light() and shines(), to sample it as an area light.
 template <class Primitive, class Real>
 concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standard_layout_v<Primitive> &&
     requires(const Primitive& primitive, const FilterRay<Real>& filter, const Ray<Real>& ray, const SceneView& scene,
@@ -38,8 +38,8 @@ concept KernelShape = std::is_trivially_copyable_v<Primitive> && std::is_standar
     { surface_point(primitive, record, ray, t) } -> std::same_as<SurfacePoint<Real>>;
     { normal_at<Real>(scene, primitive, record, ray, t, mask) } -> std::same_as<Vec3<Double<Real>>>;
     { parametrisation(primitive, record, texcoords, ray, t, mask) } -> std::same_as<Parametrisation<Real>>;
-    requires !area_lights_detail::is_light<Primitive> || requires {
-        area_lights_detail::view_light<Real>(primitive, v, true);
+    requires !is_light<Primitive> || requires {
+        area_lights_detail::view_light<Real>(primitive, v, mask);
         { area_lights_detail::shines<Real>(primitive, v, v) } -> std::same_as<Mask<Real>>;
     };
 };

@@ -176,6 +176,16 @@ TANDEM_HD_INLINE void set_lane(T& value, int, const T& lane_value) {
     value = lane_value;
 }
 
+/// Replaces the value of one lane by a constant of the host, rounded once to the precision of Real.
+template <class Real>
+TANDEM_HD_INLINE void set_lane_constant(Real& value, int i, double a) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        value = constant<Real>(a);
+    } else {
+        set_lane(value, i, static_cast<typename RealTraits<Real>::Scalar>(a));
+    }
+}
+
 /// Calls f(value, mask) once for each different value among the lanes of `active`.
 template <class F>
 TANDEM_HD_INLINE void for_each_unique_lane(std::uint32_t value, bool active, F f) {

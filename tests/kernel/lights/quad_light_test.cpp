@@ -106,14 +106,16 @@ TEST(QuadLight, EachHalfShinesFromItsOwnFront) {
     const Vec3d v0 = {-1, 0, 2}, v2 = {1, 0, 2}, up = {0, 1, 2.5}, down = {0, -1, 2.5}, aside = {0, 3, 2.2};
     int one_half = 0;
     for (const auto& [v1, v3] : {std::pair{up, down}, {down, up}, {up, aside}, {aside, up}, {down, aside}}) {
-        const auto view = view_quad_light<float>(origin, v0, v1, v2, v3, {FaceSides::single_sided, true});
+        const auto view =
+            view_quad_light<float>(origin, v0, v1, v2, v3, quad_light_shape<float>(FaceSides::single_sided, true));
         const auto is_front = [](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
             return dot(cross(b - a, c - a), origin - a) > 0;
         };
         const bool first = is_front(v0, v1, v2), second = is_front(v0, v2, v3);
         EXPECT_EQ(view.first.solid_angle > 0, first);
         EXPECT_EQ(view.second.solid_angle > 0, second);
-        const auto both = view_quad_light<float>(origin, v0, v1, v2, v3, {FaceSides::double_sided, true});
+        const auto both =
+            view_quad_light<float>(origin, v0, v1, v2, v3, quad_light_shape<float>(FaceSides::double_sided, true));
         EXPECT_GT(both.first.solid_angle * both.second.solid_angle, 0);
         if (!first && !second) continue;
         one_half += first != second;
@@ -131,7 +133,7 @@ TEST(QuadLight, EachHalfShinesFromItsOwnFront) {
 TEST(QuadLight, AHalfHidesTheOther) {
     const Vec3d v0 = {-1, 0, 2}, v1 = {0, 1, 2}, v2 = {1, 0, 2}, v3 = {0, 0.8, 1.2};
     for (const FaceSides sides : {FaceSides::double_sided, FaceSides::culled}) {
-        const auto view = view_quad_light<float>(origin, v0, v1, v2, v3, {sides, true});
+        const auto view = view_quad_light<float>(origin, v0, v1, v2, v3, quad_light_shape<float>(sides, true));
         const bool is_there = sides == FaceSides::double_sided || view.second.shows_front;
         test::Random random(5);
         int hidden = 0;

@@ -7,10 +7,16 @@
 namespace tandem {
 
 /// The properties of an emissive quad.
+template <class Real>
 struct QuadLightShape {
-    FaceSides sides = FaceSides::double_sided;
-    bool overlaps = true;  ///< one half may occlude the other from some points
+    Mask<Real> one_sided = Mask<Real>(false);  ///< the back does not emit
+    Mask<Real> culled = Mask<Real>(false);     ///< and rays pass through it
+    Mask<Real> overlaps = Mask<Real>(true);    ///< one half may occlude the other from some points
 };
+template <class Real>
+TANDEM_HD QuadLightShape<Real> quad_light_shape(FaceSides sides, const Mask<Real>& overlaps) {
+    return {Mask<Real>(sides != FaceSides::double_sided), Mask<Real>(sides == FaceSides::culled), overlaps};
+}
 
 template <class Real>
 struct QuadLightView {
@@ -18,7 +24,7 @@ struct QuadLightView {
     TriangleLightView<Real> second;
     Double<Real> solid_angle;      ///< sr: of the halves that emit towards the point
     Vec3<Double<Real>> corner[4];  ///< metres
-    QuadLightShape shape;
+    QuadLightShape<Real> shape;
 };
 
 /// Needs and gives: as view_triangle_light() of the halves. Each half emits from its own front, or from both sides. A
@@ -28,14 +34,17 @@ struct QuadLightView {
 template <class Real>
 TANDEM_HD QuadLightView<Real> view_quad_light(const Vec3<Double<Real>>& point, const Vec3<Double<Real>>& v0,
                                               const Vec3<Double<Real>>& v1, const Vec3<Double<Real>>& v2,
-                                              const Vec3<Double<Real>>& v3, const QuadLightShape& shape = {}) {
+                                              const Vec3<Double<Real>>& v3, const QuadLightShape<Real>& shape = {}) {
     using D = Double<Real>;
     QuadLightView<Real> view;
     view.first = view_triangle_light<Real>(point, v0, v1, v2);
     view.second = view_triangle_light<Real>(point, v0, v2, v3);
-    if (shape.sides != FaceSides::double_sided) {
-        view.first.solid_angle = select(view.first.shows_front, view.first.solid_angle, D(0.0F));
-        view.second.solid_angle = select(view.second.shows_front, view.second.solid_angle, D(0.0F));
+    if (any(shape.one_sided)) {
+        const auto emitting = [&](const TriangleLightView<Real>& half) {
+            return select(shape.one_sided && !half.shows_front, D(0.0F), half.solid_angle);
+        };
+        view.first.solid_angle = emitting(view.first);
+        view.second.solid_angle = emitting(view.second);
     }
     view.solid_angle = view.first.solid_angle + view.second.solid_angle;
     view.corner[0] = v0;
@@ -81,7 +90,7 @@ inline constexpr double same_distance = is_fast<Real> ? 0x1p-16 : 0x1p-40;
 /// Whether a half blocks rays from the point. A culled back does not.
 template <class Real>
 TANDEM_HD Mask<Real> blocks_rays(const QuadLightView<Real>& view, const TriangleLightView<Real>& half) {
-    return Mask<Real>(view.shape.sides != FaceSides::culled) || half.shows_front;
+    return !view.shape.culled || half.shows_front;
 }
 
 /// Whether the other half occludes a point of one half at `distance`, metres. On the diagonal neither half occludes the
@@ -117,8 +126,9 @@ TANDEM_HD LightSample<Real> sample_light(const QuadLightView<Real>& view, const 
     LightSample<Real> sample = sample_light(half, stretched, v);
     sample.pdf = sample.pdf * quad_light_detail::share(view, half);
     sample.in_second_half = !is_first;
-    if (view.shape.overlaps) {
-        const Mask<Real> hidden = quad_light_detail::is_hidden(view, sample.direction, sample.distance, !is_first);
+    if (any(view.shape.overlaps)) {
+        const Mask<Real> hidden =
+            view.shape.overlaps && quad_light_detail::is_hidden(view, sample.direction, sample.distance, !is_first);
         sample.pdf = select(hidden, D(0.0F), sample.pdf);
     }
     return sample;
