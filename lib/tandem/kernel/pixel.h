@@ -89,9 +89,11 @@ TANDEM_HD Addend<Real> addend_of(const Vec3<Real>& radiance) {
     return {select(is_number, radiance, Vec3<Real>{zero, zero, zero}), is_number};
 }
 
-/// Adds the radiance of a sample.
+/// Adds the radiance of a sample. A call on the host: inline, the sums would take registers from the whole loop over
+/// samples (docs/performance.md, "CPU").
 template <class Real>
-TANDEM_HD void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
+TANDEM_HD_CALL_ON(host)
+void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {
     using Word = UInt<Real>;
     const Addend<Real> addend = addend_of(radiance);
     pixel.sum = pixel.sum + to_wide(addend.radiance);
