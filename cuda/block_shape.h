@@ -33,13 +33,13 @@ struct RenderGrid {
     dim3 threads;
 };
 
-/// The largest power of two, up to `most`, such that if so many samples of a pixel are taken at a time, at most every
-/// `rarity`-th place stays empty at the end. `most`: a power of two.
+/// How many samples of a pixel to take at a time: the largest power of two, up to `most`, with which at most one place
+/// in `places_per_gap` stays empty when the samples do not divide evenly. `most`: a power of two.
 [[nodiscard]] TANDEM_HD constexpr std::uint32_t samples_at_a_time(std::uint32_t samples, std::uint32_t most,
-                                                                  std::uint32_t rarity) {
+                                                                  std::uint32_t places_per_gap) {
     std::uint32_t at_a_time = most;
     const auto places = [&] { return (std::uint64_t{samples - 1} / at_a_time + 1) * at_a_time; };
-    while ((places() - samples) * rarity > places()) at_a_time /= 2;
+    while ((places() - samples) * places_per_gap > places()) at_a_time /= 2;
     return at_a_time;
 }
 

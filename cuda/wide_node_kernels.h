@@ -21,7 +21,8 @@ struct PlanLevel {
     std::uint32_t entries;     ///< of the levels before
 
     [[nodiscard]] __host__ __device__ std::uint32_t size() const { return end - begin; }
-    /// `children`: of this level.
+    /// The level after it; `children`: of this one. With the children of its first nodes alone, those of the next node
+    /// start at `end` and `entries`.
     [[nodiscard]] __host__ __device__ PlanLevel next(Counts children) const {
         return {end, end + high_of(children), entries + low_of(children)};
     }
@@ -51,7 +52,7 @@ __device__ inline void place_children(const BuildTree& tree, WidePlan* nodes, co
     }
 }
 
-/// One more element for the sum.
+/// find_children() for a level. The sums have one more element, for the total.
 static __global__ void find_children_kernel(BuildTree tree, WidePlan* nodes, PlanLevel level, Counts* sums) {
     const std::uint32_t i = thread_number();
     if (i <= level.size()) sums[i] = i < level.size() ? find_children(tree, nodes[level.begin + i]) : 0;

@@ -1,4 +1,4 @@
-/// The primitives of area lights, another one in each lane of a packet.
+/// The primitives of area lights, another one in each lane of a packet. Tested by tests/kernel/visit_lights_test.cpp.
 #pragma once
 
 #include <cstring>
@@ -16,6 +16,7 @@ namespace tandem {
 template <class Body>
 inline constexpr bool is_light = is_face<Body> || std::is_same_v<Body, Sphere>;
 
+// Primitives of one kind, one in each lane; metres, render space.
 template <class Real>
 struct LaneSphere {
     Vec3<Real> centre;
@@ -48,7 +49,7 @@ class LaneLights {
         put_corner(lane, 0, face.v0);
         put_corner(lane, 1, face.v1);
         put_corner(lane, 2, face.v2);
-        put_sides(lane, face);
+        put_kind_and_sides(lane, face);
         if constexpr (!is_fast<Real>) {
             if (is_double_sided(face.attributes)) return;
             const Vec3d normal = triangle_normal(face.v0, face.v1, face.v2);
@@ -62,7 +63,7 @@ class LaneLights {
         put_corner(lane, 1, face.v1);
         put_corner(lane, 2, face.v2);
         put_corner(lane, 3, face.v3);
-        put_sides(lane, face);
+        put_kind_and_sides(lane, face);
     }
 
     /// Calls visit(light, mask) for each kind of light.
@@ -88,14 +89,12 @@ class LaneLights {
     using Scalar = typename RealTraits<Real>::Scalar;
     static constexpr int lanes = RealTraits<Real>::lanes;
 
-    template <class T, class From>
-    TANDEM_HD static T load_as(const From& values) {
-        static_assert(sizeof(T) == sizeof(values));
-        T loaded;
-        std::memcpy(&loaded, values, sizeof(T));
+    TANDEM_HD static Real load(const Scalar (&values)[lanes]) {
+        Real loaded;
+        static_assert(sizeof(loaded) == sizeof(values));
+        std::memcpy(&loaded, values, sizeof(loaded));
         return loaded;
     }
-    TANDEM_HD static Real load(const Scalar (&values)[lanes]) { return load_as<Real>(values); }
     [[nodiscard]] TANDEM_HD Vec3<Real> corner(int number) const {
         return {load(corner_[number][0]), load(corner_[number][1]), load(corner_[number][2])};
     }
@@ -105,9 +104,9 @@ class LaneLights {
         corner_[number][2][lane] = Scalar(at.z);
     }
     template <class Face>
-    TANDEM_HD void put_sides(int lane, const Face& face) {
-        set_lane(sides_, lane, static_cast<std::uint32_t>(face.attributes.sides));
+    TANDEM_HD void put_kind_and_sides(int lane, const Face& face) {
         set_lane(kind_, lane, kind_of<Face>);
+        set_lane(sides_, lane, static_cast<std::uint32_t>(face.attributes.sides));
     }
     [[nodiscard]] TANDEM_HD Mask<Real> has_sides(FaceSides sides) const {
         return sides_ == Word(static_cast<std::uint32_t>(sides));
@@ -117,8 +116,9 @@ class LaneLights {
         return kind_ == Word(kind_of<Body>);
     }
 
-    Scalar corner_[4][3][lanes];
-    Scalar radius_[lanes];
+    // zeros in lanes without such a light: all lanes compute
+    Scalar corner_[4][3][lanes] = {};  ///< of a face; the first one is the centre of a sphere
+    Scalar radius_[lanes] = {};
     Word kind_ = Word(0U);
     Word sides_ = Word(0U);
     Vec3<D> normal_ = {D(0.0), D(0.0), D(0.0)};
