@@ -25,17 +25,19 @@ function(tandem_lowest_architecture result)
   set(${result} ${lowest} PARENT_SCOPE)
 endfunction()
 
-# tandem_share_optimiser(TARGET): for kernels whose code does not depend on the GPU. For GPUs before 9.0 the optimiser
-# runs once, for the lowest of them, and machine code is assembled from its output. From 9.0 on, some instructions that
-# the kernels use are different (docs/performance.md).
-function(tandem_share_optimiser target)
+# tandem_share_optimiser(TARGET ALONE_FROM): runs the optimiser once for the GPUs before ALONE_FROM, for the lowest of
+# them, and assembles machine code from its output; from ALONE_FROM on it runs for each. ALONE_FROM: a compute capability
+# times 10. 0 if the code depends on the GPU. From 90 on, the optimiser uses an instruction that makes traversal faster
+# (docs/performance.md, "A cold build").
+function(tandem_share_optimiser target alone_from)
   tandem_cuda_architectures(architectures)
   tandem_lowest_architecture(lowest)
   set(options)
   foreach(architecture IN LISTS architectures)
     string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
     set(from ${number})
-    if(number LESS 90)
+    string(REGEX MATCH "[0-9]+" capability ${number})
+    if(capability LESS alone_from)
       set(from ${lowest})
     endif()
     if(NOT architecture MATCHES "-virtual$")
@@ -155,13 +157,14 @@ function(tandem_add_lto_kernels target)
 endfunction()
 
 # tandem_add_compiled_kernels(TARGET NAME FUNCTION LINKS FUNCTION KERNEL KERNEL TIER TIER FACTS FACTS [REGISTERS MOST]
-# [NAMESPACE NAMESPACE]):
+# [NAMESPACE NAMESPACE] [PTX_ONLY]):
 # links KERNEL from the LTO-IR of the function LINKS, which tandem_add_lto_kernels() added in this folder, and from
 # FACTS.fatbin, which tandem_compile_to_lto() made in this folder and which defines the kernel's facts. For
 # CMAKE_CUDA_ARCHITECTURES: FUNCTION of TARGET gives a fat binary of machine code and PTX (tandem_embed_fatbin()). MOST: the
-# registers that a thread may have in the machine code; 0: as the launch bounds say.
+# registers that a thread may have in the machine code; 0: as the launch bounds say. PTX_ONLY: no machine code; the driver
+# assembles the kernel when it is first used, and keeps the result.
 function(tandem_add_compiled_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME;LINKS;KERNEL;TIER;FACTS;REGISTERS;NAMESPACE" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PTX_ONLY" "NAME;LINKS;KERNEL;TIER;FACTS;REGISTERS;NAMESPACE" "")
   set(registers)
   if(arg_REGISTERS)
     set(registers -maxrregcount=${arg_REGISTERS})
@@ -189,12 +192,12 @@ function(tandem_add_compiled_kernels target)
   set(images)
   tandem_cuda_architectures(architectures)
   foreach(architecture IN LISTS architectures)
-    if(NOT architecture MATCHES "-real$")
+    if(arg_PTX_ONLY OR NOT architecture MATCHES "-real$")
       set(images --image3=kind=ptx,sm=${lowest},file=${ptx})
     endif()
   endforeach()
   foreach(architecture IN LISTS architectures)
-    if(NOT architecture MATCHES "-virtual$")
+    if(NOT arg_PTX_ONLY AND NOT architecture MATCHES "-virtual$")
       string(REGEX REPLACE "-.*" "" number ${architecture}) # 75, 90a
       set(file ${name}_${number}.cubin)
       add_custom_command(

@@ -6,6 +6,7 @@
 #include "cuda/kernels.h"
 #include "cuda/shared_pixel.h"
 #include "cuda/shared_queue.h"
+#include "cuda/shared_tiles.h"
 #include "tandem/kernel/certain_pixel.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/kernel/pixel_culling.h"
@@ -85,8 +86,8 @@ __device__ __forceinline__ void render_one(const Tracer& tracer, const PixelJob&
 /// Paths of one vertex where primitives are found in a hierarchy: a pixel that this thread shares with others.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_pixel(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                                    const SharedPixel& pixel, Vec3d* __restrict__ sums,
-                                                    DeviceCounters* __restrict__ counters) {
+                                                    Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
+    const SharedPixel pixel = shared_pixel();
     const auto [x, y] = pixel.at;
     const bool is_inside = x < job.width && y < height;
     const PixelSum<Real> result = render_shared<Effects, Real>(tracer, job, pixel, is_inside);
@@ -100,7 +101,7 @@ template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                              Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
     if constexpr (Tracer::has_hierarchy) {
-        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel(), sums, counters);
+        render_shared_pixel<Effects, Real>(tracer, job, height, sums, counters);
     } else {
         render_one<Effects, Real>(tracer, job, height, sums, counters);
     }
@@ -134,24 +135,9 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     }
 }
 
-/// Paths of one vertex whose code exceeds the instruction caches, where primitives are found in a hierarchy: a warp
-/// takes tiles of shared pixels. All pixels have the same number of samples, so the threads of a block stay together.
-template <class Effects, class Real, class Tracer>
-__device__ __forceinline__ void render_shared_tiles(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                                    Vec3d* __restrict__ sums, DeviceCounters* __restrict__ counters) {
-    const WindowTiles tiles = tiles_of_window(job.width, height, warp_tile(job.sharing_threads));
-    while (true) {
-        std::uint32_t tile = 0;
-        if (threadIdx.x % 32 == 0) tile = atomicAdd(&counters->next_in_queue, 1U);
-        tile = __shfl_sync(0xFFFFFFFFU, tile, 0);
-        if (__syncthreads_or(tile < tiles.count) == 0) return;
-        render_shared_pixel<Effects, Real>(tracer, job, height, shared_pixel_of(tiles, tile, job.sharing_threads), sums,
-                                           counters);
-    }
-}
-
-/// Longer paths in a hierarchy: the threads of a warp share pixels. `radiances`: waiting_sets
-/// for each thread of the grid.
+/// Paths in a hierarchy: the threads of a warp share pixels. SharedSamples hands out paths of several vertices, and
+/// SharedTiles those of one vertex. One loop serves both, so that LTO-IR, which is compiled before the facts are known,
+/// has the code of a path once. `radiances`: waiting_sets for each thread of the grid.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
                                                     Vec3d* __restrict__ sums, void* __restrict__ radiances,
@@ -162,18 +148,36 @@ __device__ __forceinline__ void render_shared_queue(const Tracer& tracer, const 
     SharedSamples<Real> samples(queues[threadIdx.x / 32], job, height,
                                 static_cast<Vec3<Real>*>(radiances) + warps_before * (set_size * waiting_sets),
                                 counters);
+    SharedTiles<Real> tiles(job, height, counters);
     PathWalk<Effects, Real> walk;
     PixelSum<Real> counted;
+    if (has_bounces<Effects>()) samples.open();
     while (true) {
-        samples.add_sets(sums);
-        samples.hand_out(!walk.working(), [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
-            walk.take_sample(x, y, sample, true);
-        });
-        if (__syncthreads_or(walk.working()) == 0) break;
-        const Closest<Real> hit = walk.find(tracer, tracer.scene, job, counted.tally);
-        if (!walk.leave(tracer, tracer.scene, job, hit, counted.tally, BlockThreads<Effects>())) continue;
-        walk.stop(true);
-        if (!samples.keep(walk.radiance())) ++counted.invalid;
+        if (has_bounces<Effects>()) {
+            samples.add_sets(sums);
+            samples.hand_out(!walk.working(), [&](std::uint32_t x, std::uint32_t y, std::uint32_t sample) {
+                walk.take_sample(x, y, sample, true);
+            });
+        } else {
+            walk = {};  // so that the state of a path takes no registers between rounds
+            tiles.begin_round(walk, tracer.scene);
+        }
+        const bool may_be_last = has_bounces<Effects>() || tiles.begins_tile();
+        if (may_be_last && __syncthreads_or(walk.working()) == 0) break;
+        if (has_bounces<Effects>()) walk.begin_next(tracer.scene, job);
+        const Closest<Real> hit = walk.find_next(tracer, counted.tally);
+        const bool ended = walk.leave(tracer, tracer.scene, job, hit, counted.tally, BlockThreads<Effects>());
+        Addend<Real> addend = {{Real(0.0F), Real(0.0F), Real(0.0F)}, true};
+        if (ended) {
+            walk.stop(true);
+            addend = addend_of(walk.radiance());
+            if (!addend.is_number) ++counted.invalid;
+        }
+        if (!has_bounces<Effects>()) {
+            tiles.end_round(addend.radiance, sums);
+        } else if (ended) {
+            samples.keep(addend.radiance);
+        }
     }
     count<Effects>(counted, threadIdx.x, counters);
 }
@@ -184,11 +188,7 @@ __device__ __forceinline__ void render_long(const Tracer& tracer, const PixelJob
                                             Vec3d* __restrict__ sums, void* __restrict__ radiances,
                                             DeviceCounters* __restrict__ counters) {
     if constexpr (Tracer::has_hierarchy) {
-        if (!has_bounces<Effects>()) {
-            render_shared_tiles<Effects, Real>(tracer, job, height, sums, counters);
-        } else {
-            render_shared_queue<Effects, Real>(tracer, job, height, sums, radiances, counters);
-        }
+        render_shared_queue<Effects, Real>(tracer, job, height, sums, radiances, counters);
     } else {
         render_queue<Effects, Real>(tracer, job, height, sums, counters);
     }

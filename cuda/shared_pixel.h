@@ -29,22 +29,29 @@ __device__ __forceinline__ SharedPixel shared_pixel() {
     return {pixel_in_block(warp_tile(threads), number / 32, number % 32 / threads), threadIdx.x, threads};
 }
 
-/// The pixel of this thread in a tile of the window, for any number of warps.
-__device__ __forceinline__ SharedPixel shared_pixel_of(const WindowTiles& tiles, std::uint32_t tile,
-                                                       std::uint32_t threads) {
-    const std::uint32_t lane = threadIdx.x % 32;
-    return {tiles.pixel(tile, lane / threads), lane % threads, threads};
+/// Adds to `sum` what each of the `threads` that share a pixel gives, except those from number `end` on, in the order
+/// of the threads: the bits that one thread would give. All threads of a warp must call it.
+template <class Real>
+__device__ __forceinline__ void add_in_order(const Vec3<Real>& own, std::uint32_t threads, std::uint32_t end,
+                                             Vec3d& sum) {
+    // A shuffle moves 32 bits, so doubles would take two.
+    using Exchanged = std::conditional_t<std::is_same_v<Real, double>, double, float>;
+    for (std::uint32_t i = 0; i < end; ++i) {
+        const auto of = [&](const Real& channel) {
+            const auto own_channel = static_cast<Exchanged>(to_wide(channel));
+            return static_cast<double>(
+                __shfl_sync(0xFFFFFFFFU, own_channel, static_cast<int>(i), static_cast<int>(threads)));
+        };
+        sum = sum + Vec3d{of(own.x), of(own.y), of(own.z)};
+    }
 }
 
 /// The sum over the samples of a pixel, if it is inside the window. Each of its threads follows the path of one sample
-/// at a time, and all add the radiances of these in the order of the samples, so the sum has the bits that one thread
-/// would give. `invalid` and `tally` are those of this thread's samples. All threads of a warp must call it.
+/// at a time, and all add the radiances of these. `invalid` and `tally` are those of this thread's samples. All threads
+/// of a warp must call it.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, const PixelJob& job,
                                                         const SharedPixel& pixel, bool is_inside) {
-    constexpr unsigned int warp = 0xFFFFFFFFU;
-    // A shuffle moves 32 bits, so doubles would take two.
-    using Exchanged = std::conditional_t<std::is_same_v<Real, double>, double, float>;
     SampleId<Real> id = sample_of<Real>(job, pixel.at.x, pixel.at.y, job.first_sample);
     const PixelRays<Real> rays = rays_of_pixel<Real>(job, pixel.at.x, pixel.at.y);
     PixelSum<Real> result;
@@ -56,15 +63,7 @@ __device__ __forceinline__ PixelSum<Real> render_shared(const Tracer& tracer, co
         const Addend<Real> own = addend_of(sample_radiance<Effects>(tracer, tracer.scene, job, rays, id, is_active,
                                                                     BlockThreads<Effects>(), result.tally));
         if (is_active && !own.is_number) ++result.invalid;
-        const std::uint32_t end = min(pixel.threads, job.samples - first);
-        for (std::uint32_t i = 0; i < end; ++i) {
-            const auto of = [&](const Real& channel) {
-                const auto own_channel = static_cast<Exchanged>(to_wide(channel));
-                return static_cast<double>(
-                    __shfl_sync(warp, own_channel, static_cast<int>(i), static_cast<int>(pixel.threads)));
-            };
-            result.sum = result.sum + Vec3d{of(own.radiance.x), of(own.radiance.y), of(own.radiance.z)};
-        }
+        add_in_order(own.radiance, pixel.threads, min(pixel.threads, job.samples - first), result.sum);
     }
     return result;
 }

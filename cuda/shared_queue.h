@@ -39,12 +39,15 @@ class SharedSamples {
     /// `radiances`: of the warp, set_size for each waiting set.
     __device__ __forceinline__ SharedSamples(SharedQueue& queue, const PixelJob& job, std::uint32_t height,
                                              Vec3<Real>* radiances, DeviceCounters* counters)
-        : queue_(queue), job_(job), height_(height), radiances_(radiances), counters_(counters) {
+        : queue_(queue), job_(job), height_(height), radiances_(radiances), counters_(counters) {}
+
+    /// Before all others.
+    __device__ __forceinline__ void open() {
         if (lane() == 0) {
-            queue.most_samples = samples_in_set(job.samples);
-            queue.tiles = tiles_of_window(job.width, height, warp_tile(queue.most_samples));
-            queue.begun = queue.added = queue.next = 0;
-            queue.is_empty = false;
+            queue_.most_samples = samples_in_set(job_.samples);
+            queue_.tiles = tiles_of_window(job_.width, height_, warp_tile(queue_.most_samples));
+            queue_.begun = queue_.added = queue_.next = 0;
+            queue_.is_empty = false;
         }
         __syncwarp();
     }
@@ -76,13 +79,10 @@ class SharedSamples {
         }
     }
 
-    /// Keeps the radiance of this thread's sample, which is done. Returns whether it is a number; otherwise nothing is
-    /// added for the sample.
-    __device__ __forceinline__ bool keep(const Vec3<Real>& radiance) {
-        const Addend<Real> addend = addend_of(radiance);
-        radiances_[item_] = addend.radiance;
+    /// Keeps the radiance of this thread's sample, which is done.
+    __device__ __forceinline__ void keep(const Vec3<Real>& radiance) {
+        radiances_[item_] = radiance;
         atomicSub(&queue_.open[item_ / set_size], 1U);
-        return addend.is_number;
     }
 
     /// Adds the sets that are done to the film, in their order.

@@ -30,10 +30,13 @@ auto with_instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counter
 }
 
 /// Calls f with the tracer for a scene without instances, which counts into `counters`. `decisions`: where hierarchies
-/// decide.
+/// decide. Behind the walk, which is for many rays, scenes without triangles and quads have tracers of their own, and
+/// so have hierarchies of one kind.
 template <Decisions decisions = Decisions::in_leaves, class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
-    constexpr std::uint32_t all = PrimitiveKinds::all, bodies = PrimitiveKinds::bodies;
+    constexpr bool is_for_many = decisions == Decisions::behind_walk;
+    constexpr std::uint32_t all = PrimitiveKinds::all;
+    constexpr std::uint32_t bodies = is_for_many ? PrimitiveKinds::bodies : all;
     const bool faces = has_faces(scene.scene);
     switch (structure_of(scene)) {
         case Structure::few:
@@ -46,7 +49,7 @@ auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
     }
     BvhView bvh = scene.bvh;
     bvh.stack_overflows = &counters->stack_overflows;
-    if constexpr (decisions == Decisions::behind_walk) {
+    if constexpr (is_for_many) {
         constexpr std::uint32_t sphere = PrimitiveKinds::sphere, triangle = PrimitiveKinds::triangle;
         constexpr std::uint32_t parallelepiped = PrimitiveKinds::parallelepiped;
         const std::uint32_t count = primitive_count(scene.scene);

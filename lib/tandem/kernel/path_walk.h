@@ -30,6 +30,16 @@ class PathWalk {
         sample_ = select(active, sample, sample_);
         working_ = working_ || active;
     }
+    /// The same for a walk without a path. It also begins the path, so find_next() follows. It sets the state of all
+    /// lanes, so that most of it is known to the compiler.
+    TANDEM_HD void begin_sample(const SceneView& scene, const PixelJob& job, const UInt<Real>& x, const UInt<Real>& y,
+                                const UInt<Real>& sample, const Mask<Real>& active) {
+        x_ = x;
+        y_ = y;
+        sample_ = sample;
+        begin(scene, sample_ray<Effects, Real>(job, id(job), x, y), Mask<Real>(true));
+        working_ = path_.alive = active;
+    }
     TANDEM_HD void stop(const Mask<Real>& ended) { working_ = working_ && !ended; }
 
     /// The lanes that have a pixel with samples left.
@@ -45,8 +55,17 @@ class PathWalk {
     template <class Tracer>
     TANDEM_HD Closest<Real> find(const Tracer& tracer, const SceneView& scene, const PixelJob& job,
                                  PathTally<Real>& tally) {
+        begin_next(scene, job);
+        return find_next(tracer, tally);
+    }
+    /// The first part of find(): begins the next paths.
+    TANDEM_HD void begin_next(const SceneView& scene, const PixelJob& job) {
         const Mask<Real> begins = working_ && !path_.alive;
-        if (any(begins)) begin(scene, job, begins);
+        if (any(begins)) begin(scene, sample_ray<Effects, Real>(job, id(job), x_, y_), begins);
+    }
+    /// The second part: the next hit of each path that has begun.
+    template <class Tracer>
+    TANDEM_HD Closest<Real> find_next(const Tracer& tracer, PathTally<Real>& tally) {
         return next_hit<Effects, Real>(tracer, path_, tally);
     }
 
@@ -78,9 +97,9 @@ class PathWalk {
         return sample_of<Real>(job, x_, y_, sample_);
     }
 
-    TANDEM_HD void begin(const SceneView& scene, const PixelJob& job, const Mask<Real>& begins) {
+    TANDEM_HD void begin(const SceneView& scene, const Ray<Real>& ray, const Mask<Real>& begins) {
         const Real zero(0.0F);
-        path_.begin(scene, sample_ray<Effects, Real>(job, id(job), x_, y_), begins);
+        path_.begin(scene, ray, begins);
         radiance_ = select(begins, Vec3<Real>{zero, zero, zero}, radiance_);
         vertex_ = select(begins, UInt<Real>(0U), vertex_);
     }
