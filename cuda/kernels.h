@@ -7,12 +7,13 @@
 
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/shapes/ray_end.h"
+#include "tandem/kernel/shapes/source.h"
 #include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"
 #include "tandem/kernel/traversal/instanced_tracer.h"
 #include "tandem/kernel/view/scene_view.h"
-#include "tandem/render/tier.h"
-#include "tandem/render/trace_job.h"
+#include "tandem/render/tiers.h"
 
 namespace tandem::cuda {
 

@@ -1,16 +1,12 @@
-/// The accuracy tiers: the arithmetic of a render and its guarantees (docs/tiers.md).
+/// The names of the accuracy tiers.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace tandem {
+#include "tandem/render/tiers.h"
 
-enum class Tier {
-#define TANDEM_TIER(name, promise) name,
-#include "tandem/render/tiers.def"
-#undef TANDEM_TIER
-};
+namespace tandem {
 
 [[nodiscard]] std::string to_string(Tier tier);
 

@@ -3,19 +3,12 @@
 
 #include <span>
 
+#include "tandem/kernel/shapes/ray_end.h"
 #include "tandem/kernel/shapes/source.h"
 #include "tandem/math/ray.h"
 #include "tandem/render/stats.h"
 
 namespace tandem {
-
-/// The end of a shadow ray: only hits at t < `t` count, compared in double, and none on `light`, the primitive at the
-/// end of the ray.
-struct RayEnd {
-    double t = 0;
-    std::uint32_t light = no_primitive;
-    std::uint32_t unused = 0;
-};
 
 /// Whether neighbouring rays have nearly the same origins and directions. This affects the speed only, not the bits.
 enum class Coherence {

@@ -6,8 +6,6 @@
 ///        computes every sample by the general code.
 #pragma once
 
-#include <algorithm>
-
 #include "tandem/kernel/shapes/box.h"
 #include "tandem/kernel/shapes/sphere.h"
 #include "tandem/kernel/view/scene_view.h"
@@ -92,7 +90,7 @@ struct CertainScene {
         kept.boxes[i] = scene.boxes[i];
         kept.materials[CertainView::max_spheres + i] = material_of(scene.sphere_count + i);
     }
-    std::copy_n(scene.lights, scene.light_count, kept.lights);
+    for (std::uint32_t i = 0; i < scene.light_count; ++i) kept.lights[i] = scene.lights[i];
     kept.sphere_count = scene.sphere_count;
     kept.box_count = scene.box_count;
     kept.light_count = scene.light_count;
