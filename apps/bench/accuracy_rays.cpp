@@ -70,9 +70,9 @@ bool measure(const AccuracyOptions& options, const AccuracyStage& stage, const K
     log_progress(fmt::format("{} rays toward each {}, {}", options.rays, kind.kind, difficulty));
     // Compare one trace of every contender with the oracle
     std::vector<OracleHit> truth;
-    for (int i = 0; i < std::min(options.checked_rays, options.rays); ++i) {
-        truth.push_back(oracle_trace(kind.scene, kind.rays[static_cast<std::size_t>(i)]));
-    }
+    const auto checked = static_cast<std::size_t>(std::min(options.checked_rays, options.rays));
+    truth.reserve(checked);
+    for (std::size_t i = 0; i < checked; ++i) truth.push_back(oracle_trace(kind.scene, kind.rays[i]));
     std::vector<RaysOutcome> outcomes;
     for (const AccuracyStage::Entry& entry : stage.entries) {
         RaysOutcome& o = outcomes.emplace_back();

@@ -79,7 +79,7 @@ InstanceRates time_instances(RaySet set, const InstanceRateOptions& options, con
         make_contender(*gpu, block, false, set, rays), make_contender(*gpu, block, true, set, rays),
         make_contender(*gpu, city, true, set, city_rays(set, options.city_edge, options.ray_edge))};
     for (int round = -1; round < options.repetitions; ++round) {  // the first warms up
-        for (const std::size_t i : interleaved_order(contenders.size(), static_cast<std::size_t>(round + 1))) {
+        for (const std::size_t i : interleaved_order(contenders.size(), static_cast<std::size_t>(round) + 1)) {
             InstanceContender& one = contenders[i];
             const double seconds =
                 gpu->trace(*one.resident,

@@ -63,6 +63,7 @@ Setting setting_of(Difficulty difficulty) {
 
 std::vector<std::string> primitive_kinds() {
     std::vector<std::string> names;
+    names.reserve(kinds.size());
     for (const KindShape& kind : kinds) names.emplace_back(kind.name);
     return names;
 }

@@ -228,6 +228,7 @@ void TargetRun::render_share(TargetResult& result) {
     };
     const SequenceTimes first = run(SequenceOutput::png);
     std::vector<SequenceTimes> png;
+    png.reserve(static_cast<std::size_t>(options_.repetitions));
     for (int round = 0; round < options_.repetitions; ++round) png.push_back(run(SequenceOutput::png));
     const SequenceTimes text = run(SequenceOutput::ppm_text);
     for (std::int32_t frame = options_.frames.first; frame <= options_.frames.last; ++frame) {

@@ -37,7 +37,8 @@ int run_check(const std::string& scene_name, const std::string& json_target) {
     ImportReport report;
     try {
         const Scene scene = load_scene(scene_name, &report);
-        for (const std::string& problem : problems_of(scene)) problems.push_back(scene_name + ": " + problem);
+        for (const std::string& problem : problems_of(scene))
+            problems.push_back(fmt::format("{}: {}", scene_name, problem));
     } catch (const InputError& error) {
         problems.push_back(error.what());
     }

@@ -34,8 +34,8 @@ TANDEM_HD_INLINE PixelFilter filter_of(PixelFilter job) {
 /// How far samples may lie outside their pixel, in pixels.
 TANDEM_HD_INLINE constexpr double reach_of(PixelFilter filter) {
     switch (filter) {
-#define TANDEM_PIXEL_FILTER(name, radius, help) \
-    case PixelFilter::name:                     \
+#define TANDEM_PIXEL_FILTER(name, radius, help)                                        \
+    case PixelFilter::name: /* NOLINT(bugprone-branch-clone): some have equal radii */ \
         return (radius)-0.5;
 #include "tandem/kernel/sampler/pixel_filters.def"
 #undef TANDEM_PIXEL_FILTER
