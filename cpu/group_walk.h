@@ -65,7 +65,7 @@ class GroupWalk {
         };
         // the others are not sorted: sorting takes as long as it saves
         Entry nearest = take();
-        while (entered != 0) {
+        while (entered != 0) {  // NOLINT(bugprone-infinite-loop): take() changes it
             const Entry other = take();
             stack_[count_++] = other > nearest ? other : nearest;
             nearest = other < nearest ? other : nearest;

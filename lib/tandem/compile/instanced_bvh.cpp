@@ -210,7 +210,7 @@ Bvh alone(const InstancedBvh& all, std::size_t root, std::size_t end, std::size_
     return bvh;
 }
 
-std::string defect_of(Bvh bvh, const std::vector<Box>& boxes, float margin) {
+std::string defect_of(const Bvh& bvh, const std::vector<Box>& boxes, float margin) {
     SceneView scene{};
     scene.boxes = boxes.data();
     scene.box_count = static_cast<std::uint32_t>(boxes.size());
@@ -261,7 +261,7 @@ std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedIns
             }
         }
         const float margin = margin_of(all, mesh, middle, reach(bvh.frame.bounds));
-        const std::string defect = defect_of(std::move(lower), face_boxes(all, mesh, middle.centre), margin);
+        const std::string defect = defect_of(lower, face_boxes(all, mesh, middle.centre), margin);
         if (!defect.empty()) return fmt::format("mesh {}: {}", m, defect);
         first_entry += entries;
     }
@@ -270,7 +270,7 @@ std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedIns
     for (std::size_t e = 0; e < upper.entry_ids.size(); ++e) {
         upper.entry_ids[e] = static_cast<std::uint32_t>(place_of[bvh.entry_instances[e].number]);
     }
-    const std::string defect = defect_of(std::move(upper), boxes, bvh.frame.margin);
+    const std::string defect = defect_of(upper, boxes, bvh.frame.margin);
     return defect.empty() ? defect : "the instances: " + defect;
 }
 

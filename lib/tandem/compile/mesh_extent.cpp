@@ -44,7 +44,7 @@ double MeshExtent::along(const Vec3d& direction) const {
             continue;
         }
         if (place.child < 0) {
-            const Triangle& face = faces_[bvh_.entry_ids[static_cast<std::size_t>(~place.child)]];
+            const Triangle& face = faces_[bvh_.entry_ids[static_cast<std::uint32_t>(~place.child)]];
             for (const Vec3f* corner : {&face.v0, &face.v1, &face.v2}) {
                 farthest = std::max(farthest, dot(direction, widen(*corner) - centre_));
             }

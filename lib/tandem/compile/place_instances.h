@@ -15,7 +15,8 @@ namespace tandem {
 /// A mesh and a material: indices into the Scene.
 struct MeshUse {
     std::uint32_t mesh, material;
-    friend auto operator<=>(const MeshUse&, const MeshUse&) = default;
+    // clang-tidy 14 takes the 0 of a comparison for a null pointer
+    friend auto operator<=>(const MeshUse&, const MeshUse&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The meshes that are kept once: triangles alone, with an opaque material that neither emits nor transmits, 64 faces
@@ -50,7 +51,7 @@ class InstanceList {
     struct Key {
         MeshUse use;
         bool mirrors;
-        friend auto operator<=>(const Key&, const Key&) = default;
+        friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): as above
     };
     struct MeshFacts {
         Vec3d centre, half;  ///< of its box

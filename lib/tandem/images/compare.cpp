@@ -17,7 +17,7 @@ namespace {
 
 template <class Vec>
 bool same_bits(const Vec& a, const Vec& b) {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;
+    return std::memcmp(&a, &b, sizeof(a)) == 0;  // NOLINT(bugprone-suspicious-memory-comparison): bits, not values
 }
 
 /// |a - b|: zero for equal infinities and for two NaN, infinite for one NaN.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace tandem {
 
@@ -14,7 +15,7 @@ void filter_line(const double* first, double* result, int count, std::ptrdiff_t 
         double sum = 0;
         for (int offset = -radius; offset <= radius; ++offset) {
             const int from = std::clamp(i + offset, 0, count - 1);
-            sum += weights[static_cast<std::size_t>(offset + radius)] * first[from * stride];
+            sum += weights[static_cast<std::uint32_t>(offset + radius)] * first[from * stride];
         }
         result[i * stride] = sum;
     }
