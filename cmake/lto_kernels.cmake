@@ -27,8 +27,8 @@ endfunction()
 
 # tandem_share_optimiser(TARGET ALONE_FROM): runs the optimiser once for the GPUs before ALONE_FROM, for the lowest of
 # them, and assembles machine code from its output; from ALONE_FROM on it runs for each. ALONE_FROM: a compute capability
-# times 10. 0 if the code depends on the GPU. From 90 on, the optimiser uses an instruction that makes traversal faster
-# (docs/performance.md, "A cold build").
+# times 10; 0 for code that depends on the GPU, 1000 to run it once for all. From 90 on, the optimiser uses an instruction
+# that makes traversal faster (docs/performance.md, "A cold build").
 function(tandem_share_optimiser target alone_from)
   tandem_cuda_architectures(architectures)
   tandem_lowest_architecture(lowest)

@@ -41,7 +41,7 @@ class SharedSamples {
                                              Vec3<Real>* radiances, DeviceCounters* counters)
         : queue_(queue), job_(job), height_(height), radiances_(radiances), counters_(counters) {}
 
-    /// Before all others.
+    /// Call it before all others.
     __device__ __forceinline__ void open() {
         if (lane() == 0) {
             queue_.most_samples = samples_in_set(job_.samples);

@@ -63,8 +63,8 @@ template <class Real>
 Answers<Real> ask(const SceneView& scene, const UInt<Real>& primitive, const Mask<Real>& active, const Vec3d& point,
                   double u, double v) {
     using D = Double<Real>;
-    const UInt<Real> middle_quad(primitive_count(scene) -
-                                 3);  // so that only some of the quads have halves that overlap
+    // so that only some of the quads have halves that overlap
+    const UInt<Real> middle_quad(primitive_count(scene) - 3);
     Answers<Real> answers;
     visit_lights<Real>(scene, primitive, active, [&](const auto& light, const Mask<Real>& here) {
         const Vec3<D> from = broadcast<D>(point);

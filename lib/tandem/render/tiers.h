@@ -1,5 +1,5 @@
-/// The accuracy tiers (docs/tiers.md), without the headers of strings, which kernels do not need: nvcc reads all
-/// headers four times.
+/// The accuracy tiers (docs/tiers.md). Kernels include this header and not tier.h, because nvcc reads the headers of
+/// strings in each of its passes.
 #pragma once
 
 namespace tandem {
