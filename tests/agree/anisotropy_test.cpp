@@ -51,8 +51,8 @@ Mesh sheet(std::vector<Vec2f> texcoords) {
     return mesh;
 }
 const std::vector<Vec2f> upright = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-const std::vector<Vec2f> mirrored = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // u grows to the left
-const std::vector<Vec2f> turned = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};    // u grows upwards, v to the right
+const std::vector<Vec2f> turned_over = {{1, 1}, {0, 1}, {0, 0}, {1, 0}};  // u grows to the left
+const std::vector<Vec2f> turned = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};       // u grows upwards, v to the right
 
 /// pi f cos of a white metal seen along the normal z: the sample implementation of KHR_materials_anisotropy.
 double reflected(double roughness, double strength, const Vec3d& t, const Vec3d& l) {
@@ -99,7 +99,7 @@ class Anisotropic : public test::ExactBackend {
 
 TEST_P(Anisotropic, AFaceReflectsAsTheFormulaSays) {
     for (const auto& [texcoords, right, up] :
-         {std::tuple{upright, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}, std::tuple{mirrored, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}},
+         {std::tuple{upright, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}, std::tuple{turned_over, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}},
           std::tuple{turned, Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}}}) {
         for (const double rotation : {0.0, 0.5, quarter, 4.0}) {
             for (const double azimuth : {0.0, 0.9, quarter, 2.5}) {

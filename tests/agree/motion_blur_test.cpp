@@ -95,7 +95,7 @@ TEST_P(MotionBlur, SpreadsABallOverItsTrack) {
     for (int row = 0; row < size; row += 2) {
         double sum = 0;
         for (int y = row; y < row + 2; ++y) {
-            for (int x = size / 4; x < 3 * size / 4; ++x) sum += sums[std::size_t{size} * y + x].x;
+            for (int x = size / 4; x < 3 * size / 4; ++x) sum += sums[static_cast<std::size_t>(size * y + x)].x;
         }
         const double count = samples * 2.0 * size / 2;
         const double top = 1 - 2.0 * row / size, bottom = top - 4.0 / size;

@@ -281,7 +281,7 @@ Scene brushed(Scene scene) {
 Scene brushed_and_worn() {
     Scene scene = brushed(worn_scene());
     scene.meshes[0].texcoords.push_back({{0, 0}, {0.5F, 0}, {0.5F, 1}, {0, 1}, {0.3F, 0.7F}});
-    for (const std::size_t i : {2, 4}) {
+    for (const std::size_t i : {2U, 4U}) {
         scene.materials[i].anisotropy_texture = TextureReference{1, {0.1F, 0}, 0.4F, {1, 2}};
     }
     scene.materials[4].anisotropy_texture->texcoord = 1;
@@ -315,7 +315,7 @@ Scene within_picture(Scene scene, bool illuminates, bool indirect) {
         const auto level = static_cast<float>((i * 37 + i / 12 * 91) % 50);
         image.picture.pixels.push_back({0.1F + level * 0.01F, 0.3F, 0.7F - level * 0.01F});
     }
-    for (const std::size_t window : {17, 18, 30}) image.picture.pixels[window] = {5, 4, 3};
+    for (const std::size_t window : {17U, 18U, 30U}) image.picture.pixels[window] = {5, 4, 3};
     scene.environment_image = std::move(image);
     return scene;
 }
