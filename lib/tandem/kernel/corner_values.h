@@ -11,7 +11,7 @@ template <std::uint32_t kinds, class Real>
 TANDEM_HD_CALL Parametrisation<Real> parametrisation_of(const SceneView& scene, std::uint32_t id, std::uint32_t slot,
                                                         HitRecord<Real> record, Ray<Real> ray, Double<Real> t,
                                                         Mask<Real> here) {
-    Parametrisation<Real> at{};
+    Parametrisation<Real> at;
     visit_primitive<kinds>(scene, id, [&](const auto& body) {
         using Body = std::decay_t<decltype(body)>;
         const std::uint32_t first = slot * corner_count<Body>;
@@ -63,7 +63,7 @@ class CornerValues {
     const Double<Real>& t_;
     const Mask<Real>& here_;
     std::uint32_t slot_ = no_slot;
-    Parametrisation<Real> at_{};
+    Parametrisation<Real> at_;
 };
 
 /// The base colour and alpha of a material: its texture times the colours of a face's corners. White without any. glTF

@@ -68,7 +68,7 @@ TANDEM_HD FirstHits<Real> find_first_hits(const Tracer& tracer, const SceneView&
             const Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
             path.alive = Mask<Real>(false);
             if (!any(found)) break;
-            Vertex<Real> vertex{};
+            Vertex<Real> vertex;
             step_to_vertex<FirstHitEffects, Tracer::kinds>(scene, path.ray, path.source, hit, found, vertex);
             add(vertex.surface, hit, found && vertex.surface.opaque, sample == 0, hits);
             continue_through_mask(hit, found && !vertex.surface.opaque, path);

@@ -20,8 +20,9 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
     const MaterialTexels<Real>& texels = at.texels;
     const PhongMaterial& material = scene.materials[number];
     const Optics& optics = at.optics;
-    Reflectance<Real> result{};
+    Reflectance<Real> result;
     SurfaceLobes<Real>& lobes = result.lobes;
+    clear<Effects>(lobes);
     result.ambient = broadcast<Real>(material.ambient);
     lobes.diffuse.reflectance = broadcast<Real>(material.diffuse);
     lobes.phong = {broadcast<Real>(material.specular), Real(material.shininess)};
@@ -46,7 +47,9 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
         const Real scattered = Real(1.0F) - lobes.dielectric.share;
         result.ambient = result.ambient * scattered;
         lobes.diffuse.reflectance = lobes.diffuse.reflectance * scattered;
-        lobes.coated.base.reflectance = lobes.coated.base.reflectance * scattered;
+        if (Effects::has(Effect::microfacets)) {
+            lobes.coated.base.reflectance = lobes.coated.base.reflectance * scattered;
+        }
         lobes.phong.specular = select(from_inside, black<Real>(), lobes.phong.specular);
     }
     return result;

@@ -17,20 +17,7 @@ struct PathTally {
     UInt<Real> rays = UInt<Real>(0U);        ///< traced rays, shadow rays included; only if counts_rays()
 };
 
-/// A hit point and its surface.
-template <class Real>
-struct Vertex {
-    SurfacePoint<Real> point;
-    Surface<Real> surface;
-};
-
-/// The vertex at `hit` of `ray` from `source`, in the lanes of `found`.
-template <class Effects, std::uint32_t kinds, class Real, class From>
-TANDEM_HD void find_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
-                           const Mask<Real>& found, Vertex<Real>& vertex) {
-    vertex.surface = surface_at<Effects, kinds>(scene, ray, source, hit, found, vertex.point);
-}
-/// The same out of line, for kernels whose loop is long.
+/// find_vertex() out of line, for kernels whose loop is long.
 template <class Effects, std::uint32_t kinds, class Real, class From>
 TANDEM_HD_CALL_ON(host)
 void step_to_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
@@ -72,7 +59,7 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     path.alive = Mask<Real>(false);
     if (any(missed)) see_background(scene, missed, path, radiance);
     if (!any(found)) return;
-    Vertex<Real> vertex{};
+    Vertex<Real> vertex;
     if constexpr (can_leave_surfaces<Effects>()) {
         step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
     } else {

@@ -24,8 +24,15 @@ struct Surface {
     Vec3<Real> emission;  ///< on the side that the ray comes from
     Mask<Real> opaque = Mask<Real>(true);
     Mask<Real> unlit = Mask<Real>(false);  ///< its emission lights nothing
-    Vec3<Double<Real>> tangent = normal;   ///< where `anisotropic`: x of the lobes' frame, unit, world space
+    Vec3<Double<Real>> tangent;            ///< where `anisotropic`: x of the lobes' frame, unit, world space
     Mask<Real> anisotropic = Mask<Real>(false);
+};
+
+/// A hit point and its surface.
+template <class Real>
+struct Vertex {
+    SurfacePoint<Real> point;
+    Surface<Real> surface;
 };
 
 /// How many alpha-masked hits a ray passes before it counts as blocked.
@@ -36,7 +43,7 @@ inline constexpr std::uint32_t max_masked_hits = 255;
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Sphere& sphere, const HitRecord<Real>&,
                                        const Ray<Real>& ray, const Double<Real>& t, const Mask<Real>&) {
-    return sphere_offset(sphere, ray, t);  // see surface_at()
+    return sphere_offset(sphere, ray, t);  // see find_vertex()
 }
 template <class Real>
 TANDEM_HD Vec3<Double<Real>> normal_at(const SceneView&, const Box&, const HitRecord<Real>& record, const Ray<Real>&,
@@ -140,19 +147,36 @@ TANDEM_HD constexpr bool can_leave_surfaces() {
     return Effects::most.has_any(effects_on_surfaces);
 }
 
-/// The surface at `hit`, which `ray` from `source` found, in the lanes of `found`. The rays of a packet hit few
+namespace surface_detail {
+
+/// A black opaque surface, as far as the effects define one.
+template <class Effects, class Real>
+TANDEM_HD void clear(Surface<Real>& surface) {
+    using D = Double<Real>;
+    surface.normal = {D(0.0), D(0.0), D(1.0)};
+    surface.reflectance.ambient = black<Real>();
+    tandem::clear<Effects>(surface.reflectance.lobes);
+    surface.material = UInt<Real>(0U);
+    if (Effects::has(Effect::emission)) surface.emission = black<Real>();
+    if (Effects::has(Effect::anisotropy)) surface.tangent = surface.normal;
+}
+
+}  // namespace surface_detail
+
+/// The vertex at `hit`, which `ray` from `source` found, in the lanes of `found`. The rays of a packet hit few
 /// different primitives, so each of these is looked up and its normal formed once, for all its rays. `kinds`: the ones
-/// that may have been hit; `Effects`: what their materials may need. `point` becomes the hit, if these have
-/// effects_on_surfaces.
+/// that may have been hit; `Effects`: what their materials may need. vertex.point becomes the hit, if these have
+/// effects_on_surfaces. In other lanes the surface is black.
 template <class Effects, std::uint32_t kinds = PrimitiveKinds::all, class Real, class From>
-TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray, const From& source,
-                                   const Closest<Real>& hit, const Mask<Real>& found, SurfacePoint<Real>& point) {
+TANDEM_HD void find_vertex(const SceneView& scene, const Ray<Real>& ray, const From& source, const Closest<Real>& hit,
+                           const Mask<Real>& found, Vertex<Real>& vertex) {
     using D = Double<Real>;
     const bool needs_point = Effects::has_any(effects_on_surfaces);
+    Surface<Real>& surface = vertex.surface;
+    SurfacePoint<Real>& point = vertex.point;
+    surface_detail::clear<Effects>(surface);
     if (needs_point) point = {ray.origin, widen(ray.direction)};
     Mask<Real> on_sphere(false);
-    Surface<Real> surface{};
-    surface.normal.z = D(1.0);
     for_each_unique_lane(hit.primitive, found, [&](std::uint32_t primitive, const Mask<Real>& here) {
         // Normals
         Vec3<D> normal = surface.normal;
@@ -249,7 +273,6 @@ TANDEM_HD Surface<Real> surface_at(const SceneView& scene, const Ray<Real>& ray,
     });
     // once for all lanes: the rays of a packet hit up to as many spheres as it has lanes
     if (any(on_sphere)) surface.normal = select(on_sphere, normalize(surface.normal), surface.normal);
-    return surface;
 }
 
 }  // namespace tandem

@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-/// SurfaceLobes{} has no light.
+/// clear() makes them black.
 template <class Real>
 struct SurfaceLobes {
 #define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name;
@@ -115,6 +115,12 @@ TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
         if (simulates<Effects>(needs)) visit(lobes.name, std::integral_constant<int, LobePlace::name>{}); \
     }
 #include "tandem/kernel/bsdf/lobes.def"
+}
+
+/// Makes the lobes that the kernel simulates black. The others stay undefined: a packet's lobes have kilobytes.
+template <class Effects, class Real>
+TANDEM_HD void clear(SurfaceLobes<Real>& lobes) {
+    for_each_lobe<Effects>(lobes, [](auto& lobe, auto) { lobe = {}; });
 }
 
 /// Whether paths of any kernel continue along the lobe at `place`.
