@@ -10,6 +10,7 @@
 #include "tandem/effects/variants.h"
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
+#include "tandem/kernel/surface_lobes.h"
 #include "tandem/kernel/traversal/proposal.h"
 #include "tandem/kernel/view/scene_view.h"
 #include "tandem/render/stats.h"
@@ -54,14 +55,14 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable
-/// TANDEM_EXACT_VARIANT).
+/// assets/scenes (docs/performance.md, "CPU"). glTF's lobes come with paths that bounce. `exact` is for measuring that
+/// cost (CMake variable TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
 #if defined(TANDEM_EXACT_EFFECTS)
     {"exact", EffectMask() | TANDEM_EXACT_EFFECTS},
 #endif
-    {"direct", all_effects - bouncing_effects},
+    {"direct", all_effects - bouncing_effects - effects_of_local_lobes},
     {"full", all_effects},
 };
 inline constexpr std::size_t variant_count = std::size(variants);

@@ -70,16 +70,18 @@ struct EffectSet {
 inline constexpr EffectMask always = EffectMask::from_bits(~0U);
 inline constexpr EffectMask never;
 
+TANDEM_HD constexpr bool is_always(EffectMask mask) { return mask.bits() == always.bits(); }
+
 /// Whether a kernel of this type can simulate one of these effects.
 template <class Effects>
 TANDEM_HD constexpr bool can_simulate(EffectMask any_of) {
-    return Effects::most.has_any(any_of) || any_of.bits() == always.bits();
+    return Effects::most.has_any(any_of) || is_always(any_of);
 }
 
 /// Whether it simulates one of these effects.
 template <class Effects>
 TANDEM_HD constexpr bool simulates(EffectMask any_of) {
-    return Effects::has_any(any_of) || any_of.bits() == always.bits();
+    return Effects::has_any(any_of) || is_always(any_of);
 }
 
 /// The effects that continue a path beyond its first vertex.

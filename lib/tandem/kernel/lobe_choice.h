@@ -80,12 +80,19 @@ TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real
     return sum.value();
 }
 
-/// Whether a path can continue along more than one lobe.
+/// The lanes whose path continues by chance: along one of several lobes, or along a specular lobe that needs random
+/// numbers.
 template <class Effects, class Real>
-TANDEM_HD bool has_choice(const Surface<Real>& surface) {
-    int count = 0;
-    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto&, auto) { ++count; });
-    return count > 1;
+TANDEM_HD Mask<Real> has_choice(const Surface<Real>& surface, const LobeWeights<Real>& weights) {
+    Mask<Real> one(false), several(false);
+    for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
+        using Lobe = std::decay_t<decltype(lobe)>;
+        const Mask<Real> shows = weights.of[decltype(place)::value] > Real(0.0F);
+        several = several || (one && shows);
+        one = one || shows;
+        if constexpr (has(Lobe::flags, LobeFlags::specular) && Lobe::numbers > 0) several = several || shows;
+    });
+    return several;
 }
 
 /// The lobes along which the path may still continue at a vertex, so that light sampling must be weighted.

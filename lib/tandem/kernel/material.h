@@ -35,19 +35,24 @@ TANDEM_HD Reflectance<Real> reflectance_of(const SceneView& scene, std::uint32_t
     // Optional parts
 #define TANDEM_MATERIAL_PART(Type, name, names, needs, is)                                     \
     if (Effects::has(needs) && scene.names##_count > 0 && scene.names[number].is_there != 0) { \
+        lobes.used.add(needs);                                                                 \
         apply<Effects>(scene.names[number], at, result);                                       \
     }
 #include "tandem/kernel/bsdf/lobes.def"
 
     // Mirrors and clear solids: a dielectric takes its share of the light from the diffuse lobes, and there are no
     // highlights on the inside
-    if (Effects::has(Effect::reflection)) lobes.mirror.reflectance = broadcast<Real>(optics.mirror);
+    if (Effects::has(Effect::reflection)) {
+        if (norm1(optics.mirror) > 0.0F) lobes.used.add(Effect::reflection);
+        lobes.mirror.reflectance = broadcast<Real>(optics.mirror);
+    }
     if (Effects::has(Effect::refraction) && optics.transmission > 0.0F) {
+        lobes.used.add(Effect::refraction);
         lobes.dielectric.share = Real(optics.transmission);
         const Real scattered = Real(1.0F) - lobes.dielectric.share;
         result.ambient = result.ambient * scattered;
         lobes.diffuse.reflectance = lobes.diffuse.reflectance * scattered;
-        if (Effects::has(Effect::microfacets)) {
+        if (Effects::has(Effect::microfacets) && lobes.used.has(Effect::microfacets)) {
             lobes.coated.base.reflectance = lobes.coated.base.reflectance * scattered;
         }
         lobes.phong.specular = select(from_inside, black<Real>(), lobes.phong.specular);

@@ -86,12 +86,13 @@ Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const Sampl
     }
 
     // Sample a lobe and a direction
-    PhiloxBlock<Word> random;
-    const bool chooses = has_choice<Effects>(surface);
-    if (chooses || Effects::has_any(effects_of_random_specular_lobes | Effect::roulette)) {
+    const Mask<Real> plays =
+        Mask<Real>(Effects::has(Effect::roulette)) && active && Word(scene.roulette_from) <= vertex;
+    PhiloxBlock<Word> random{};
+    if (any(plays || (active && has_choice<Effects>(surface, weights)))) {
         random = sample.block_at_vertex(Dimension::scatter, vertex);
     }
-    const Real place_in_total = chooses ? to_unit_interval<Real>(random.word[0]) * total : zero;
+    const Real place_in_total = to_unit_interval<Real>(random.word[0]) * total;
     LobeSum<Real> reached(zero);
     Mask<Real> chosen(false);
     Mask<Real> goes_through(false);
@@ -148,8 +149,7 @@ Mask<Real> scatter(const SceneView& scene, const PathLimits& limits, const Sampl
     // Length limits and Russian roulette
     path.alive = path.alive && chosen && path.reflections <= Word(limits.reflection) &&
                  path.refractions <= Word(limits.refraction) && path.scatterings <= Word(limits.diffuse);
-    const Mask<Real> plays = active && Word(scene.roulette_from) <= vertex;
-    if (Effects::has(Effect::roulette) && any(plays)) {
+    if (any(plays)) {
         const Real least(0.05F);
         const Real chance_to_live = select(plays, survival_probability(path.throughput, least), Real(1.0F));
         path.alive = path.alive && survives<Real>(widen(chance_to_live), widen(to_unit_interval<Real>(random.word[2])));

@@ -1,5 +1,5 @@
 /// The BSDF of a surface: the sum of the lobes of bsdf/lobes.def. Lobes that a surface lacks are black; lobes that a
-/// kernel does not simulate cost neither code nor state.
+/// kernel does not simulate cost neither code nor state; lobes that no lane of a packet has cost a branch.
 #pragma once
 
 #include <type_traits>
@@ -9,9 +9,31 @@
 
 namespace tandem {
 
+/// Which lobes of a packet at least one lane has, by the effects that they need. The others are undefined.
+template <class Real, bool is_packet = (RealTraits<Real>::lanes > 1)>
+class UsedLobes {
+  public:
+    [[nodiscard]] TANDEM_HD bool has(EffectMask needs) const { return is_always(needs) || effects_.has_any(needs); }
+    TANDEM_HD void add(EffectMask needs) { effects_ |= needs; }
+    TANDEM_HD void add(const UsedLobes& other) { effects_ |= other.effects_; }
+
+  private:
+    EffectMask effects_;
+};
+
+/// A single ray has all lobes, if only black ones: threads of a GPU would have to wait for each other at the branches.
+template <class Real>
+class UsedLobes<Real, false> {
+  public:
+    [[nodiscard]] TANDEM_HD static constexpr bool has(EffectMask) { return true; }
+    TANDEM_HD static constexpr void add(EffectMask) {}
+    TANDEM_HD static constexpr void add(const UsedLobes&) {}
+};
+
 /// clear() makes them black.
 template <class Real>
 struct SurfaceLobes {
+    UsedLobes<Real> used;
 #define TANDEM_LOBE(Type, name, needs, follows, is) Type<Real> name;
 #include "tandem/kernel/bsdf/lobes.def"
 };
@@ -78,15 +100,11 @@ static_assert(bouncing_effects.covers(lobes_detail::effects_of(&lobes_detail::Lo
                                                                [](lobes_detail::LobeKind) { return true; })),
               "paths follow a lobe for an effect that is none of bouncing_effects (effects/effects.h)");
 
-// The effects for which paths follow glossy lobes, lobes that are not specular, and specular lobes that need random
-// numbers.
+// The effects for which paths follow glossy lobes, and lobes that are not specular.
 inline constexpr EffectMask effects_of_glossy_lobes = lobes_detail::effects_of(
     &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return has(kind.flags, LobeFlags::glossy); });
 inline constexpr EffectMask effects_of_scattering_lobes = lobes_detail::effects_of(
     &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return !has(kind.flags, LobeFlags::specular); });
-inline constexpr EffectMask effects_of_random_specular_lobes = lobes_detail::effects_of(
-    &lobes_detail::LobeUse::follows,
-    [](lobes_detail::LobeKind kind) { return has(kind.flags, LobeFlags::specular) && kind.numbers > 0; });
 
 namespace lobes_detail {
 
@@ -106,20 +124,23 @@ inline constexpr int glossy_lobe_count = lobes_detail::glossy_lobes_before(LobeP
 template <int place>
 inline constexpr int glossy_number = lobes_detail::glossy_lobes_before(place);
 
-/// Calls visit(lobe, place) for each lobe that the kernel simulates, in their order; `place` is a constant of
-/// LobePlace.
+/// Calls visit(lobe, place) for each lobe that the kernel simulates and the surface has, in their order; `place` is a
+/// constant of LobePlace.
 template <class Effects, class Lobes, class Visit>
 TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
-#define TANDEM_LOBE(Type, name, needs, follows, is)                                                       \
-    if constexpr (can_simulate<Effects>(needs)) {                                                         \
-        if (simulates<Effects>(needs)) visit(lobes.name, std::integral_constant<int, LobePlace::name>{}); \
+#define TANDEM_LOBE(Type, name, needs, follows, is)                            \
+    if constexpr (can_simulate<Effects>(needs)) {                              \
+        if (simulates<Effects>(needs) && lobes.used.has(needs)) {              \
+            visit(lobes.name, std::integral_constant<int, LobePlace::name>{}); \
+        }                                                                      \
     }
 #include "tandem/kernel/bsdf/lobes.def"
 }
 
-/// Makes the lobes that the kernel simulates black. The others stay undefined: a packet's lobes have kilobytes.
+/// Makes the lobes that the kernel simulates black, by leaving undefined what it can: a packet's lobes have kilobytes.
 template <class Effects, class Real>
 TANDEM_HD void clear(SurfaceLobes<Real>& lobes) {
+    lobes.used = {};
     for_each_lobe<Effects>(lobes, [](auto& lobe, auto) { lobe = {}; });
 }
 
@@ -169,11 +190,15 @@ class LobeSum {
 /// Replaces `kept` by `lobes` in the lanes of `mask`.
 template <class Effects, class Real>
 TANDEM_HD void keep(const Mask<Real>& mask, const SurfaceLobes<Real>& lobes, SurfaceLobes<Real>& kept) {
-#define TANDEM_LOBE(Type, name, needs, follows, is)                                     \
-    if constexpr (can_simulate<Effects>(needs)) {                                       \
-        if (simulates<Effects>(needs)) kept.name = select(mask, lobes.name, kept.name); \
+#define TANDEM_LOBE(Type, name, needs, follows, is)               \
+    if constexpr (can_simulate<Effects>(needs)) {                 \
+        if (simulates<Effects>(needs) && lobes.used.has(needs)) { \
+            if (!kept.used.has(needs)) kept.name = {};            \
+            kept.name = select(mask, lobes.name, kept.name);      \
+        }                                                         \
     }
 #include "tandem/kernel/bsdf/lobes.def"
+    kept.used.add(lobes.used);
 }
 
 /// The lanes whose surface transmits light.

@@ -122,7 +122,7 @@ TANDEM_HD void apply(const Sheen& sheen, const MaterialPoint<Real>& at, Reflecta
     surface.ambient = surface.ambient * rest;
     lobes.diffuse.reflectance = lobes.diffuse.reflectance * rest;
     lobes.phong.specular = lobes.phong.specular * rest;
-    if (Effects::has(Effect::microfacets)) {
+    if (Effects::has(Effect::microfacets) && lobes.used.has(Effect::microfacets)) {
         lobes.coated.base.reflectance = lobes.coated.base.reflectance * rest;
         lobes.microfacets.f0 = lobes.microfacets.f0 * rest;
         lobes.microfacets.f90 = lobes.microfacets.f90 * rest;
