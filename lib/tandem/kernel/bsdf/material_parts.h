@@ -26,7 +26,9 @@ struct AnyVisitor {  // nvcc takes no lambda in a concept
 /// visit_numbers(part, visit)   calls visit(name, number, least, most) for each number that an author sets, a float or
 ///               an RGB, with the range in which it is valid. Validation, descriptions and reasons follow from it
 ///
-/// apply(part, at, surface), in the header of its lobes, makes the lobes from it (material.h).
+/// apply(part, at, surface), in the header of its lobes, makes the lobes from it (material.h). It changes the lobes of
+/// another part only where surface.lobes.used.has() the effect that they need: elsewhere they are undefined in a
+/// packet.
 template <class Part>
 concept MaterialPart = std::is_trivially_copyable_v<Part> && requires(Part& part) {
     { Part::is_opaque } -> std::convertible_to<bool>;
