@@ -55,8 +55,8 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU"). glTF's lobes come with paths that bounce. `exact` is for measuring that
-/// cost (CMake variable TANDEM_EXACT_VARIANT).
+/// assets/scenes (docs/performance.md, "CPU"). `direct` leaves out sheen, which glTF files need only beside
+/// microfacets, whose paths bounce. `exact` is for measuring that cost (CMake variable TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
 #if defined(TANDEM_EXACT_EFFECTS)

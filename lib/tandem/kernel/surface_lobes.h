@@ -21,7 +21,7 @@ class UsedLobes {
     EffectMask effects_;
 };
 
-/// A single ray has all lobes, if only black ones: threads of a GPU would have to wait for each other at the branches.
+/// A single ray has all lobes, of which some are black. With branches, the threads of a GPU would wait for each other.
 template <class Real>
 class UsedLobes<Real, false> {
   public:
@@ -30,7 +30,7 @@ class UsedLobes<Real, false> {
     TANDEM_HD static constexpr void add(const UsedLobes&) {}
 };
 
-/// clear() makes them black.
+/// Made black by clear(). Tested by tests/kernel/surface_lobes_test.cpp.
 template <class Real>
 struct SurfaceLobes {
     UsedLobes<Real> used;
@@ -137,7 +137,8 @@ TANDEM_HD void for_each_lobe(Lobes& lobes, Visit visit) {
 #include "tandem/kernel/bsdf/lobes.def"
 }
 
-/// Makes the lobes that the kernel simulates black, by leaving undefined what it can: a packet's lobes have kilobytes.
+/// Makes the lobes of a black surface: for a packet those that every surface has, since its lobes have kilobytes; for a
+/// single ray all that the kernel simulates.
 template <class Effects, class Real>
 TANDEM_HD void clear(SurfaceLobes<Real>& lobes) {
     lobes.used = {};
