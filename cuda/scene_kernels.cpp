@@ -55,10 +55,9 @@ namespace {
 
 constexpr const char* kernel_name = "tandem_render";
 
+bool has_hierarchy(Structure structure) { return structure == Structure::bvh || structure == Structure::instanced; }
 /// Whether the threads of a warp share pixels.
-bool has_hierarchy(const DeviceSceneView& scene) {
-    return structure_of(scene) == Structure::bvh || structure_of(scene) == Structure::instanced;
-}
+bool has_hierarchy(const DeviceSceneView& scene) { return has_hierarchy(structure_of(scene)); }
 
 /// The tier whose kernels render.
 Tier kernel_tier(Tier tier, Structure structure) {
@@ -200,9 +199,9 @@ std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool fa
 }
 
 // Measured on an H200 (docs/performance.md, "Blocks of kernels for long paths"). Much of the code of exact tiers runs
-// on few threads, so it may exceed the caches by more.
-unsigned int queue_blocks(Tier tier, std::size_t code_bytes) {
-    const std::size_t most = tier == Tier::fast ? 90'000 : 150'000;
+// on few threads, so it may exceed the caches by more; in a loop over few primitives each thread uses more of it.
+unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes) {
+    const std::size_t most = tier == Tier::fast ? 90'000 : has_hierarchy(structure) ? 150'000 : 120'000;
     return code_bytes > 0 && code_bytes <= most ? 2 : 1;
 }
 
@@ -221,7 +220,8 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const JitInput input = render_input(tier, structure, facts, architecture_);
             const Specialised made = specialise(input, cache_);
             const auto cubin = cubin_facts(made.cubin, kernel_name);
-            const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, cubin ? cubin->code.size() : 0) : 0;
+            const std::size_t code_bytes = cubin ? cubin->code.size() : 0;
+            const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, structure, code_bytes) : 0;
             place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks,
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);

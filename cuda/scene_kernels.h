@@ -31,8 +31,9 @@ namespace tandem::cuda {
 
 /// The number of blocks on a multiprocessor for a kernel with a queue. The threads of a block wait for each other, so
 /// with two blocks one works while the other waits. But then two stages of the code are in use at once, so it pays only
-/// for code that is not much larger than the instruction caches. `code_bytes`: 0 if not known.
-[[nodiscard]] unsigned int queue_blocks(Tier tier, std::size_t code_bytes);
+/// for code that is not much larger than the instruction caches. `structure`: the tracer of the kernel; `code_bytes`: 0
+/// if not known.
+[[nodiscard]] unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes);
 
 /// A render kernel on the GPU.
 struct SceneKernel {

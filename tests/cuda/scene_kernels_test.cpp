@@ -111,19 +111,22 @@ TEST_F(SceneKernel, HasNoCodeForAnEffectThatIsAbsent) {
         EXPECT_GT(alone.registers, most_registers(facts(one)) - 8) << to_string(one);
         EXPECT_GT(everything.stack_bytes, 3 * alone.stack_bytes) << to_string(one);
     }
-    EXPECT_EQ(queue_blocks(Tier::strict, linked(facts(Effect::reflection)).code_bytes), 2U);
-    EXPECT_EQ(queue_blocks(Tier::strict, everything.code_bytes), 1U);
+    EXPECT_EQ(queue_blocks(Tier::strict, Structure::loop, linked(facts(Effect::reflection)).code_bytes), 2U);
+    EXPECT_EQ(queue_blocks(Tier::strict, Structure::bvh, everything.code_bytes), 1U);
     std::ofstream("kernel_masks.json") << table.dump(2) << "\n";
 }
 
 TEST(QueueBlocks, AreTwoOnlyForCodeThatIsKnownToBeSmall) {
     for (const Tier tier : {Tier::fast, Tier::strict, Tier::precise}) {
-        EXPECT_EQ(queue_blocks(tier, 0), 1U) << "not known, " << to_string(tier);
-        EXPECT_EQ(queue_blocks(tier, 80'000), 2U) << to_string(tier);
-        EXPECT_EQ(queue_blocks(tier, 160'000), 1U) << to_string(tier);
+        EXPECT_EQ(queue_blocks(tier, Structure::bvh, 0), 1U) << "not known, " << to_string(tier);
+        EXPECT_EQ(queue_blocks(tier, Structure::loop, 80'000), 2U) << to_string(tier);
+        EXPECT_EQ(queue_blocks(tier, Structure::bvh, 160'000), 1U) << to_string(tier);
     }
-    EXPECT_EQ(queue_blocks(Tier::strict, 120'000), 2U);
-    EXPECT_EQ(queue_blocks(Tier::fast, 120'000), 1U) << "little of its code is rare";
+    for (const Structure structure : {Structure::bvh, Structure::instanced}) {
+        EXPECT_EQ(queue_blocks(Tier::strict, structure, 130'000), 2U);
+        EXPECT_EQ(queue_blocks(Tier::fast, structure, 130'000), 1U) << "little of its code is rare";
+    }
+    EXPECT_EQ(queue_blocks(Tier::strict, Structure::loop, 130'000), 1U) << "threads use more of it";
 }
 
 TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
