@@ -84,5 +84,17 @@ TEST(Choice, IsOfLanesWithSeveralLobesOrGlass) {
     for (int i = 0; i < Packet::size; ++i) EXPECT_EQ(chooses[i], i >= 2) << i;
 }
 
+template <Effect effect>
+using Only = EffectSet<EffectMask(effect).bits()>;
+
+TEST(ChoiceOfARay, IsThatOfItsKernelWhateverTheSurface) {
+    Surface<float> surface;
+    LobeWeights<float> weights{};
+    EXPECT_TRUE(has_choice<AllEffects>(surface, weights));
+    EXPECT_FALSE(has_choice<Only<Effect::reflection>>(surface, weights));
+    EXPECT_FALSE(has_choice<Only<Effect::indirect>>(surface, weights));
+    EXPECT_TRUE(has_choice<Only<Effect::refraction>>(surface, weights)) << "a dielectric reflects by chance";
+}
+
 }  // namespace
 }  // namespace tandem

@@ -81,13 +81,16 @@ TANDEM_HD Real total_weight(const Surface<Real>& surface, const LobeWeights<Real
 }
 
 /// The lanes whose path continues by chance: along one of several lobes, or along a specular lobe that needs random
-/// numbers.
+/// numbers. For a single ray, whether the kernel has paths that do: the compiler knows it, and the threads of a GPU do
+/// not wait for each other.
 template <class Effects, class Real>
 TANDEM_HD Mask<Real> has_choice(const Surface<Real>& surface, const LobeWeights<Real>& weights) {
+    constexpr bool is_packet = RealTraits<Real>::lanes > 1;
     Mask<Real> one(false), several(false);
     for_each_followed_lobe<Effects>(surface.reflectance.lobes, [&](const auto& lobe, auto place) {
         using Lobe = std::decay_t<decltype(lobe)>;
-        const Mask<Real> shows = weights.of[decltype(place)::value] > Real(0.0F);
+        Mask<Real> shows(true);
+        if constexpr (is_packet) shows = weights.of[decltype(place)::value] > Real(0.0F);
         several = several || (one && shows);
         one = one || shows;
         if constexpr (has(Lobe::flags, LobeFlags::specular) && Lobe::numbers > 0) several = several || shows;
