@@ -8,26 +8,9 @@
 #include "cpu/kernels.h"
 #include "cpu/sample_sets.h"
 #include "tandem/kernel/path_walk.h"
-#include "tandem/math/lanes.h"
+#include "tandem/math/pick_lanes.h"
 
 namespace tandem {
-
-/// For each lane of a packet, a lane of some packet.
-template <class Isa>
-struct LanePlaces {
-    using Word = Lanes<std::uint32_t, Isa>;
-    Word packet;  ///< offset from the first packet, in bytes
-    Word lane;
-
-    /// Gathers the numbers at these places. `first`: the member of the first packet.
-    template <class T>
-    [[nodiscard]] TANDEM_HD_INLINE Lanes<T, Isa> gather(const Lanes<T, Isa>& first) const {
-        return Lanes<T, Isa>::gather(&first, packet + (lane << (sizeof(T) == 8 ? 3 : 2)));
-    }
-    [[nodiscard]] TANDEM_HD_INLINE LaneMask<Isa> gather(const LaneMask<Isa>& first) const {
-        return gather_mask(&first, packet, lane);
-    }
-};
 
 /// Several packets of paths. A packet runs the code for everything that any of its paths hits, and paths diverge after
 /// their first hit. So once the next hit of each path is known, the paths are sorted by it. Moving a path to another
@@ -91,7 +74,6 @@ class PathSorter {
     }
 
   private:
-    using Isa = typename Real::Isa;
     using Word = UInt<Real>;
     using Walk = PathWalk<Effects, Real>;
     static constexpr int packet_count = 8;
@@ -148,22 +130,18 @@ class PathSorter {
         for (int i = 0; i < packet_count; ++i) {
             Word path;
             std::memcpy(&path, from + i * Real::size, sizeof(path));
-            constexpr std::uint32_t size = Real::size;
-            LanePlaces<Isa> places;
-            places.lane = path & Word(size - 1);
-            places.packet = (path >> std::countr_zero(size)) * Word(static_cast<std::uint32_t>(sizeof(Packet)));
-            fetch(places, next_[i].per_lane(), now_[0].per_lane());
-            if (has_masks) fetch(places, next_[i].walk.per_lane_of_masks(), now_[0].walk.per_lane_of_masks());
-            if (shares_light) fetch(places, next_[i].walk.per_lane_of_lights(), now_[0].walk.per_lane_of_lights());
+            fetch(path, next_[i].per_lane(), now_[0].per_lane());
+            if (has_masks) fetch(path, next_[i].walk.per_lane_of_masks(), now_[0].walk.per_lane_of_masks());
+            if (shares_light) fetch(path, next_[i].walk.per_lane_of_lights(), now_[0].walk.per_lane_of_lights());
         }
         std::swap(now_, next_);
     }
 
     /// `to`, `from`: references to values of the packet and of the first one.
     template <class Values>
-    TANDEM_HD_INLINE static void fetch(const LanePlaces<Isa>& places, Values to, Values from) {
+    TANDEM_HD_INLINE static void fetch(const Word& path, Values to, Values from) {
         [&]<std::size_t... i>(std::index_sequence<i...>) {
-            ((std::get<i>(to) = places.gather(std::get<i>(from))), ...);
+            ((std::get<i>(to) = pick<sizeof(Packet)>(std::get<i>(from), path)), ...);
         }
         (std::make_index_sequence<std::tuple_size_v<Values>>());
     }

@@ -15,6 +15,7 @@
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/exact_math.h"
 #include "tandem/math/lanes.h"
+#include "tandem/math/pick_lanes.h"
 
 namespace tandem::test {
 namespace {
@@ -197,13 +198,23 @@ TANDEM_HD UInt<Real> from_end() {
     using Word = UInt<Real>;
     return Word::from([](int i) { return static_cast<std::uint32_t>(Real::size - 1 - i); });
 }
+/// The lanes of `a` the other way round.
+template <class Real, class T>
+TANDEM_HD T reversed(const T& a) {
+    return T::from([&](int i) { return a[Real::size - 1 - i]; });
+}
+template <class Real>
+TANDEM_HD Mask<Real> reversed(const Mask<Real>& a) {
+    const UInt<Real> one(1U);
+    return reversed<Real>(select(a, one, UInt<Real>(0U))) == one;
+}
 /// `a` by way of memory, where its lanes lie the other way round.
 template <class Real, class T>
 TANDEM_HD T gathered(const T& a) {
     if constexpr (RealTraits<Real>::lanes == 1) {
         return a;
     } else {
-        const T memory = T::from([&](int i) { return a[T::size - 1 - i]; });
+        const T memory = reversed<Real>(a);
         return T::gather(&memory, from_end<Real>() * UInt<Real>(static_cast<std::uint32_t>(sizeof(a[0]))));
     }
 }
@@ -214,13 +225,36 @@ TANDEM_HD Mask<Real> gathered_less(const UInt<Real>& a, const UInt<Real>& b, con
         return a < b;
     } else {
         using Word = UInt<Real>;
-        const auto reversed = [](const Word& x) { return Word::from([&](int i) { return x[Real::size - 1 - i]; }); };
-        const Mask<Real> less = reversed(a) < reversed(b);
-        const Mask<Real> is_second = reversed(second) != Word(0U);
+        const Mask<Real> less = reversed<Real>(a < b);
+        const Mask<Real> is_second = reversed<Real>(second != Word(0U));
         // each lane is right in one of the two only
         const Mask<Real> masks[3] = {less != is_second, less != !is_second, is_second};
         const Word packet = select(second != Word(0U), Word(static_cast<std::uint32_t>(sizeof(masks[0]))), Word(0U));
         return gather_mask(&masks[0], packet, from_end<Real>());
+    }
+}
+
+/// `a` by way of the packets in memory whose numbers are those of `packet` modulo 8, where lanes lie the other way
+/// round among those of `other`.
+template <class Real, class T>
+TANDEM_HD T picked(const T& a, const T& other, const UInt<Real>& packet) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return a;
+    } else {
+        using Word = UInt<Real>;
+        struct Packet {
+            T value;
+            Word gap;
+        };
+        const Word number = packet & Word(7U);
+        const Word place = number * Word(static_cast<std::uint32_t>(Real::size)) + from_end<Real>();
+        Packet packets[8];
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            const T values = select(number == Word(k), a, other);
+            packets[k].value = reversed<Real>(values);
+            packets[k].gap = number;
+        }
+        return pick<sizeof(Packet)>(packets[0].value, place);
     }
 }
 
@@ -257,6 +291,7 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(F, not_equal, a != b)                                                                                  \
     OPERATION(F, select, select(a < b, b, c))                                                                        \
     OPERATION(F, widen, widen(a))                                                                                    \
+    OPERATION(F, pick, picked<Real>(a, b, bits_of(c)))                                                               \
     OPERATION(F, bits_of, bits_of(a))                                                                                \
     OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                                  \
     OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))                \
@@ -281,6 +316,7 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(D, multiply_add, multiply_add(a, b, c))                                                                \
     OPERATION(D, round_to_int, round_to_int(a))                                                                      \
     OPERATION(D, gather, gathered<Real>(a))                                                                          \
+    OPERATION(D, pick, picked<Real>(a, b, bits_of(narrow(c))))                                                       \
     OPERATION(D, log_wide, log_wide<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(3.0))))                 \
     OPERATION(D, exp_wide, exp_wide<Real>(a))                                                                        \
     OPERATION(D, power, power<Real>(select(absolute(a) >= D(0x1p-1022), absolute(a), D(0.0)), absolute(b)))          \
@@ -298,6 +334,8 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(U, equal, (a & U(3U)) == (b & U(3U)))                                                                  \
     OPERATION(U, select, select(a < b, b, c))                                                                        \
     OPERATION(U, gather, gathered<Real>(a))                                                                          \
+    OPERATION(U, pick, picked<Real>(a, b, c))                                                                        \
+    OPERATION(U, pick_mask, picked<Real>(a < b, b < a, c))                                                           \
     OPERATION(U, gather_mask, gathered_less<Real>(a, b, c & U(1U)))                                                  \
     OPERATION(U, float_of, float_of(a))                                                                              \
     OPERATION(U, to_float, to_float(a >> 1))                                                                         \
