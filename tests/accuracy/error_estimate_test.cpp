@@ -52,9 +52,9 @@ TEST(ErrorEstimate, IntervalCoversTheTruthInNinetyFiveTrialsOfAHundred) {
             const Reference pair{test::noisy_image(random, 8, 8, 1, c.reference_noise),
                                  test::noisy_image(random, 8, 8, 1, c.reference_noise)};
             ErrorMeter meter(pair);
-            std::vector<double> errors;
-            for (int k = 0; k < 32; ++k) {
-                errors.push_back(meter.add(test::noisy_image(random, 8, 8, 1 + c.bias, c.noise)).squared);
+            std::vector<double> errors(32);
+            for (double& error : errors) {
+                error = meter.add(test::noisy_image(random, 8, 8, 1 + c.bias, c.noise)).squared;
             }
             return estimate_mean(errors, meter.reference_variance().squared);
         });
@@ -69,10 +69,8 @@ TEST(ErrorEstimate, WithoutTheNoiseOfReferencesTheIntervalIsTooNarrow) {
     const double covered = coverage(400, 0.05 * 0.05 + 0.02 * 0.02, [&] {
         const Reference pair{test::noisy_image(random, 8, 8, 1, 0.02), test::noisy_image(random, 8, 8, 1, 0.02)};
         ErrorMeter meter(pair);
-        std::vector<double> errors;
-        for (int k = 0; k < 32; ++k) {
-            errors.push_back(meter.add(test::noisy_image(random, 8, 8, 1.05, 0.02)).squared);
-        }
+        std::vector<double> errors(32);
+        for (double& error : errors) error = meter.add(test::noisy_image(random, 8, 8, 1.05, 0.02)).squared;
         return estimate_mean(errors);
     });
     EXPECT_LT(covered, 0.7);
@@ -82,8 +80,8 @@ TEST(ErrorEstimate, WithoutTheNoiseOfReferencesTheIntervalIsTooNarrow) {
 TEST(ErrorEstimate, IntervalOfSkewedErrorsIsOfTheMean) {
     Random random(4);
     const double covered = coverage(2000, 1, [&] {
-        std::vector<double> errors;
-        for (int k = 0; k < 32; ++k) errors.push_back(std::pow(test::normal(random), 2));
+        std::vector<double> errors(32);
+        for (double& error : errors) error = std::pow(test::normal(random), 2);
         return estimate_mean(errors);
     });
     EXPECT_GT(covered, 0.9);

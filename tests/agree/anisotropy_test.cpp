@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/backend_list.h"
+#include "support/pixel_index.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
@@ -88,7 +89,7 @@ class Anisotropic : public test::ExactBackend {
         double along_x = 0, along_y = 0;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
-                const double level = film.sums()[static_cast<std::size_t>(y * size + x)].x;
+                const double level = film.sums()[test::pixel_index(x, y, size)].x;
                 along_x += level * std::pow(x + 0.5 - size / 2.0, 2);
                 along_y += level * std::pow(y + 0.5 - size / 2.0, 2);
             }

@@ -133,11 +133,13 @@ TEST_P(ClosestHit, HasTheSameBitsForRaysOfImages) {
         std::vector<std::size_t> order(rays.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i * 1001 % order.size();
         std::vector<Ray<float>> shuffled;
+        shuffled.reserve(order.size());
         for (const std::size_t i : order) shuffled.push_back(rays[i]);
         ASSERT_EQ(row_length(shuffled, 1), 0U);
         std::vector<RayEnd> ends(rays.size());
         for (std::size_t i = 0; i < ends.size(); ++i) ends[i].t = i % 2 == 0 ? 3 : 9;
         std::vector<RayEnd> shuffled_ends;
+        shuffled_ends.reserve(order.size());
         for (const std::size_t i : order) shuffled_ends.push_back(ends[i]);
         for (const bool shadow : {false, true}) {
             std::vector<Hit> expected(rays.size());

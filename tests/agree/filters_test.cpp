@@ -6,6 +6,7 @@
 
 #include "agree/varied_jobs.h"
 #include "support/filter_forms.h"
+#include "support/pixel_index.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/render/pixel_filter_names.h"
 
@@ -100,10 +101,10 @@ std::vector<Vec3d> convolved(const Film& film, int fine, int margin, PixelFilter
         const double from = static_cast<double>(i) / fine - 0.5, to = static_cast<double>(i + 1) / fine - 0.5;
         weights.push_back(test::weight_below(filter, to) - test::weight_below(filter, from));
     }
-    std::vector<Vec3d> result(static_cast<std::size_t>(width * height), Vec3d{0, 0, 0});
+    std::vector<Vec3d> result(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Vec3d{0, 0, 0});
     for (int y = margin; y < height - margin; ++y) {
         for (int x = margin; x < width - margin; ++x) {
-            Vec3d& sum = result[static_cast<std::size_t>(y * width + x)];
+            Vec3d& sum = result[test::pixel_index(x, y, width)];
             for (int j = 0; j < static_cast<int>(weights.size()); ++j) {
                 for (int i = 0; i < static_cast<int>(weights.size()); ++i) {
                     const int at = (y * fine - reach + j) * film.width() + x * fine - reach + i;
@@ -122,7 +123,7 @@ double rmse(const Film& film, const std::vector<Vec3d>& image, int margin) {
     double squares = 0, count = 0;
     for (int y = margin; y < film.height() - margin; ++y) {
         for (int x = margin; x < film.width() - margin; ++x) {
-            const auto i = static_cast<std::size_t>(y * film.width() + x);
+            const auto i = test::pixel_index(x, y, film.width());
             const Vec3d difference = film.sums()[i] / static_cast<double>(film.samples()) - image[i];
             squares += dot(difference, difference);
             count += 3;

@@ -39,7 +39,7 @@ class LargeScene : public test::ExactBackend {
     /// Returns the nearest hits, or which shadow rays are blocked.
     Answers expect_same(const TraceJob& job, const char* what) {
         // rays that a backend takes for coherent do not go through groups
-        const Answers expected = ask(job, Coherence::coherent);
+        Answers expected = ask(job, Coherence::coherent);
         for (const Coherence coherence : {Coherence::incoherent, Coherence::unknown, Coherence::coherent}) {
             const Answers found = ask(job, coherence);
             for (std::size_t i = 0; i < job.rays.size(); ++i) {

@@ -8,6 +8,7 @@
 #include "support/backend_list.h"
 #include "support/compiled_tiers.h"
 #include "support/effect_scenes.h"
+#include "support/pixel_index.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/images/compare.h"
@@ -95,7 +96,7 @@ TEST_P(MotionBlur, SpreadsABallOverItsTrack) {
     for (int row = 0; row < size; row += 2) {
         double sum = 0;
         for (int y = row; y < row + 2; ++y) {
-            for (int x = size / 4; x < 3 * size / 4; ++x) sum += sums[static_cast<std::size_t>(size * y + x)].x;
+            for (int x = size / 4; x < 3 * size / 4; ++x) sum += sums[test::pixel_index(x, y, size)].x;
         }
         const double count = samples * 2.0 * size / 2;
         const double top = 1 - 2.0 * row / size, bottom = top - 4.0 / size;

@@ -8,6 +8,7 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "support/film_of_the_oracle.h"
+#include "support/pixel_index.h"
 #include "support/small_job.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_image.h"
@@ -69,8 +70,8 @@ Film cut_out(const Film& film, const FilmWindow& window) {
     const FilmPlanes to = part.planes();
     for (int y = 0; y < window.height; ++y) {
         for (int x = 0; x < window.width; ++x) {
-            const auto source = static_cast<std::size_t>((window.top + y) * film.width() + window.left + x);
-            const auto target = static_cast<std::size_t>(y * window.width + x);
+            const auto source = test::pixel_index(window.left + x, window.top + y, film.width());
+            const auto target = test::pixel_index(x, y, window.width);
             part.sums()[target] = film.sums()[source];
 #define TANDEM_PLANE(name, Value, rule, channels, help) to.name[target] = from.name[source];
 #include "tandem/film/planes.def"
@@ -218,7 +219,7 @@ TEST_P(PlaneBits, VarianceIsThatOfThePixelsMeans) {
     std::vector<double> sum(pixels, 0), squares(pixels, 0);
     double estimated = 0, measured = 0;
     for (int i = 0; i < films; ++i) {
-        one.seed = static_cast<std::uint64_t>(100 + i);
+        one.seed = 100 + static_cast<std::uint64_t>(i);
         const Film film = backend_->render(resident, one).film;
         const std::vector<PlaneImage> images = plane_images(film);
         for (std::size_t p = 0; p < pixels; ++p) {

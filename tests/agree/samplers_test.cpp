@@ -35,6 +35,7 @@ RenderJob job_with(Sampler sampler, Tier tier) {
 /// One for each sampler.
 std::vector<VariedJob> jobs_with(const std::vector<Sampler>& samplers, Tier tier) {
     std::vector<VariedJob> jobs;
+    jobs.reserve(samplers.size());
     for (const Sampler sampler : samplers) jobs.push_back({to_string(sampler), job_with(sampler, tier)});
     return jobs;
 }

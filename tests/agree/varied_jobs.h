@@ -10,6 +10,7 @@
 #include "support/backend_list.h"
 #include "support/effect_scenes.h"
 #include "support/film_of_the_oracle.h"
+#include "support/pixel_index.h"
 #include "support/small_job.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
@@ -60,8 +61,8 @@ class VariedJobs : public ExactBackend {
             const Film window = backend_->render(scene, part).film;
             for (int y = 0; y < 31; ++y) {
                 for (int x = 0; x < 20; ++x) {
-                    const Vec3d& a = window.sums()[static_cast<std::size_t>(y * 20 + x)];
-                    const Vec3d& b = all.sums()[static_cast<std::size_t>((y + 9) * 61 + x + 13)];
+                    const Vec3d& a = window.sums()[pixel_index(x, y, 20)];
+                    const Vec3d& b = all.sums()[pixel_index(x + 13, y + 9, 61)];
                     ASSERT_EQ(bits_of(a.x), bits_of(b.x)) << name << " " << x << ", " << y;
                 }
             }

@@ -20,6 +20,7 @@ using test::small_scene;
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs(const std::vector<PrimitiveCopy>& copies) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
+    result.reserve(copies.size());
     for (const PrimitiveCopy& copy : copies) result.emplace_back(copy.id, copy.of);
     return result;
 }

@@ -55,10 +55,10 @@ TEST(EmissiveTexture, WhatShinesSomewhereIsALight) {
         const auto wrap = static_cast<Wrap>(number % 3);
         const double reach = number % 2 == 0 ? 0.3 : 3.0;
         const double u = random.uniform(-2.0, 2.0), v = random.uniform(-2.0, 2.0);
-        std::vector<Vec2f> uv;
-        for (int i = 0; i < 3; ++i) {
-            uv.push_back({static_cast<float>(u + random.uniform(0.0, reach)),
-                          static_cast<float>(v + random.uniform(0.0, reach))});
+        std::vector<Vec2f> uv(3);
+        for (Vec2f& at : uv) {
+            at = {static_cast<float>(u + random.uniform(0.0, reach)),
+                  static_cast<float>(v + random.uniform(0.0, reach))};
         }
         const std::uint32_t x = random.below(64), y = random.below(64);
         const PreparedScene scene = prepare(lamp(uv, spark(x, y), wrap));

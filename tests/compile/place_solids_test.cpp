@@ -100,6 +100,7 @@ TEST(PlaceSolids, EachIsWhereItsInstanceSays) {
     const auto expect_next = [](const auto& list, std::size_t& at, const auto& alone) {
         if (alone.empty()) return;
         ASSERT_LT(at, list.size());
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits, not values
         EXPECT_EQ(std::memcmp(&list[at], alone.data(), sizeof(alone[0])), 0) << at;
     };
     const Geometry& first = scene.nodes[3].geometry[0];

@@ -12,6 +12,7 @@
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfTiledOutputPart.h>
 
+#include <cstdint>
 #include <utility>
 
 #include "images/sample_images.h"
@@ -148,8 +149,8 @@ Bytes write_deep_exr(bool multipart) {
 ExrChannels read_exr_channels(const std::string& path) {
     Imf::InputFile file(path.c_str(), 0);
     const Imath::Box2i& window = file.header().dataWindow();
-    const auto width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
-    const auto height = static_cast<std::size_t>(window.max.y - window.min.y) + 1;
+    const auto width = static_cast<std::size_t>(std::int64_t{window.max.x} - window.min.x) + 1;
+    const auto height = static_cast<std::size_t>(std::int64_t{window.max.y} - window.min.y) + 1;
     ExrChannels channels;
     Imf::FrameBuffer frame;
     const Imf::ChannelList& list = file.header().channels();

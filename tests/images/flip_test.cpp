@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "support/pixel_index.h"
 #include "tandem/base/error.h"
 #include "tandem/images/separable_filter.h"
 #include "tandem/math/srgb.h"
@@ -190,7 +191,7 @@ TEST(SeparableFilter, KeepsConstantsAndSpreadsAPoint) {
     for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 5; ++x) {
             const bool near = x >= 1 && x <= 3 && y <= 2;
-            EXPECT_NEAR(spread.values[static_cast<std::size_t>(y * 5 + x)], near ? 1 : 0, 1e-15) << x << ' ' << y;
+            EXPECT_NEAR(spread.values[test::pixel_index(x, y, 5)], near ? 1 : 0, 1e-15) << x << ' ' << y;
         }
     }
     EXPECT_EQ(normalised({-2, 0, 4}), (AxisWeights{-1, 0, 1}));

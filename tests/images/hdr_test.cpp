@@ -5,6 +5,7 @@
 
 #include "images/sample_images.h"
 #include "support/input_error.h"
+#include "support/pixel_index.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"
 #include "tandem/images/image_io.h"
@@ -32,7 +33,7 @@ struct Sample {
     int width, height;
 
     Sample(int w, int h, bool runs) : width(w), height(h) {
-        Random random(static_cast<std::uint64_t>(w * 1000 + h));
+        Random random(static_cast<std::uint64_t>(w) * 1000 + static_cast<std::uint64_t>(h));
         std::string pixel = "\x80\x01\x02\x80"s;
         for (int i = 0; i < w * h; ++i) {
             for (char& c : pixel) {
@@ -52,7 +53,7 @@ struct Sample {
         for (int y = 0; y < height; ++y) {
             text += {2, 2, static_cast<char>(width >> 8), static_cast<char>(width & 255)};
             for (std::size_t c = 0; c < 4; ++c) {
-                const auto value = [&](int x) { return pixels[static_cast<std::size_t>(y * width + x)][c]; };
+                const auto value = [&](int x) { return pixels[pixel_index(x, y, width)][c]; };
                 for (int x = 0; x < width;) {
                     int run = 1;
                     while (run < 127 && x + run < width && value(x + run) == value(x)) ++run;

@@ -5,6 +5,7 @@
 
 #include "support/input_error.h"
 #include "support/noise_backend.h"
+#include "support/pixel_index.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
@@ -238,14 +239,14 @@ TEST(WindowsOf, CoverTheMarkedTilesOnce) {
         for (const FilmWindow& window : windows_of(grid, marked)) {
             for (int y = window.top; y < window.top + window.height; ++y) {
                 for (int x = window.left; x < window.left + window.width; ++x) {
-                    ++covered[static_cast<std::size_t>(y * 100 + x)];
+                    ++covered[test::pixel_index(x, y, 100)];
                 }
             }
         }
         for (int y = 0; y < 70; ++y) {
             for (int x = 0; x < 100; ++x) {
-                const bool is_marked = marked[static_cast<std::size_t>(y / 32 * 4 + x / 32)];
-                ASSERT_EQ(covered[static_cast<std::size_t>(y * 100 + x)], is_marked ? 1 : 0)
+                const bool is_marked = marked[test::pixel_index(x / 32, y / 32, 4)];
+                ASSERT_EQ(covered[test::pixel_index(x, y, 100)], is_marked ? 1 : 0)
                     << "seed " << seed << " at " << x << ", " << y;
             }
         }
@@ -263,13 +264,13 @@ TEST(Cut, LeavesWindowsOfWholeTilesThatAreSmall) {
             EXPECT_EQ(window.top % 32, 0);
             for (int y = window.top; y < window.top + window.height; ++y) {
                 for (int x = window.left; x < window.left + window.width; ++x) {
-                    ++covered[static_cast<std::size_t>(y * 100 + x)];
+                    ++covered[test::pixel_index(x, y, 100)];
                 }
             }
         }
         for (int y = 0; y < 70; ++y) {
             for (int x = 0; x < 100; ++x) {
-                ASSERT_EQ(covered[static_cast<std::size_t>(y * 100 + x)], y < 64 || x >= 32 ? 1 : 0) << x << ", " << y;
+                ASSERT_EQ(covered[test::pixel_index(x, y, 100)], y < 64 || x >= 32 ? 1 : 0) << x << ", " << y;
             }
         }
     }

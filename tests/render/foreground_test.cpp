@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "support/pixel_index.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/oracle/oracle.h"
@@ -47,7 +48,7 @@ TEST_P(Foreground, IsWhatHidesTheBackground) {
     int bodies = 0, backgrounds = 0;
     for (int y = 0; y < job.height; ++y) {
         for (int x = 0; x < job.width; ++x) {
-            const auto i = static_cast<std::size_t>(y * job.width + x);
+            const auto i = test::pixel_index(x, y, job.width);
             const int hits = hits_of(prepared, camera, x, y);
             if (hits == 25) {
                 EXPECT_EQ(seen.pixels[i], film.mean(i)) << x << ", " << y;

@@ -21,7 +21,7 @@ namespace tandem::bench {
 namespace {
 
 std::vector<float> drawn(const NaiveBuild& build, const NaiveJob& job, int threads = 1) {
-    std::vector<float> rgb(static_cast<std::size_t>(3 * job.width * job.height), -1.0F);
+    std::vector<float> rgb(3 * static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height), -1.0F);
     naive_render(build, job, threads, rgb.data());
     return rgb;
 }
@@ -136,7 +136,7 @@ TEST(Baseline, TextFilesAreP3) {
 TEST(Baseline, TheKernelDrawsTheSamePicture) {
     const std::string reason = naive_gpu_why_unavailable();
     const NaiveJob job{200, 180, 16, 77, 0};
-    std::vector<float> rgb(static_cast<std::size_t>(3 * job.width * job.height));
+    std::vector<float> rgb(3 * static_cast<std::size_t>(job.width) * static_cast<std::size_t>(job.height));
     if (!reason.empty()) {
         EXPECT_THROW((void)naive_gpu_render(job, rgb.data()), EnvironmentError);
         GTEST_SKIP() << reason;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "loop_backend.h"
+#include "support/pixel_index.h"
 #include "tandem/base/error.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
@@ -67,20 +68,18 @@ TEST(Rasteriser, EverySampleOfAMeshIsCoveredOnce) {
                 corners.push_back({moved(x), moved(y), 1, 0, {}});
             }
         }
-        std::vector<int> covered(static_cast<std::size_t>(pixels * pixels));
+        std::vector<int> covered(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels));
         const SamplePlace place = trial % 3 == 0 ? SamplePlace{0, 0} : SamplePlace{};
         const auto draw = [&](const ScreenTriangle& triangle) {
             if (triangle.area == 0) return;
             fill(triangle, place, {0, pixels, 0, pixels}, [&](int x, int y, const EdgeValues& edges) {
-                ++covered[static_cast<std::size_t>(y * pixels + x)];
+                ++covered[test::pixel_index(x, y, pixels)];
                 EXPECT_EQ(edges.of[0] + edges.of[1] + edges.of[2], triangle.area);
             });
         };
         for (int y = 0; y < cells; ++y) {
             for (int x = 0; x < cells; ++x) {
-                const auto at = [&](int dx, int dy) {
-                    return corners[static_cast<std::size_t>((y + dy) * (cells + 1) + x + dx)];
-                };
+                const auto at = [&](int dx, int dy) { return corners[test::pixel_index(x + dx, y + dy, cells + 1)]; };
                 // a convex cell has either diagonal; a folded one would cover samples twice
                 const bool first =
                     doubled_area(at(0, 0), at(1, 0), at(1, 1)) > 0 && doubled_area(at(0, 0), at(1, 1), at(0, 1)) > 0;
@@ -97,7 +96,7 @@ TEST(Rasteriser, EverySampleOfAMeshIsCoveredOnce) {
             for (int x = 0; x < pixels; ++x) {
                 // the top and the left border belong to the mesh, the right and the bottom one do not
                 const bool inside = x < cells * step && y < cells * step;
-                ASSERT_EQ(covered[static_cast<std::size_t>(y * pixels + x)], inside ? 1 : 0)
+                ASSERT_EQ(covered[test::pixel_index(x, y, pixels)], inside ? 1 : 0)
                     << "trial " << trial << ", pixel " << x << ' ' << y;
             }
         }
@@ -164,7 +163,7 @@ TEST(Rasteriser, CutsAtTheNearPlane) {
             // the ray through a pixel falls by (y - 32) / 32 for each metre ahead, and meets y = -1 before z = -50
             const double fall = (y + 0.5 - 32) / 32;
             const bool floor = fall > 1.0 / 50;
-            EXPECT_EQ(shown[static_cast<std::size_t>(y * width + x)] != nothing, floor) << x << ' ' << y;
+            EXPECT_EQ(shown[test::pixel_index(x, y, width)] != nothing, floor) << x << ' ' << y;
         }
     }
 }
@@ -194,7 +193,7 @@ TEST(Rasteriser, DepthIsPerspectivelyCorrect) {
         // the slanted wall, z = -9 - x, is in front of the straight one left of x = 0
         const double direction = (x + 0.5 - width / 2.0) / (height / 2.0);
         const bool slanted = direction < 0 && -9 / (1 - direction) * -direction > -8;
-        const std::uint32_t triangle = shown[static_cast<std::size_t>(height / 2 * width + x)];
+        const std::uint32_t triangle = shown[test::pixel_index(x, height / 2, width)];
         ASSERT_NE(triangle, nothing);
         EXPECT_EQ(triangle < 2, slanted) << x;
     }

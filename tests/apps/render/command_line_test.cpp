@@ -38,6 +38,7 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
     const std::string out = " -o '" + folder.file("a.png") + "'";
     const std::string picture_of_bytes = folder.file("sky.png");
     write_image(picture_of_bytes, FloatImage{1, 1, {{1, 1, 1}}}, {});
+    const std::string lit_by_bytes = "named:paper --env '" + picture_of_bytes + "'";
     using Case = std::pair<std::string, const char*>;
     for (const auto& [arguments, reason] :
          {Case{"", "SCENE"},
@@ -80,7 +81,7 @@ TEST(CommandLine, BadUsageIsStatusTwoAndNamesTheReason) {
           Case{"verify '" + picture_of_bytes + "'", "cannot verify"},
           Case{"verify '" + picture_of_bytes + "' --all --tiles 3", "--all"},
           Case{"named:paper --env '" + folder.file("none.hdr") + "'" + out, "none.hdr"},
-          Case{"named:paper --env '" + picture_of_bytes + "'" + out, "8 bits"},
+          Case{lit_by_bytes + out, "8 bits"},
           Case{"named:paper --env-rotation 90" + out, "--env"},
           Case{"named:paper --env a.hdr --env-intensity -1" + out, "--env-intensity"},
           Case{"named:paper --exposure bright" + out, "--exposure is 'bright'"},

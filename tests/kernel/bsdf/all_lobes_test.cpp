@@ -7,6 +7,7 @@
 #include "kernel/bsdf/lobe_checks.h"
 #include "kernel/bsdf/lobe_examples.h"
 #include "support/estimate.h"
+#include "support/pixel_index.h"
 
 namespace tandem {
 namespace {
@@ -85,7 +86,7 @@ TEST(AllLobes, SamplesFollowTheirDensity) {
                 }
                 const Vec2<double> at = lobe.chart.from(wo, drawn.wi);
                 const auto bin = [](double x) { return std::min(bins - 1, static_cast<int>(x * bins)); };
-                ++found[static_cast<std::size_t>(bin(at.x) * bins + bin(at.y))];
+                ++found[pixel_index(bin(at.y), bin(at.x), bins)];
             }
             double total = 0, chi2 = 0, freedom = 0, rare = 0, rare_found = 0;
             const auto add = [&](double expected, double number) {
@@ -98,7 +99,7 @@ TEST(AllLobes, SamplesFollowTheirDensity) {
                         integrate(lobe.chart, wo, s / double(bins), (s + 1) / double(bins), t / double(bins),
                                   (t + 1) / double(bins), points, [&](const Vec3d& wi) { return lobe.pdf(wo, wi); });
                     total += share;
-                    const double number = found[static_cast<std::size_t>(s * bins + t)];
+                    const double number = found[pixel_index(t, s, bins)];
                     if (share * samples >= 10) {
                         add(share * samples, number);
                     } else {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "support/estimate.h"
+#include "support/pixel_index.h"
 #include "support/random.h"
 #include "tandem/compile/environments.h"
 #include "tandem/compile/prepared_scene.h"
@@ -174,7 +175,7 @@ std::size_t grid_cell(const Vec3d& direction) {
     const double u = std::atan2(direction.z, direction.x) / (2 * pi) + 0.5;
     const auto column = std::min(static_cast<int>(u * grid_columns), grid_columns - 1);
     const auto row = std::min(static_cast<int>((1 - direction.y) / 2 * grid_rows), grid_rows - 1);
-    return static_cast<std::size_t>(row * grid_columns + column);
+    return test::pixel_index(column, row, grid_columns);
 }
 
 /// The share of the samples that pdf_of() promises for each cell of the grid, by the midpoint rule.
@@ -187,7 +188,7 @@ std::vector<double> expected_shares(const Sky& sky) {
         for (int column = 0; column < grid_columns * fine; ++column) {
             const double angle = 2 * pi * ((column + 0.5) / (grid_columns * fine) - 0.5);
             const Vec3d direction = {radius * std::cos(angle), y, radius * std::sin(angle)};
-            shares[static_cast<std::size_t>(row / fine * grid_columns + column / fine)] +=
+            shares[test::pixel_index(column / fine, row / fine, grid_columns)] +=
                 pdf_of<float>(sky.view(), direction) * solid_angle / (grid_columns * grid_rows * fine * fine);
         }
     }

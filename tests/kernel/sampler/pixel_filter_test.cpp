@@ -8,6 +8,7 @@
 #include "support/estimate.h"
 #include "support/filter_forms.h"
 #include "support/input_error.h"
+#include "support/pixel_index.h"
 #include "support/random.h"
 #include "tandem/kernel/pixel.h"
 #include "tandem/math/fast_float.h"
@@ -169,7 +170,7 @@ TEST_P(EachFilter, KeepsPointsStratified) {
             int column = 0, row = 0;
             while (double{at.x} - 0.5 >= end(column + 1, columns)) ++column;
             while (double{at.y} - 0.5 >= end(row + 1, rows)) ++row;
-            ++counts[static_cast<std::size_t>(row * columns + column)];
+            ++counts[test::pixel_index(column, row, columns)];
         }
         EXPECT_EQ(counts, std::vector<int>(64, 1)) << columns << " x " << rows;
     }

@@ -110,6 +110,7 @@ struct LocalStack {
     std::int32_t entries[bvh_stack_size];
 
     TANDEM_HD_INLINE void set(int i, std::int32_t child) { entries[i] = child; }
+    // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn): set before
     [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
 };
 

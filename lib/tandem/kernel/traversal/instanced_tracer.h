@@ -123,6 +123,7 @@ struct Stack {
     std::int32_t entries[2 * bvh_stack_size + 1];
 
     TANDEM_HD_INLINE void set(int i, std::int32_t child) { entries[i] = child; }
+    // NOLINTNEXTLINE(clang-analyzer-core.uninitialized.UndefReturn): set before
     [[nodiscard]] TANDEM_HD_INLINE std::int32_t get(int i) const { return entries[i]; }
 };
 
