@@ -110,6 +110,7 @@ Crossing cross(const SceneView& scene, std::uint32_t id, const Ray<float>& ray) 
 /// Whether equal hits of two primitives come from the same arithmetic, so that every program finds them equal.
 bool same_arithmetic(const SceneView& scene, std::uint32_t a, std::uint32_t b) {
     if (a < scene.sphere_count && b < scene.sphere_count) {
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits, not values
         return std::memcmp(&scene.spheres[a], &scene.spheres[b], sizeof(Sphere)) == 0;
     }
     const auto is_box = [&](std::uint32_t id) {

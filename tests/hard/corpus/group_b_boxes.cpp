@@ -37,6 +37,7 @@ std::vector<RayBatch> of_kind(const std::string& name, std::size_t rays) {
     for (std::uint64_t number = 0; number < rays; ++number) {
         const test::BoxCase c = test::box_case(kind, number);
         std::size_t at = 0;
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits, not values
         while (at < boxes.size() && std::memcmp(&boxes[at], &c.box, sizeof(Box)) != 0) ++at;
         if (at == boxes.size()) {
             boxes.push_back(c.box);

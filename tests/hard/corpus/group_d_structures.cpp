@@ -24,6 +24,7 @@ Vec3d in_cube(Random& random, double half) {
 
 std::vector<Sphere> spheres_around(Random& random, const Vec3d& middle, double half, float radius, int count) {
     std::vector<Sphere> spheres;
+    spheres.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) spheres.push_back({narrow(middle + in_cube(random, half)), radius});
     return spheres;
 }
@@ -113,8 +114,8 @@ std::vector<RayBatch> almost_along_axes(Random& random, std::size_t rays) {
 /// Sixteen equal spheres each, at eight places, in shuffled order: the lowest id.
 std::vector<RayBatch> coincident(Random& random, std::size_t rays) {
     const std::vector<Sphere> places = spheres_around(random, {0, 0, 0}, 4, 1, 8);
-    std::vector<Sphere> spheres;
-    for (int i = 0; i < 16 * 8; ++i) spheres.push_back(places[static_cast<std::size_t>(i * 5 % 8)]);
+    std::vector<Sphere> spheres(std::size_t{16} * 8);
+    for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i] = places[i * 5 % 8];
     return {{scene_of(spheres), make_rays(rays, [&] {
                  return test::aim(random, widen(places[random.below(8)].centre), 1, 20, random.uniform(0.0, 1.0)).ray;
              })}};

@@ -29,6 +29,7 @@ Scene scene_of(const std::vector<Sphere>& spheres, const std::vector<Box>& boxes
 
 std::vector<Sphere> shell(Random& random, const Vec3d& centre, double radius, int count) {
     std::vector<Sphere> spheres;
+    spheres.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         spheres.push_back({narrow(centre + test::any_unit(random) * radius), static_cast<float>(0.02 * radius)});
     }
