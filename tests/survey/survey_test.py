@@ -13,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-root, render = pathlib.Path(sys.argv[1]), sys.argv[2]
+root, render, options = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]  # options of survey_gltf.py
 sys.path.insert(0, str(root / "scripts"))
 from survey import files, journal, outcome, page, runs, summary  # noqa: E402
 
@@ -167,7 +167,7 @@ class Page(Folder):
         self.write("a+b/.commit", "0123456789abcdef")
         survey_json, short, text = (str(self.folder / name) for name in ("s.json", "short.json", "page.md"))
         command = [sys.executable, "-B", str(root / "scripts/survey_gltf.py"), f"x={self.folder}/a+b", "--corpus", str(self.folder)]
-        done = subprocess.run([*command, "--render", render, "--json", survey_json, "--summary", short, "--page", text, "--quiet"], check=False)
+        done = subprocess.run([*command, *options, "--render", render, "--json", survey_json, "--summary", short, "--page", text, "--quiet"], check=False)
         self.assertEqual(done.returncode, 0)
         written = pathlib.Path(text).read_text()
         self.assertIn("| a/b | 0123456789 | 2 | 1 (50 %) | 1 |", written)
