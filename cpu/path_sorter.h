@@ -76,7 +76,7 @@ class PathSorter {
   private:
     using Word = UInt<Real>;
     using Walk = PathWalk<Effects, Real>;
-    static constexpr int packet_count = 8;
+    static constexpr int packet_count = pick_packets;
     static constexpr int path_count = packet_count * Real::size;
 
     struct Packet {

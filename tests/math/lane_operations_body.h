@@ -234,8 +234,8 @@ TANDEM_HD Mask<Real> gathered_less(const UInt<Real>& a, const UInt<Real>& b, con
     }
 }
 
-/// `a` by way of the packets in memory whose numbers are those of `packet` modulo 8, where lanes lie the other way
-/// round among those of `other`.
+/// `a` by way of the packets in memory whose numbers are those of `packet` modulo pick_packets, where lanes lie the
+/// other way round among those of `other`.
 template <class Real, class T>
 TANDEM_HD T picked(const T& a, const T& other, const UInt<Real>& packet) {
     if constexpr (RealTraits<Real>::lanes == 1) {
@@ -246,10 +246,10 @@ TANDEM_HD T picked(const T& a, const T& other, const UInt<Real>& packet) {
             T value;
             Word gap;
         };
-        const Word number = packet & Word(7U);
+        const Word number = packet & Word(pick_packets - 1U);
         const Word place = number * Word(static_cast<std::uint32_t>(Real::size)) + from_end<Real>();
-        Packet packets[8];
-        for (std::uint32_t k = 0; k < 8; ++k) {
+        Packet packets[pick_packets];
+        for (std::uint32_t k = 0; k < pick_packets; ++k) {
             const T values = select(number == Word(k), a, other);
             packets[k].value = reversed<Real>(values);
             packets[k].gap = number;

@@ -1,4 +1,4 @@
-/// Takes numbers from the lanes of eight packets in memory.
+/// Takes numbers from the lanes of several packets in memory. Tested by tests/math/lanes_test.cpp.
 #pragma once
 
 #include <bit>
@@ -8,12 +8,27 @@
 
 namespace tandem {
 
+/// The number of packets.
+inline constexpr int pick_packets = 8;
+
 namespace pick_detail {
+
+/// The parts of places (see pick()).
+template <class Word>
+struct Place {
+    Word offset;  ///< of the packet, in bytes
+    Word lane;
+
+    TANDEM_HD_INLINE Place(const Word& place, std::size_t stride)
+        : offset((place >> std::countr_zero(static_cast<unsigned>(Word::size))) *
+                 Word(static_cast<std::uint32_t>(stride))),
+          lane(place & Word(Word::size - 1)) {}
+};
 
 #if TANDEM_MASK_REGISTERS
 TANDEM_HD_INLINE __m512i load(const std::byte* from) { return _mm512_load_si512(from); }
 
-// Permutations read two registers, so they give a choice of numbers, from which each bit of the place selects half.
+// A permutation chooses from two registers by the low five bits of a place. The higher bits choose among its results.
 template <std::size_t stride>
 TANDEM_HD_INLINE __m512i pick_words(const std::byte* first, __m512i place) {
     const auto of_two = [&](std::size_t packet) __attribute__((always_inline)) {
@@ -27,7 +42,7 @@ TANDEM_HD_INLINE __m512i pick_words(const std::byte* first, __m512i place) {
     return _mm512_mask_blend_epi32(_mm512_test_epi32_mask(place, _mm512_set1_epi32(64)), of_four(0), of_four(4));
 }
 
-// A packet of doubles has two registers.
+// The same for doubles, of which a packet has two registers: a permutation chooses by the low four bits.
 template <std::size_t stride>
 TANDEM_HD_INLINE __m512i pick_doubles(const std::byte* first, __m256i place_words) {
     const __m512i place = _mm512_maskz_cvtepu32_epi64(0xFF, place_words);
@@ -49,11 +64,11 @@ TANDEM_HD_INLINE __m512i pick_doubles(const std::byte* first, __m256i place_word
 
 }  // namespace pick_detail
 
-/// A place in eight packets that are `stride` bytes apart: the number of the packet times the number of lanes, plus the
-/// lane. The result has in lane i the number at place[i]. `first`: the one in the first packet.
+/// Lane i of the result is the number at place[i] in packets that are `stride` bytes apart. A place is the number of
+/// the packet times that of the lanes, plus the lane. `first`: the numbers of the first packet.
 template <std::size_t stride, class T, class I>
 TANDEM_HD_INLINE Lanes<T, I> pick(const Lanes<T, I>& first, const Lanes<std::uint32_t, I>& place) {
-    using Word = Lanes<std::uint32_t, I>;
+    static_assert(stride % alignof(Lanes<T, I>) == 0);
 #if TANDEM_MASK_REGISTERS
     if constexpr (I::bytes == 64) {  // gathering takes longer: docs/performance.md, "Re-sorting paths"
         using Vector = typename Lanes<T, I>::Vector;
@@ -72,20 +87,16 @@ TANDEM_HD_INLINE Lanes<T, I> pick(const Lanes<T, I>& first, const Lanes<std::uin
     } else
 #endif
     {
-        const Word packet = place >> std::countr_zero(static_cast<unsigned>(Word::size));
-        const Word lane = place & Word(Word::size - 1);
-        return Lanes<T, I>::gather(
-            &first, packet * Word(static_cast<std::uint32_t>(stride)) + (lane << std::countr_zero(sizeof(T))));
+        const pick_detail::Place at(place, stride);
+        return Lanes<T, I>::gather(&first, at.offset + (at.lane << std::countr_zero(sizeof(T))));
     }
 }
 
 /// The same for a mask. Reads four bytes of each, even if a mask has two.
 template <std::size_t stride, class I>
 TANDEM_HD_INLINE LaneMask<I> pick(const LaneMask<I>& first, const Lanes<std::uint32_t, I>& place) {
-    using Word = Lanes<std::uint32_t, I>;
-    const Word packet = place >> std::countr_zero(static_cast<unsigned>(Word::size));
-    const Word lane = place & Word(Word::size - 1);
-    return gather_mask(&first, packet * Word(static_cast<std::uint32_t>(stride)), lane);
+    const pick_detail::Place at(place, stride);
+    return gather_mask(&first, at.offset, at.lane);
 }
 
 }  // namespace tandem
