@@ -107,7 +107,8 @@ TEST(Hdr, RowsAndPixelsMayGoEitherWay) {
     const std::string data = "\x10\x00\x00\x88"s + "\x20\x00\x00\x88"s + "\x30\x00\x00\x88"s + "\x40\x00\x00\x88"s;
     const auto reds = [&](const std::string& size) {
         std::vector<float> result;
-        for (const Vec3f& pixel : pixels_of(head + size + "\n" + data)) result.push_back(pixel.x);
+        const std::string file = head + size + "\n" + data;
+        for (const Vec3f& pixel : pixels_of(file)) result.push_back(pixel.x);
         return result;
     };
     EXPECT_EQ(reds("-Y 2 +X 2"), (std::vector<float>{16, 32, 48, 64}));
@@ -124,37 +125,37 @@ TEST(Hdr, ExposureIsTakenOut) {
 TEST(Hdr, SaysWhatIsWrong) {
     const std::string pixel = "\x80\x40\x20\x81"s;
     using Case = std::pair<std::string, const char*>;
-    for (const auto& [file, reason] :
-         {Case{"#?", "header is cut off"},
-          Case{"P6\n", "#?"},
-          Case{head, "header is cut off"},
-          Case{head + "-Y 1 +X 1", "header is cut off"},
-          Case{head + "\n", "row by row"},
-          Case{head + "+X 1 -Y 1\n" + pixel, "row by row"},
-          Case{head + "-Y 1\n" + pixel, "row by row"},
-          Case{head + "-Y one +X 1\n" + pixel, "height is 'one'"},
-          Case{head + "-Y 1 +X 1e3\n" + pixel, "width is '1e3'"},
-          Case{head + "-Y 0 +X 1\n", "1 x 0"},
-          Case{head + "-Y 70000 +X 1\n", "1 x 70000"},
-          Case{head + "-Y 65536 +X 16384\n" + pixel, "only 4 exist"},
-          Case{head + "-Y 2 +X 1\n" + pixel, "only 4 exist"},
-          Case{"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", "32-bit_rle_xyze"},
-          Case{"#?RADIANCE\nEXPOSURE=0\n\n" + resolution(1, 1) + pixel, "exposure"},
-          Case{"#?RADIANCE\nEXPOSURE=much\n\n" + resolution(1, 1) + pixel, "exposure is 'much'"},
-          Case{"#?RADIANCE\nEXPOSURE=1e-30\n\n" + resolution(1, 1) + "\xFF\xFF\xFF\xFF"s, "3.4e38"},
-          Case{head + resolution(8, 1) + "\x02\x02\x00\x09"s + std::string(32, 'x'), "a row claims 9"},
-          Case{head + resolution(8, 1) + "\x02\x02\x00\x08\x89\x01"s + std::string(32, 'x'), "beyond the end"},
-          Case{head + resolution(8, 1) + "\x02\x02\x00\x08\x00\x01"s + std::string(32, 'x'), "is empty"},
-          Case{head + resolution(8, 1) + "\x02\x02\x00\x08\x08"s + std::string(7, 'x'), "pixels are cut off"},
-          Case{head + resolution(2, 1) + pixel + "\x01\x01\x01\x05"s, "before 1991"}}) {
-        EXPECT_TRUE(contains(hdr_error(file), reason));
-    }
+    const std::vector<Case> cases = {
+        {"#?", "header is cut off"},
+        {"P6\n", "#?"},
+        {head, "header is cut off"},
+        {head + "-Y 1 +X 1", "header is cut off"},
+        {head + "\n", "row by row"},
+        {head + "+X 1 -Y 1\n" + pixel, "row by row"},
+        {head + "-Y 1\n" + pixel, "row by row"},
+        {head + "-Y one +X 1\n" + pixel, "height is 'one'"},
+        {head + "-Y 1 +X 1e3\n" + pixel, "width is '1e3'"},
+        {head + "-Y 0 +X 1\n", "1 x 0"},
+        {head + "-Y 70000 +X 1\n", "1 x 70000"},
+        {head + "-Y 65536 +X 16384\n" + pixel, "only 4 exist"},
+        {head + "-Y 2 +X 1\n" + pixel, "only 4 exist"},
+        {"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n", "32-bit_rle_xyze"},
+        {"#?RADIANCE\nEXPOSURE=0\n\n" + resolution(1, 1) + pixel, "exposure"},
+        {"#?RADIANCE\nEXPOSURE=much\n\n" + resolution(1, 1) + pixel, "exposure is 'much'"},
+        {"#?RADIANCE\nEXPOSURE=1e-30\n\n" + resolution(1, 1) + "\xFF\xFF\xFF\xFF"s, "3.4e38"},
+        {head + resolution(8, 1) + "\x02\x02\x00\x09"s + std::string(32, 'x'), "a row claims 9"},
+        {head + resolution(8, 1) + "\x02\x02\x00\x08\x89\x01"s + std::string(32, 'x'), "beyond the end"},
+        {head + resolution(8, 1) + "\x02\x02\x00\x08\x00\x01"s + std::string(32, 'x'), "is empty"},
+        {head + resolution(8, 1) + "\x02\x02\x00\x08\x08"s + std::string(7, 'x'), "pixels are cut off"},
+        {head + resolution(2, 1) + pixel + "\x01\x01\x01\x05"s, "before 1991"}};
+    for (const auto& [file, reason] : cases) EXPECT_TRUE(contains(hdr_error(file), reason));
 }
 
 TEST(Hdr, CutOffAnywhereIsAnInputError) {
     const Sample sample(40, 3, true);
+    const std::string start = head + resolution(40, 3);
     for (const std::string& data : {sample.flat(), sample.packed()}) {
-        const std::string whole = head + resolution(40, 3) + data;
+        const std::string whole = start + data;
         EXPECT_EQ(pixels_of(whole).size(), 120U);
         for (std::size_t size = 0; size < whole.size(); ++size) {
             EXPECT_THROW((void)decode_hdr(bytes_of(whole.substr(0, size)), "x"), InputError) << size;
@@ -164,8 +165,9 @@ TEST(Hdr, CutOffAnywhereIsAnInputError) {
 
 TEST(Hdr, DamagedBytesGiveAnImageOrAnInputError) {
     const Sample sample(40, 3, true);
+    const std::string start = head + resolution(40, 3);
     for (const std::string& data : {sample.flat(), sample.packed()}) {
-        const std::string whole = head + resolution(40, 3) + data;
+        const std::string whole = start + data;
         for (std::uint64_t seed = 0; seed < 2000; ++seed) {
             Random random(seed);
             std::string damaged = whole;

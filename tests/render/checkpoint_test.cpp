@@ -186,7 +186,7 @@ TEST_F(CheckpointTest, OfAnotherRenderIsRefusedWithWhatDiffers) {
     EXPECT_FALSE(render(make_backend("cpu"), 1));
     const RenderJob begun = job;
     const auto refused = [&] {
-        const std::string message = input_error([&] { (void)render(make_backend("cpu")); });
+        std::string message = input_error([&] { (void)render(make_backend("cpu")); });
         job = begun;
         return message;
     };

@@ -90,6 +90,7 @@ TEST(RowLength, IsNoneForOtherRays) {
     EXPECT_EQ(row_length(line, scene_size), 0U) << "one row";
     // rows of other lengths than tiles can have
     std::vector<Ray<float>> odd;
+    odd.reserve(3600);
     for (int i = 0; i < 60 * 60; ++i) {
         odd.push_back({{0, 0, 0}, {static_cast<float>(i % 60) / 60, static_cast<float>(i / 60) / 60, -1}});
     }

@@ -34,7 +34,7 @@ std::vector<float> about_z(double degrees, double sign = 1) {
     return {0, 0, static_cast<float>(sign * std::sin(half)), static_cast<float>(sign * std::cos(half))};
 }
 
-std::vector<float> joined(std::vector<std::vector<float>> parts) {
+std::vector<float> joined(const std::vector<std::vector<float>>& parts) {
     std::vector<float> all;
     for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
     return all;

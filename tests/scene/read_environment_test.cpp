@@ -19,7 +19,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class ReadEnvironment : public ::testing::Test {
   protected:
     std::string written(const FloatImage& image) {
-        const std::string path = folder_.file("sky.pfm");
+        std::string path = folder_.file("sky.pfm");
         write_file(path, encode_pfm(image));
         return path;
     }

@@ -143,7 +143,7 @@ inline constexpr const char* box_kinds[] = {"inside and outside",
 /// A line that enters by one axis and leaves by another at parameters n1 / d1 and n2 / d2 with n1 d2 - n2 d1 = 0, 1 or
 /// -1: they differ by 2^-70 of themselves, so that only exact arithmetic decides whether the line touches the edge.
 inline BoxCase almost_equal_quotients(Random& random) {
-    const auto odd = [&] { return static_cast<std::int64_t>(random.below(1U << 22) * 2U + (1U << 23) + 1U); };
+    const auto odd = [&] { return std::int64_t{random.below(1U << 22)} * 2 + (1 << 23) + 1; };
     std::int64_t d1 = odd(), d2 = odd();
     // Bezout: x d2 + y d1 = gcd
     std::int64_t r0 = d2, r1 = d1, x0 = 1, x1 = 0;

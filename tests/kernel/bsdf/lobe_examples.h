@@ -51,7 +51,7 @@ struct LobeSpread {
     bool of_slopes;
     double x, y;
 };
-constexpr LobeSpread all_around = {false, 1e3, 1e3};
+inline constexpr LobeSpread all_around = {false, 1e3, 1e3};
 
 /// What all_lobes_test.cpp tries of a lobe that is not specular: pairs of `roughness`, and
 ///

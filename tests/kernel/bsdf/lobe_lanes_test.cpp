@@ -23,7 +23,7 @@ void compare(const LobeRunner& packet, const LobeRunner& single, const char* tie
         for (int i = 0; i < packet.lanes; ++i) in[i] = lobe_input(round * most_lanes + static_cast<unsigned>(i));
         packet.run(in, ours);
         for (int i = 0; i < packet.lanes; ++i) {
-            LobeBits want;
+            LobeBits want = {};
             single.run(in + i, &want);
             for (int lobe = 0; lobe < lobe_count; ++lobe) {
                 for (int k = 0; k < numbers_of_a_lobe; ++k) {

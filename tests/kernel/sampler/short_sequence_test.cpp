@@ -30,6 +30,7 @@ TEST(ShortSequence, KeepsThePlaceOfLanesThatTakeNone) {
     const PhiloxBlock<UInt<Packet>> start = {{lanes(1), lanes(2), lanes(3), lanes(4)}};
     ShortSequence<Packet> packet(start);
     std::vector<ShortSequence<float>> rays;
+    rays.reserve(Packet::size);
     for (int i = 0; i < Packet::size; ++i) {
         rays.emplace_back(
             PhiloxBlock<std::uint32_t>{{start.word[0][i], start.word[1][i], start.word[2][i], start.word[3][i]}});

@@ -92,8 +92,8 @@ std::optional<Big> exact_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, 
 }
 std::optional<Big> exact_hit(const Triangle& t, const Ray<float>& ray) { return exact_hit(t.v0, t.v1, t.v2, ray); }
 std::optional<Big> exact_hit(const Quad& q, const Ray<float>& ray) {
-    const auto first = exact_hit(q.v0, q.v1, q.v2, ray);
-    const auto second = exact_hit(q.v0, q.v2, q.v3, ray);
+    auto first = exact_hit(q.v0, q.v1, q.v2, ray);
+    auto second = exact_hit(q.v0, q.v2, q.v3, ray);
     if (!first || (second && *second < *first)) return second;
     return first;
 }
