@@ -6,6 +6,7 @@
 
 #include "cpu/kernels.h"
 #include "cpu/query_source.h"
+#include "cpu/triangle_query.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/lanes.h"
@@ -20,6 +21,7 @@ struct QueryContext {
     Proposal<Real> proposal;
     Closest<Real> best;
     const QuerySource<Real>* source;
+    TriangleQuery<Real> triangles;
 };
 
 /// `One` and `Packet`: the Reals of the tier, for one ray and for many.
@@ -37,15 +39,18 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
         return;
     }
     auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
-    const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
+    auto& tfar = *reinterpret_cast<Float<Packet>*>(ray.tfar);
+    if (query.triangles.defers(view, args->primID)) {
+        active = query.triangles.template test<Search::nearest>(view, args->primID, *query.source, active, 0.0F, tfar);
+        if (!any(active)) [[likely]]
+            return;
+    }
     const Double<Packet> before = query.best.t;
     intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
-    if (any(nearer)) {
-        auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
-        auto* tfar = reinterpret_cast<Float<Packet>*>(ray.tfar);
-        *tfar = select(nearer, lesser(query.proposal.limit(query.best.t), *tfar), *tfar);
-    }
+    if (any(nearer)) tfar = select(nearer, lesser(query.proposal.limit(query.best.t), tfar), tfar);
 }
 
 /// As intersect_callback(), for any hit before best.t. A tfar of -infinity means "occluded" to Embree and its caller.
@@ -62,15 +67,18 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
         return;
     }
     auto& query = *reinterpret_cast<QueryContext<Packet>*>(args->context);
-    const Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
+    auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
+    auto& tfar = *reinterpret_cast<Float<Packet>*>(ray.tfar);
+    if (query.triangles.defers(view, args->primID)) {
+        active = query.triangles.template test<Search::any>(view, args->primID, *query.source, active, found, tfar);
+        if (!any(active)) [[likely]]
+            return;
+    }
     const Double<Packet> before = query.best.t;
     intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
-    if (any(nearer)) {
-        auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
-        auto* tfar = reinterpret_cast<Float<Packet>*>(ray.tfar);
-        *tfar = select(nearer, Float<Packet>(found), *tfar);
-    }
+    if (any(nearer)) tfar = select(nearer, Float<Packet>(found), tfar);
 }
 
 namespace embree_detail {
@@ -198,10 +206,13 @@ struct EmbreeTracer {
         if (!start(query, ray, active, true)) return query.best;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
         set_packet(rayhit.ray, query, query.proposal.start_for(source), query.proposal.limit(farthest));
+        query.triangles.template start<Search::nearest>(view, query.proposal, source, farthest);
         const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
         embree::intersect(reinterpret_cast<const int*>(&valid), view.embree, query.head, rayhit);
+        query.triangles.decide(view, ray, embree_detail::load<Float<Real>>(rayhit.ray.tfar), query.proposal.active,
+                               query.best);
         if constexpr (is_fast<Real>) {
             using embree_detail::load;
             const auto geometry = load<UInt<Real>>(rayhit.hit.geomID);
@@ -243,9 +254,12 @@ struct EmbreeTracer {
         if (!any(query.proposal.active)) return LaneMask<Isa>(false);
         alignas(64) typename embree::Packet<Real::size>::Ray embree_ray;
         set_packet(embree_ray, query, F(0.0F), select(query.proposal.active, limit, F(0.0F)));
+        query.triangles.template start<Search::any>(view, query.proposal, source, t_max);
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
         embree::occluded(reinterpret_cast<const int*>(&valid), view.embree, query.head, embree_ray);
-        return query.proposal.active && embree_detail::load<F>(embree_ray.tfar) < F(0.0F);
+        const Mask<Real> found = query.proposal.active && embree_detail::load<F>(embree_ray.tfar) < F(0.0F);
+        query.triangles.decide(view, ray, limit, query.proposal.active && !found, query.best);
+        return found || (query.proposal.active && query.best.t < t_max);
     }
 
   private:

@@ -15,6 +15,7 @@
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/exact_math.h"
 #include "tandem/math/lanes.h"
+#include "tandem/math/lookup_table.h"
 #include "tandem/math/pick_lanes.h"
 
 namespace tandem::test {
@@ -234,6 +235,16 @@ TANDEM_HD Mask<Real> gathered_less(const UInt<Real>& a, const UInt<Real>& b, con
     }
 }
 
+/// The entry of a table with two rows, by any words.
+template <class Real, class T>
+TANDEM_HD auto looked_up(const UInt<Real>& a, const UInt<Real>& b) {
+    using Word = UInt<Real>;
+    static constexpr T numbers[] = {3, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8, 9, 7, 9, 3};
+    const LookupTable<T> whole = {numbers, 8, 2};
+    const LookupTable<T, 2> every_second = {numbers, 4, 2};
+    return whole.at(a & Word(1U), b & Word(7U)) + every_second.at(b & Word(1U), a & Word(3U));
+}
+
 /// `a` by way of the packets in memory whose numbers are those of `packet` modulo pick_packets, where lanes lie the
 /// other way round among those of `other`.
 template <class Real, class T>
@@ -292,6 +303,8 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(F, select, select(a < b, b, c))                                                                        \
     OPERATION(F, widen, widen(a))                                                                                    \
     OPERATION(F, pick, picked<Real>(a, b, bits_of(c)))                                                               \
+    OPERATION(F, to_wide, to_wide(a))                                                                                \
+    OPERATION(F, to_word, to_word(select(absolute(a) < F(0x1p30F), absolute(a), F(7.0F))))                           \
     OPERATION(F, bits_of, bits_of(a))                                                                                \
     OPERATION(F, masks, ((a < b || !(b < c)) && a != c) != (c < a))                                                  \
     OPERATION(F, any_all, (Mask<Real>(any(a < b)) || !(a < b)) && (!Mask<Real>(all(a < b)) || a < b))                \
@@ -312,6 +325,7 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(D, not_equal, a != b)                                                                                  \
     OPERATION(D, select, select(a < b, b, c))                                                                        \
     OPERATION(D, narrow, narrow(a))                                                                                  \
+    OPERATION(D, to_word, to_word(select(absolute(a) < D(0x1p30), absolute(a), D(7.0))))                             \
     OPERATION(D, bits_of, bits_of(a))                                                                                \
     OPERATION(D, multiply_add, multiply_add(a, b, c))                                                                \
     OPERATION(D, round_to_int, round_to_int(a))                                                                      \
@@ -337,6 +351,10 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(U, pick, picked<Real>(a, b, c))                                                                        \
     OPERATION(U, pick_mask, picked<Real>(a < b, b < a, c))                                                           \
     OPERATION(U, gather_mask, gathered_less<Real>(a, b, c & U(1U)))                                                  \
+    OPERATION(U, table_of_floats, (looked_up<Real, float>(a, b)))                                                    \
+    OPERATION(U, table_of_doubles, (looked_up<Real, double>(a, b)))                                                  \
+    OPERATION(U, table_of_words, (looked_up<Real, std::uint32_t>(a, b)))                                             \
+    OPERATION(U, to_wide, to_wide(a))                                                                                \
     OPERATION(U, float_of, float_of(a))                                                                              \
     OPERATION(U, to_float, to_float(a >> 1))                                                                         \
     OPERATION(U, high_word, high_word<Real>(a, b))                                                                   \

@@ -114,23 +114,24 @@ TANDEM_HD SurfacePoint<Real> surface_point(const Parallelepiped& body, const Hit
 namespace spawn_detail {
 
 /// A point of the plane through v0 with the given normal, and a bound on its distance from that plane by rounding.
-template <class Real>
-TANDEM_HD SurfacePoint<Real> plane_point(const Vec3f& v0, const Vec3<Double<Real>>& normal, const Ray<Real>& ray,
+template <class Real, class Number>
+TANDEM_HD SurfacePoint<Real> plane_point(const Vec3<Number>& v0, const Vec3<Double<Real>>& normal, const Ray<Real>& ray,
                                          const Double<Real>& t) {
     using D = Double<Real>;
+    const Vec3<D> origin = broadcast<D>(corner_point<Real>(v0));
     SurfacePoint<Real> point;
     point.normal = normal;
     point.from_inside = comes_from_behind(ray, normal);
     const Vec3<D> hit = along<Real>(widen(ray.origin), widen(ray.direction), t);
-    const D above = dot(hit - broadcast<D>(v0), normal);
+    const D above = dot(hit - origin, normal);
     point.position = to_real<Real>(along<Real>(hit, normal, -above));
     // Two roundings to Real, of the point and of the offset point, by at most half an ulp of each coordinate. In the
     // tiers whose Double<Real> is Real, the errors of the lines above come on top.
     using Scalar = typename RealTraits<Real>::Scalar;
     const double unit = sizeof(Scalar) == sizeof(float) ? 0x1p-24 : 0x1p-53;
     const double units = std::is_same_v<Real, D> ? 16 : 3;
-    const Vec3<D> reach = {absolute(hit.x) + absolute(D(v0.x)), absolute(hit.y) + absolute(D(v0.y)),
-                           absolute(hit.z) + absolute(D(v0.z))};
+    const Vec3<D> reach = {absolute(hit.x) + absolute(origin.x), absolute(hit.y) + absolute(origin.y),
+                           absolute(hit.z) + absolute(origin.z)};
     const Vec3<D> weight = {absolute(normal.x), absolute(normal.y), absolute(normal.z)};
     point.clearance = constant<D>(units * unit) * dot(reach, weight);
     return point;

@@ -170,8 +170,9 @@ requires std::is_floating_point_v<T> TANDEM_HD_INLINE Lanes<T, I> greater(const 
     return Lanes<T, I>::zip(b, a, [](auto x, auto y) { return lanes_detail::maximum(x, y); });
 }
 
-template <class I>
-TANDEM_HD_INLINE Lanes<double, I> to_wide(const Lanes<float, I>& a) {
+/// Floats or integers as doubles.
+template <class T, class I>
+TANDEM_HD_INLINE Lanes<double, I> to_wide(const Lanes<T, I>& a) {
     using Vector = typename Lanes<double, I>::Vector;
     Lanes<double, I> result;
     result.part[0] = __builtin_convertvector(lanes_detail::half<0>(a.part[0]), Vector);
@@ -280,6 +281,20 @@ TANDEM_HD_INLINE Lanes<float, I> to_float(const Lanes<std::uint32_t, I>& a) {
     result.part[0] =
         __builtin_convertvector(reinterpret_lanes<std::int32_t>(a).part[0], typename Lanes<float, I>::Vector);
     return result;
+}
+
+template <class T, class I>
+TANDEM_HD_INLINE Lanes<std::uint32_t, I> to_word(const Lanes<T, I>& a) {
+    using Whole = typename Lanes<std::int32_t, I>::Vector;
+    Lanes<std::int32_t, I> result;
+    if constexpr (Lanes<T, I>::parts == 1) {
+        result.part[0] = __builtin_convertvector(a.part[0], Whole);
+    } else {
+        using Half = typename lanes_detail::Native<std::int32_t, I::bytes / 2>::type;
+        result.part[0] =
+            lanes_detail::join(__builtin_convertvector(a.part[0], Half), __builtin_convertvector(a.part[1], Half));
+    }
+    return reinterpret_lanes<std::uint32_t>(result);
 }
 
 template <class I>

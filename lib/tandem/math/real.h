@@ -105,6 +105,16 @@ TANDEM_HD_INLINE Real to_real(const Double<Real>& a) {
     }
 }
 
+/// Converts to the type of decisions: one rounding in fast, none in strict and precise.
+template <class Real>
+TANDEM_HD_INLINE Double<Real> from_wide(const Wide<Real>& a) {
+    if constexpr (is_fast<Real>) {
+        return narrow(a);
+    } else {
+        return a;
+    }
+}
+
 /// A constant of the host, rounded once to the precision of Real.
 template <class Real>
 TANDEM_HD_INLINE Real constant(double a) {
@@ -144,6 +154,15 @@ TANDEM_HD_INLINE Real from_uint(const UInt<Real>& a) {
         return widen(to_float(a));
     }
 }
+
+/// Converts a whole number from 0 to 2^31 - 1, in any lane, to an integer.
+template <class Number>
+TANDEM_HD_INLINE std::uint32_t to_word(const Number& a) {
+    return static_cast<std::uint32_t>(to_wide(a));
+}
+
+/// Converts an integer to double.
+TANDEM_HD_INLINE double to_wide(std::uint32_t a) { return static_cast<double>(a); }
 
 /// The same bits as another type.
 template <class To, class From>

@@ -18,6 +18,9 @@ TANDEM_HD_INLINE float rough_reciprocal(float a) {
 #endif
 }
 
+template <class F>
+requires(RealTraits<F>::lanes > 1) TANDEM_HD_INLINE F rough_reciprocal(const F& a) { return F(1.0F) / a; }
+
 /// 1 / sqrt(a) within 2^-22 of itself, for a >= 2^-126.
 TANDEM_HD_INLINE float rough_inverse_square_root(float a) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_NO_LOOSE_FMA)
@@ -48,6 +51,8 @@ TANDEM_HD_INLINE float rough_greater(float a, float b) {
     return greater(a, b);
 #endif
 }
+template <class F>
+requires(RealTraits<F>::lanes > 1) TANDEM_HD_INLINE F rough_greater(const F& a, const F& b) { return greater(a, b); }
 
 /// 1 / a and 1 / sqrt(a) within 3 * 2^-53 of themselves, for a in [2^-500, 2^500]: a guess within 2^-18, and a step of
 /// third order, whose error is that of the guess cubed. The bits differ between processors.

@@ -7,6 +7,7 @@
 #include "support/adversarial_triangles.h"
 #include "support/exact_geometry.h"
 #include "tandem/kernel/traversal/quick_proposal.h"
+#include "tandem/math/lanes.h"
 
 namespace tandem {
 namespace {
@@ -161,6 +162,36 @@ TEST(HitInterval, OfTriangles) {
     const Counts counts =
         check_cases(static_cast<int>(std::size(test::triangle_kinds)), cases_per_kind, "triangle_case", make);
     expect_sharp(counts, 0.5, 0.7);  // a third of the rays aims at edges
+}
+
+TEST(HitInterval, OfTrianglesInLanesAreThoseOfSingleRays) {
+    using Packet = Lanes<float, Sse4>;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < cases_per_kind; ++number) {
+            const Triangle triangle = test::triangle_case(kind, number).triangle;
+            QueryRay one[Packet::size];
+            QueryRayOf<Packet> packet{};
+            for (int i = 0; i < Packet::size; ++i) {
+                const Ray<float> ray = test::triangle_case(kind, number + static_cast<std::uint64_t>(i)).ray;
+                if (is_traceable(ray)) {
+                    const StructureFrame frame = make_structure_frame(bounds(triangle));
+                    one[i] = make_query_ray(propose(ray, frame, true), frame, NoSource{});
+                }
+                for (int axis = 0; axis < 3; ++axis) {
+                    packet.origin[axis].set(i, one[i].origin[axis]);
+                    packet.direction[axis].set(i, one[i].direction[axis]);
+                }
+                packet.drift.set(i, one[i].drift);
+            }
+            const TriangleEdges edges = edges_of(triangle.v0, triangle.v1, triangle.v2);
+            const auto intervals = hit_interval(packet, edges);
+            for (int i = 0; i < Packet::size; ++i) {
+                const HitInterval want = hit_interval(one[i], edges);
+                ASSERT_EQ(intervals.lo[i], want.lo) << "triangle_case(" << kind << ", " << number << "), lane " << i;
+                ASSERT_EQ(intervals.hi[i], want.hi) << "triangle_case(" << kind << ", " << number << "), lane " << i;
+            }
+        }
+    }
 }
 
 struct QuadCase {

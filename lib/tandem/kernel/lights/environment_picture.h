@@ -21,6 +21,7 @@
 #include "tandem/kernel/lights/environment_sample.h"
 #include "tandem/kernel/sampler/philox.h"
 #include "tandem/kernel/texture/texture_view.h"
+#include "tandem/math/lookup_table.h"
 #include "tandem/math/turns.h"
 #include "tandem/math/vec.h"
 
@@ -64,26 +65,31 @@ struct CellPoint {
     Double<Real> x, y;
 };
 
-/// The first of `count` consecutive ranges of integers that contains `number`; the last one if none does.
-TANDEM_HD std::uint32_t find_range(const std::uint32_t* ends, std::uint32_t count, std::uint32_t number) {
-    std::uint32_t first = 0, last = count - 1;
-    while (first < last) {
-        const std::uint32_t middle = (first + last) / 2;
-        if (number < ends[middle]) {
-            last = middle;
-        } else {
-            first = middle + 1;
-        }
+/// The first of the consecutive ranges of integers in `row` of a table of their ends that contains `number`; the last
+/// one if none does. Bisects without a branch on the numbers, so that all lanes and threads take the same steps.
+template <class Word>
+TANDEM_HD Word find_range(const LookupTable<std::uint32_t>& ends, const Word& row, const Word& number) {
+    Word first(0U);
+    for (std::uint32_t rest = ends.width; rest > 1;) {
+        const std::uint32_t half = rest / 2;
+        first = select(number < ends.at(row, first + Word(half - 1)), first, first + Word(half));
+        rest -= half;
     }
     return first;
 }
 /// The length of a range.
-TANDEM_HD std::uint32_t range_length(const std::uint32_t* ends, std::uint32_t range) {
-    return ends[range] - (range > 0 ? ends[range - 1] : 0);
+template <class Word>
+TANDEM_HD Word range_length(const LookupTable<std::uint32_t>& ends, const Word& row, const Word& range) {
+    const auto is_first = range == Word(0U);
+    const Word before = select(is_first, range, range - Word(1U));
+    return ends.at(row, range) - select(is_first, Word(0U), ends.at(row, before));
 }
 
-TANDEM_HD std::size_t first_cell(const EnvironmentPicture& picture, std::uint32_t band) {
-    return static_cast<std::size_t>(band) * picture.width;
+TANDEM_HD LookupTable<std::uint32_t> band_ends(const EnvironmentPictureView& view) {
+    return {view.band_ends, view.picture.height + 1};
+}
+TANDEM_HD LookupTable<std::uint32_t> cell_ends(const EnvironmentPictureView& view) {
+    return {view.cell_ends, view.picture.width, view.picture.height + 1};
 }
 
 /// The extent of a band, from the nearer pole, so that nothing cancels there: (1 - |y|) / 2 at the border towards the
@@ -99,15 +105,12 @@ TANDEM_HD BandReach<Real> band_reach(const EnvironmentPictureView& view, const U
     using D = Double<Real>;
     using Word = UInt<Real>;
     const Word middle(view.picture.height / 2);
-    const auto border = [&](std::uint32_t step) {
-        return texture_detail::from_lanes<D>([&](int i) {
-            const std::uint32_t here = lane(band, i);
-            const std::uint32_t from_pole = here > view.picture.height / 2 ? view.picture.height - here : here;
-            return static_cast<Scalar<D>>(view.borders[from_pole + step]);
-        });
-    };
+    const Mask<Real> is_southern = middle < band;
+    const Word from_pole = select(is_southern, Word(view.picture.height) - band, band);
+    const LookupTable<double> borders = {view.borders, view.picture.height / 2 + 2};
+    const auto border = [&](std::uint32_t step) { return from_wide<Real>(borders[from_pole + Word(step)]); };
     const D first = border(0);
-    return {middle < band, first, border(1) - first};
+    return {is_southern, first, border(1) - first};
 }
 
 /// The cell and place of a direction. Lanes whose direction is not finite get an arbitrary cell.
@@ -127,11 +130,7 @@ TANDEM_HD CellPoint<Real> cell_towards(const EnvironmentPictureView& view, const
     // the order of arguments turns a NaN into `height`
     const D rows = lesser(height, atan2_turns<Real>(radius, direction.y) * (height + height) + D(0.5F));
     const D band = floor_of(rows);
-    const auto word_of = [](const D& a) {
-        return texture_detail::words_from_lanes<Real>(
-            [&](int i) { return static_cast<std::uint32_t>(to_wide(lane(a, i))); });
-    };
-    CellPoint<Real> point = {word_of(band), word_of(columns.first), columns.weight, zero};
+    CellPoint<Real> point = {to_word(band), to_word(columns.first), columns.weight, zero};
 
     const BandReach<Real> reach = band_reach<Real>(view, point.band);
     const D up = select(reach.is_southern, -direction.y, direction.y);  // towards the nearer pole
@@ -171,24 +170,23 @@ struct CellColours {
 template <class Real>
 TANDEM_HD CellColours<Real> colours_of(const EnvironmentPictureView& view, const CellPoint<Real>& point) {
     using D = Double<Real>;
+    using Word = UInt<Real>;
     const EnvironmentPicture& picture = view.picture;
-    CellColours<Real> result;
-    for (int k = 0; k < 4; ++k) {
-        const auto channel = [&](auto of) {
-            return widen(texture_detail::from_lanes<Float<Real>>([&](int i) {
-                const std::uint32_t band = lane(point.band, i);
-                const std::uint32_t left = lane(point.column, i);
-                const std::uint32_t upper = band > 0 ? band - 1 : 0;
-                const std::uint32_t row = k < 2 ? upper : (band < picture.height ? band : upper);
-                const std::uint32_t right = left + 1 < picture.width ? left + 1 : 0;
-                return of(view.texels[static_cast<std::size_t>(row) * picture.width + (k % 2 == 0 ? left : right)]);
-            }));
+    const Word zero(0U), one(1U);
+    const Word height(picture.height), width(picture.width);
+    const Word upper = select(zero < point.band, point.band - one, zero);
+    const Word lower = select(point.band < height, point.band, upper);
+    const Word next = point.column + one;
+    const Word right = select(next < width, next, zero);
+    const float* first = &view.texels->x;
+    const auto texel = [&](const Word& row, const Word& column) {
+        const auto channel = [&](int c) {
+            const LookupTable<float, 3> channels = {first + c, picture.width, picture.height};
+            return widen(Float<Real>(channels.at(row, column)));
         };
-        result.corner[k] =
-            Vec3<D>{channel([](const Vec3f& t) { return t.x; }), channel([](const Vec3f& t) { return t.y; }),
-                    channel([](const Vec3f& t) { return t.z; })};
-    }
-    return result;
+        return Vec3<D>{channel(0), channel(1), channel(2)};
+    };
+    return {{texel(upper, point.column), texel(upper, right), texel(lower, point.column), texel(lower, right)}};
 }
 
 /// Values at the corners of a cell, in the order of CellColours.
@@ -233,12 +231,9 @@ TANDEM_HD Double<Real> density_at(const EnvironmentPictureView& view, const Corn
                                   const CellPoint<Real>& point) {
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
-    const D probability = texture_detail::from_lanes<D>([&](int i) {
-        const std::uint32_t band = lane(point.band, i);
-        const std::uint32_t of_band = range_length(view.band_ends, band);
-        const std::uint32_t of_cell = range_length(view.cell_ends + first_cell(picture, band), lane(point.column, i));
-        return static_cast<Scalar<D>>(static_cast<double>(of_band) * (static_cast<double>(of_cell) * 0x1p-62));
-    });
+    const UInt<Real> of_band = range_length(band_ends(view), UInt<Real>(0U), point.band);
+    const UInt<Real> of_cell = range_length(cell_ends(view), point.band, point.column);
+    const D probability = from_wide<Real>(to_wide(of_band) * (to_wide(of_cell) * Wide<Real>(0x1p-62)));
     const D extent = band_reach<Real>(view, point.band).extent;
     const D& a = brightness.value[0];
     const D mean = ((a + brightness.value[1]) + (brightness.value[2] + brightness.value[3])) * D(0.25F);
@@ -308,12 +303,8 @@ TANDEM_HD EnvironmentSample<Real> sample_environment(const EnvironmentPictureVie
     using D = Double<Real>;
     const EnvironmentPicture& picture = view.picture;
     CellPoint<Real> point;
-    point.band = texture_detail::words_from_lanes<Real>(
-        [&](int i) { return find_range(view.band_ends, picture.height + 1, lane(random.word[0], i) >> 1); });
-    point.column = texture_detail::words_from_lanes<Real>([&](int i) {
-        return find_range(view.cell_ends + first_cell(picture, lane(point.band, i)), picture.width,
-                          lane(random.word[1], i) >> 1);
-    });
+    point.band = find_range(band_ends(view), UInt<Real>(0U), random.word[0] >> 1);
+    point.column = find_range(cell_ends(view), point.band, random.word[1] >> 1);
     const CellColours<Real> colours = colours_of<Real>(view, point);
     const Corners<D> brightness = brightness_of<Real>(colours);
     const auto& [upper_left, upper_right, lower_left, lower_right] = brightness.value;

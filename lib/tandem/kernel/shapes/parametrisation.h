@@ -91,24 +91,26 @@ TANDEM_HD_INLINE Parametrisation<Real> to_world(const Placement& placement, cons
 }
 
 /// On the triangle (v0, v1, v2), whose corners have the texture coordinates a, b, c.
-template <class Real>
-TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3f v0, Vec3f v1, Vec3f v2, Vec2f a, Vec2f b, Vec2f c, Ray<Real> ray,
-                                                 Mask<Real> here) {
+template <class Real, class Number>
+TANDEM_HD_CALL Parametrisation<Real> on_triangle(Vec3<Number> v0, Vec3<Number> v1, Vec3<Number> v2, Vec2<Number> a,
+                                                 Vec2<Number> b, Vec2<Number> c, Ray<Real> ray, Mask<Real> here) {
     using D = Double<Real>;
-    using S = Scalar<D>;
     const Barycentrics<D> at = barycentrics(v0, v1, v2, ray, here);
     const D rest = (D(1.0) - at.u) - at.v;
+    const auto number = [](const Number& x) { return corner_number<Real>(x); };
+    using S = decltype(number(a.x));
     Parametrisation<Real> result;
-    result.u = (D(a.x) * rest + D(b.x) * at.u) + D(c.x) * at.v;
-    result.v = (D(a.y) * rest + D(b.y) * at.u) + D(c.y) * at.v;
+    result.u = (D(number(a.x)) * rest + D(number(b.x)) * at.u) + D(number(c.x)) * at.v;
+    result.v = (D(number(a.y)) * rest + D(number(b.y)) * at.u) + D(number(c.y)) * at.v;
     // The edges are e = dp_du * du + dp_dv * dv, solved up to the magnitude of the determinant.
-    const Vec3<S> e1 = Vec3<S>(v1) - Vec3<S>(v0);
-    const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
-    const S du1 = S(b.x) - S(a.x);
-    const S dv1 = S(b.y) - S(a.y);
-    const S du2 = S(c.x) - S(a.x);
-    const S dv2 = S(c.y) - S(a.y);
-    const S sign = du1 * dv2 < du2 * dv1 ? S(-1.0) : S(1.0);
+    const Vec3<S> p0 = corner_point<Real>(v0);
+    const Vec3<S> e1 = corner_point<Real>(v1) - p0;
+    const Vec3<S> e2 = corner_point<Real>(v2) - p0;
+    const S du1 = number(b.x) - number(a.x);
+    const S dv1 = number(b.y) - number(a.y);
+    const S du2 = number(c.x) - number(a.x);
+    const S dv2 = number(c.y) - number(a.y);
+    const S sign = select(du1 * dv2 < du2 * dv1, S(-1.0), S(1.0));
     result.dp_du = broadcast<D>((e1 * dv2 - e2 * dv1) * sign);
     result.dp_dv = broadcast<D>((e2 * du1 - e1 * du2) * sign);
     return result;
@@ -120,14 +122,22 @@ template <int count>
 struct Corners {
     Vec2f uv[count];
 };
+template <int count>
+TANDEM_HD_INLINE Corners<count> default_corners() {
+    if constexpr (count == 3) {
+        return {{{0, 0}, {1, 0}, {0, 1}}};
+    } else {
+        return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    }
+}
 TANDEM_HD_INLINE Corners<3> corners_of(const Triangle& face, const Vec2f* texcoords) {
     const std::uint32_t first = face.attributes.texcoords;
-    if (first == no_attributes) return {{{0, 0}, {1, 0}, {0, 1}}};
+    if (first == no_attributes) return default_corners<3>();
     return {{texcoords[first], texcoords[first + 1], texcoords[first + 2]}};
 }
 TANDEM_HD_INLINE Corners<4> corners_of(const Quad& face, const Vec2f* texcoords) {
     const std::uint32_t first = face.attributes.texcoords;
-    if (first == no_attributes) return {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    if (first == no_attributes) return default_corners<4>();
     return {{texcoords[first], texcoords[first + 1], texcoords[first + 2], texcoords[first + 3]}};
 }
 

@@ -49,6 +49,24 @@ struct Barycentrics {
     D u, v;
 };
 
+// In the functions below, `Number` is the type of a corner's coordinates: float if all lanes have the same triangle,
+// Float<Real> if each lane has one of its own. The bits of a lane are the same either way.
+
+/// A coordinate, or another number of a corner, in the precision of decisions.
+template <class Real, class Number>
+TANDEM_HD_INLINE auto corner_number(const Number& a) {
+    if constexpr (std::is_same_v<Number, float>) {
+        return Scalar<Double<Real>>(a);
+    } else {
+        return widen(a);
+    }
+}
+template <class Real, class Number>
+TANDEM_HD_INLINE auto corner_point(const Vec3<Number>& v) {
+    return Vec3<decltype(corner_number<Real>(v.x))>{corner_number<Real>(v.x), corner_number<Real>(v.y),
+                                                    corner_number<Real>(v.z)};
+}
+
 namespace triangle_detail {
 
 /// Relative to their bounds: the largest error of the volumes below in double, and the size below which pairs of
@@ -68,13 +86,15 @@ struct Volumes {
     D speed, above;  ///< d . (e1 x e2), their sum, and a . (e1 x e2): above / speed is t
     D above_error;
 
-    TANDEM_HD_INLINE Volumes(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
-        using S = Scalar<D>;
-        const Vec3<S> e1 = Vec3<S>(v1) - Vec3<S>(v0);
-        const Vec3<S> e2 = Vec3<S>(v2) - Vec3<S>(v0);
-        const S size = norm1(e1) + norm1(e2);
+    template <class Number>
+    TANDEM_HD_INLINE Volumes(const Vec3<Number>& v0, const Vec3<Number>& v1, const Vec3<Number>& v2,
+                             const Ray<Real>& ray) {
+        const auto p0 = corner_point<Real>(v0);
+        const auto e1 = corner_point<Real>(v1) - p0;
+        const auto e2 = corner_point<Real>(v2) - p0;
+        const auto size = norm1(e1) + norm1(e2);
         const Vec3<D> d = widen(ray.direction);
-        const Vec3<D> a = broadcast<D>(v0) - widen(ray.origin);
+        const Vec3<D> a = broadcast<D>(p0) - widen(ray.origin);
         const Vec3<D> moment = accurate_cross(d, a);
         w2 = dot(moment, broadcast<D>(e1));
         w1 = -dot(moment, broadcast<D>(e2));
@@ -103,7 +123,9 @@ struct RoughCrossing {
     Real t;
     Barycentrics<Real> at;
 
-    TANDEM_HD_INLINE RoughCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
+    template <class Number>
+    TANDEM_HD_INLINE RoughCrossing(const Vec3<Number>& v0, const Vec3<Number>& v1, const Vec3<Number>& v2,
+                                   const Ray<Real>& ray) {
         const Vec3<Real> e1 = broadcast<Real>(v1 - v0);
         const Vec3<Real> e2 = broadcast<Real>(v2 - v0);
         const Vec3<Real> p = cross(ray.direction, e2);
@@ -137,13 +159,15 @@ struct PlaneCrossing {
     Mask<Real> in_front;
     Mask<Real> doubtful;  ///< pairs did not suffice for these lanes
 
-    TANDEM_HD_INLINE PlaneCrossing(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray) {
-        using S = Scalar<D>;
-        const Vec3<Pair<S>> e1 = subtract(Vec3<S>(v1), Vec3<S>(v0));
-        const Vec3<Pair<S>> e2 = subtract(Vec3<S>(v2), Vec3<S>(v0));
+    template <class Number>
+    TANDEM_HD_INLINE PlaneCrossing(const Vec3<Number>& v0, const Vec3<Number>& v1, const Vec3<Number>& v2,
+                                   const Ray<Real>& ray) {
+        const auto p0 = corner_point<Real>(v0);
+        const auto e1 = subtract(corner_point<Real>(v1), p0);
+        const auto e2 = subtract(corner_point<Real>(v2), p0);
         const Vec3<Pair<D>> normal = broadcast_pairs<D>(cross(e1, e2));
         const D area(size_of(e1) * size_of(e2));
-        const Vec3<Pair<D>> a = subtract(broadcast<D>(v0), widen(ray.origin));
+        const Vec3<Pair<D>> a = subtract(broadcast<D>(p0), widen(ray.origin));
         const Vec3<D> d = widen(ray.direction);
         const D zero(0.0);
         const Pair<D> above = dot(a, normal);
@@ -221,6 +245,10 @@ TANDEM_HD_CALL Barycentrics<double> exact_barycentrics(Vec3f v0, Vec3f v1, Vec3f
     return ExactCrossing<T>(v0, v1, v2, ray).barycentrics();
 }
 
+template <class Number>
+TANDEM_HD_INLINE Vec3f one_corner(const Vec3<Number>& v, int i) {
+    return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
+}
 template <class Real>
 TANDEM_HD_INLINE Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     const Vec3<Real>&o = ray.origin, &d = ray.direction;
@@ -229,9 +257,10 @@ TANDEM_HD_INLINE Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
 
 /// The parameter of the hit, or infinity for a miss, in the lanes of `active`; others are not evaluated a second time.
 /// A hit beyond `farthest` may count as a miss.
-template <class Real>
-requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v1, Vec3f v2, Ray<Real> ray,
-                                                               Mask<Real> active, Double<Real> farthest) {
+template <class Real, class Number>
+requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3<Number> v0, Vec3<Number> v1, Vec3<Number> v2,
+                                                               Ray<Real> ray, Mask<Real> active,
+                                                               Double<Real> farthest) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D least = lesser(lesser(w.w0, w.w1), w.w2);
@@ -248,16 +277,18 @@ requires(!is_fast<Real>) TANDEM_HD_CALL Double<Real> parameter(Vec3f v0, Vec3f v
     doubtful = doubtful && active;
     if (any(doubtful)) [[unlikely]] {
         for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
-            if (lane(doubtful, i)) set_lane(t, i, exact_parameter(v0, v1, v2, one_ray(ray, i)));
+            if (!lane(doubtful, i)) continue;
+            set_lane(t, i, exact_parameter(one_corner(v0, i), one_corner(v1, i), one_corner(v2, i), one_ray(ray, i)));
         }
     }
     return t;
 }
 
 /// The same in the tier fast: in float, not watertight. A line through an edge may miss both of its triangles.
-template <class Real>
+template <class Real, class Number>
 requires(is_fast<Real>) TANDEM_HD_INLINE Real
-    parameter(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray, const Mask<Real>&, const Real&) {
+    parameter(const Vec3<Number>& v0, const Vec3<Number>& v1, const Vec3<Number>& v2, const Ray<Real>& ray,
+              const Mask<Real>&, const Real&) {
     const RoughCrossing<Real> crossing(v0, v1, v2, ray);
     const Real zero(0.0F);
     const Mask<Real> inside =
@@ -266,9 +297,10 @@ requires(is_fast<Real>) TANDEM_HD_INLINE Real
 }
 
 /// In the lanes of `active`, within 2^-22; they may be out of range by as much.
-template <class Real>
-TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
-                                                              const Ray<Real>& ray, const Mask<Real>& active) {
+template <class Real, class Number>
+TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3<Number>& v0, const Vec3<Number>& v1,
+                                                              const Vec3<Number>& v2, const Ray<Real>& ray,
+                                                              const Mask<Real>& active) {
     using D = Double<Real>;
     const Volumes<Real> w(v0, v1, v2, ray);
     const D whole = (w.w0 + w.w1) + w.w2;
@@ -277,7 +309,8 @@ TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, c
     if (any(coarse)) [[unlikely]] {
         for (int i = 0; i < RealTraits<Real>::lanes; ++i) {
             if (!lane(coarse, i)) continue;
-            const auto exact = exact_barycentrics(v0, v1, v2, one_ray(ray, i));
+            const auto exact =
+                exact_barycentrics(one_corner(v0, i), one_corner(v1, i), one_corner(v2, i), one_ray(ray, i));
             set_lane(at.u, i, exact.u);
             set_lane(at.v, i, exact.v);
         }
@@ -305,9 +338,10 @@ TANDEM_HD_INLINE Barycentrics<Double<Real>> fine_barycentrics(const Vec3f& v0, c
 ///        2013, before their shear; W. Kahan for the differences of products; J. R. Shewchuk, "Adaptive Precision
 ///        Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, for exactness on demand. Tested by
 ///        tests/kernel/shapes/triangle_test.cpp and mesh_test.cpp.
-template <class Real>
-TANDEM_HD_INLINE Mask<Real> first_hit(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2, const Ray<Real>& ray,
-                                      Double<Real>& t, const Mask<Real>& active = Mask<Real>(true),
+template <class Real, class Number>
+TANDEM_HD_INLINE Mask<Real> first_hit(const Vec3<Number>& v0, const Vec3<Number>& v1, const Vec3<Number>& v2,
+                                      const Ray<Real>& ray, Double<Real>& t,
+                                      const Mask<Real>& active = Mask<Real>(true),
                                       const Double<Real>& farthest = Double<Real>(__builtin_huge_val())) {
     if (!any(active)) return active;
     t = triangle_detail::parameter<Real>(v0, v1, v2, ray, active, farthest);
@@ -323,9 +357,10 @@ TANDEM_HD_INLINE Mask<Real> first_hit(const Triangle& triangle, const Ray<Real>&
 
 /// The barycentric coordinates of a hit, in the lanes of `active`, whose rays hit the triangle. Within 2^-22 of the
 /// exact ones, except in the tier fast.
-template <class Real>
-TANDEM_HD_INLINE Barycentrics<Double<Real>> barycentrics(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2,
-                                                         const Ray<Real>& ray, const Mask<Real>& active) {
+template <class Real, class Number>
+TANDEM_HD_INLINE Barycentrics<Double<Real>> barycentrics(const Vec3<Number>& v0, const Vec3<Number>& v1,
+                                                         const Vec3<Number>& v2, const Ray<Real>& ray,
+                                                         const Mask<Real>& active) {
     using D = Double<Real>;
     Barycentrics<D> at;
     if constexpr (is_fast<Real>) {
@@ -369,24 +404,52 @@ TANDEM_HD_CALL Vec3d exact_normal_direction(Vec3f v0, Vec3f v1, Vec3f v2) {
 
 }  // namespace triangle_detail
 
+namespace triangle_detail {
+
+/// Unit geometric normal in double, by corners in double. `exact_direction(i)`: exact_normal_direction() in lane i.
+template <class D, class ExactDirection>
+TANDEM_HD_INLINE Vec3<D> unit_normal(const Vec3<D>& v0, const Vec3<D>& v1, const Vec3<D>& v2,
+                                     const ExactDirection& exact_direction) {
+    const Vec3<D> e1 = v1 - v0;
+    const Vec3<D> e2 = v2 - v0;
+    Vec3<D> direction = accurate_cross(e1, e2);
+    // unless the edges are nearly parallel, the rounding of the edges, 2^-53 of each, is the whole error
+    const auto accurate = norm1(direction) > D(0x1p-20) * (norm1(e1) * norm1(e2));
+    if (!all(accurate)) [[unlikely]] {
+        for (int i = 0; i < RealTraits<D>::lanes; ++i) {
+            if (lane(accurate, i)) continue;
+            const Vec3d exact = exact_direction(i);
+            set_lane(direction.x, i, exact.x);
+            set_lane(direction.y, i, exact.y);
+            set_lane(direction.z, i, exact.z);
+        }
+    }
+    return normalize(direction);
+}
+
+}  // namespace triangle_detail
+
 /// Unit geometric normal, on the front. Within 2^-28. Needs a triangle that is not degenerate.
 TANDEM_HD_INLINE Vec3d triangle_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
-    const Vec3d e1 = widen(v1) - widen(v0);
-    const Vec3d e2 = widen(v2) - widen(v0);
-    const Vec3d direction = accurate_cross(e1, e2);
-    // unless the edges are nearly parallel, the rounding of the edges, 2^-53 of each, is the whole error
-    if (norm1(direction) > 0x1p-20 * (norm1(e1) * norm1(e2))) return normalize(direction);
-    return normalize(triangle_detail::exact_normal_direction(v0, v1, v2));
+    return triangle_detail::unit_normal(widen(v0), widen(v1), widen(v2),
+                                        [&](int) { return triangle_detail::exact_normal_direction(v0, v1, v2); });
 }
 
 /// The same for all lanes; in float in the tier fast.
-template <class Real>
-TANDEM_HD_INLINE Vec3<Double<Real>> geometric_normal(const Vec3f& v0, const Vec3f& v1, const Vec3f& v2) {
+template <class Real, class Number>
+TANDEM_HD_INLINE Vec3<Double<Real>> geometric_normal(const Vec3<Number>& v0, const Vec3<Number>& v1,
+                                                     const Vec3<Number>& v2) {
     using D = Double<Real>;
     if constexpr (is_fast<Real>) {
         return normalize(cross(broadcast<D>(v1 - v0), broadcast<D>(v2 - v0)));
-    } else {
+    } else if constexpr (std::is_same_v<Number, float>) {
         return broadcast<D>(triangle_normal(v0, v1, v2));
+    } else {
+        using triangle_detail::one_corner;
+        const auto exact_direction = [&](int i) {
+            return triangle_detail::exact_normal_direction(one_corner(v0, i), one_corner(v1, i), one_corner(v2, i));
+        };
+        return triangle_detail::unit_normal(widen(v0), widen(v1), widen(v2), exact_direction);
     }
 }
 

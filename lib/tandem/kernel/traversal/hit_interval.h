@@ -27,10 +27,13 @@
 
 namespace tandem {
 
-struct HitInterval {
-    float lo;
-    float hi;  ///< infinite if the hit is not certain
+template <class F>
+struct HitIntervalOf {
+    F lo;
+    F hi;  ///< infinite if the hit is not certain
 };
+/// Of one ray.
+using HitInterval = HitIntervalOf<float>;
 
 namespace interval_detail {
 
@@ -39,7 +42,10 @@ inline constexpr float infinity = __builtin_huge_valf();
 inline constexpr float largest = 1e36F;
 
 /// `a` if it is positive, else 0; also for NaN.
-TANDEM_HD_INLINE float not_negative(float a) { return rough_greater(0.0F, a); }
+template <class F>
+TANDEM_HD_INLINE F not_negative(const F& a) {
+    return rough_greater(F(0.0F), a);
+}
 
 }  // namespace interval_detail
 
@@ -226,43 +232,57 @@ TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Ellipsoid& 
     return hit_interval(ray, RoughEllipsoid{rough_placement(body)}, own);
 }
 
-/// With a = v0 - origin, m = direction x a, s = |e1| + |e2|: the volumes err by less than u (4 |a| + 7 |m| + 3 s) s +
-/// 1.5 drift s, their sum, `speed`, by 3 u s^2, and `above` by (2 u |a| + 0.5 drift) s^2, as in may_touch_triangle().
-/// The hit is at above / speed.
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const TriangleEdges& triangle) {
-    const auto& [v0, e1, e2, size] = triangle;
-    const Vec3f a = v0 - ray.origin;
-    const Vec3f moment = loose_cross(ray.direction, a);
-    const Vec3f normal = loose_cross(e1, e2);
-    const float speed = loose_dot(ray.direction, normal);
-    const std::uint32_t turned = bits_of(speed) & 0x80000000U;
-    const auto in_front = [turned](float x) { return float_of(bits_of(x) ^ turned); };
-    const float w2 = in_front(loose_dot(moment, e1));
-    const float w1 = in_front(-loose_dot(moment, e2));
-    const float fast = absolute(speed);
-    const float w0 = (fast - w1) - w2;
-    const float distance = norm1(a);
-    const float beside = loose_multiply_add(8.0F * float_roundoff, norm1(moment) + size, 2.0F * ray.drift);
-    const float error = loose_multiply_add(loose_multiply_add(4.5F * float_roundoff, distance, beside), size, 1e-36F);
-    const float least = lesser(lesser(w0, w1), w2);
-    const float size2 = size * size;
-    const float speed_error = loose_multiply_add(4.0F * float_roundoff, size2, 1e-36F);
-    const bool knows_side = fast > 4.0F * speed_error;
+/// Of one ray or a packet. With a = v0 - origin, m = direction x a, s = |e1| + |e2|: the volumes err by less than u (4
+/// |a| + 7 |m| + 3 s) s + 1.5 drift s, their sum, `speed`, by 3 u s^2, and `above` by (2 u |a| + 0.5 drift) s^2, as in
+/// may_touch_triangle(). The hit is at above / speed.
+template <class F>
+TANDEM_HD_INLINE HitIntervalOf<F> hit_interval(const QueryRayOf<F>& ray, const TriangleEdges& triangle) {
+    const Vec3<F> e1 = broadcast<F>(triangle.e1);
+    const Vec3<F> e2 = broadcast<F>(triangle.e2);
+    const F size(triangle.size);
+    const Vec3<F> a = broadcast<F>(triangle.v0) - ray.origin;
+    const Vec3<F> moment = loose_cross(ray.direction, a);
+    const Vec3<F> normal = broadcast<F>(loose_cross(triangle.e1, triangle.e2));
+    const F speed = loose_dot(ray.direction, normal);
+    const UInt<F> turned = bits_of(speed) & UInt<F>(0x80000000U);
+    const auto in_front = [&turned](const F& x) { return float_of(bits_of(x) ^ turned); };
+    const F w2 = in_front(loose_dot(moment, e1));
+    const F w1 = in_front(-loose_dot(moment, e2));
+    const F fast = absolute(speed);
+    const F w0 = (fast - w1) - w2;
+    const F distance = norm1(a);
+    const F beside = loose_multiply_add(F(8.0F * float_roundoff), norm1(moment) + size, F(2.0F) * ray.drift);
+    const F error = loose_multiply_add(loose_multiply_add(F(4.5F * float_roundoff), distance, beside), size, F(1e-36F));
+    const F least = lesser(lesser(w0, w1), w2);
+    const F size2 = size * size;
+    const F speed_error = loose_multiply_add(F(4.0F * float_roundoff), size2, F(1e-36F));
+    const F infinity(interval_detail::infinity);
+    const auto knows_side = fast > F(4.0F) * speed_error;
     // else all signs may be turned
-    if (least < -error && (knows_side || greater(greater(w0, w1), w2) > error)) return certain_miss;
-    const float above = in_front(loose_dot(a, normal));
-    if (!knows_side || !(fast + absolute(above) < interval_detail::largest)) return unsure_hit;
-    const float above_error =
-        loose_multiply_add(loose_multiply_add(3.0F * float_roundoff, distance, ray.drift), size2, 1e-36F);
-    const float inverse = rough_reciprocal(fast);
-    const float s = above * inverse;
+    const auto misses = least < -error && (knows_side || greater(greater(w0, w1), w2) > error);
+    if (all(misses)) return {infinity, infinity};
+    const F above = in_front(loose_dot(a, normal));
+    const auto is_unsure = !knows_side || !(fast + absolute(above) < F(interval_detail::largest));
+    if (all(misses || is_unsure)) return {select(misses, infinity, F(0.0F)), infinity};
+    const F above_error =
+        loose_multiply_add(loose_multiply_add(F(3.0F * float_roundoff), distance, ray.drift), size2, F(1e-36F));
+    const F inverse = rough_reciprocal(fast);
+    const F s = above * inverse;
     // the true speed is above three quarters of this one
-    const float quotient_error = loose_multiply_add(absolute(s), speed_error, above_error) * 1.5F;
-    const float margin =
-        loose_multiply_add(quotient_error, inverse, loose_multiply_add(16.0F * float_roundoff, absolute(s), ray.drift));
-    if (s + margin < 0.0F) return certain_miss;
-    const float lo = s - margin;
-    return {interval_detail::not_negative(lo), lo > 0.0F && least > error ? s + margin : interval_detail::infinity};
+    const F quotient_error = loose_multiply_add(absolute(s), speed_error, above_error) * F(1.5F);
+    const F margin = loose_multiply_add(quotient_error, inverse,
+                                        loose_multiply_add(F(16.0F * float_roundoff), absolute(s), ray.drift));
+    const auto is_behind = s + margin < F(0.0F);
+    if (all(is_behind)) return {infinity, infinity};
+    const F lo = s - margin;
+    const auto is_certain = lo > F(0.0F) && least > error;
+    if constexpr (RealTraits<F>::lanes == 1) {
+        return {interval_detail::not_negative(lo), is_certain ? s + margin : infinity};
+    } else {
+        const F start = select(is_unsure, F(0.0F), interval_detail::not_negative(lo));
+        return {select(misses || (is_behind && !is_unsure), infinity, start),
+                select(is_certain && !is_unsure && !misses, s + margin, infinity)};
+    }
 }
 TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Triangle& triangle, bool) {
     return hit_interval(ray, edges_of(triangle.v0, triangle.v1, triangle.v2));

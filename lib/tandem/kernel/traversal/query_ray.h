@@ -15,35 +15,44 @@ namespace tandem {
 /// in double: 8 u S + 3 u t_offset * length for an origin that was moved, where S is the reach of the scene's bounds
 /// (the rounding of the origin is sqrt(3) u S; t errs by 2^-26 of itself at most); 2 u S where an origin in double was
 /// rounded; for others 1e-30, so that no margin underflows.
-struct QueryRay {
-    Vec3f origin;
-    Vec3f direction;
-    float drift;
+template <class F>
+struct QueryRayOf {
+    Vec3<F> origin;
+    Vec3<F> direction;
+    F drift;
     // for a ray that passes alpha masks: bounds of the query parameter of its last masked hit
-    float start = 0;   ///< not above it
-    float passed = 0;  ///< not below it
+    F start = F(0.0F);   ///< not above it
+    F passed = F(0.0F);  ///< not below it
 };
+/// One ray.
+using QueryRay = QueryRayOf<float>;
 
 /// Needs proposal.active. `source`: of any type that test_primitive() takes.
 template <class Real, class From>
-TANDEM_HD_INLINE QueryRay make_query_ray(const Proposal<Real>& proposal, const StructureFrame& frame,
-                                         const From& source) {
-    constexpr bool is_rounded = std::is_same_v<Real, double>;
+TANDEM_HD_INLINE QueryRayOf<Float<Real>> make_query_ray(const Proposal<Real>& proposal, const StructureFrame& frame,
+                                                        const From& source) {
+    using F = Float<Real>;
+    using D = Double<Real>;
+    constexpr bool is_rounded = std::is_same_v<Scalar<Real>, double>;
     const float unit = float_roundoff * reach(frame.bounds);
-    float drift = is_rounded ? 2.0F * unit + 1e-30F : 1e-30F;
-    if (proposal.t_offset > 0.0) {
-        const float moved_by = narrow(proposal.t_offset * widen(proposal.length));
-        drift = 8.0F * unit + (3.0F * float_roundoff) * moved_by + 1e-30F;
+    F drift(is_rounded ? 2.0F * unit + 1e-30F : 1e-30F);
+    const Mask<Real> is_moved = proposal.t_offset > D(0.0);
+    if (any(is_moved)) {
+        const F moved_by = narrow(proposal.t_offset * widen(proposal.length));
+        drift = select(is_moved, F(8.0F * unit) + F(3.0F * float_roundoff) * moved_by + F(1e-30F), drift);
     }
-    QueryRay query = {proposal.ray.origin, proposal.ray.direction, drift};
+    QueryRayOf<F> query = {proposal.ray.origin, proposal.ray.direction, drift};
     if constexpr (std::is_base_of_v<Source<Real>, From>) {
         // a ray never misses the solid that it leaves inward, and the filter allows for this error of its origin
-        if (source.inside) query.drift += filter_margin * norm1(query.origin);
+        if (any(source.inside)) {
+            query.drift = select(source.inside, drift + F(filter_margin) * norm1(query.origin), drift);
+        }
     }
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
-        if (source.last_masked.t > 0.0) [[unlikely]] {
-            query.start = proposal.start(source.last_masked.t);
-            query.passed = greater(proposal.limit(source.last_masked.t), 1e-30F);
+        const Mask<Real> has_passed = source.last_masked.t > D(0.0);
+        if (any(has_passed)) [[unlikely]] {
+            query.start = select(has_passed, proposal.start(source.last_masked.t), query.start);
+            query.passed = select(has_passed, greater(proposal.limit(source.last_masked.t), F(1e-30F)), query.passed);
         }
     }
     return query;
