@@ -143,8 +143,7 @@ TANDEM_HD_INLINE Mask<Real> others(const UInt<Real>& primitive, const Mask<Real>
 template <std::uint32_t kinds, class Real>
 inline constexpr bool can_hit_several = RealTraits<Real>::lanes > 1 && (kinds & PrimitiveKinds::triangle) != 0;
 
-/// The lanes that hit triangles, if these are three different ones or more. With fewer, loading a triangle for each lane
-/// does not pay.
+/// The lanes that hit triangles, if these are three different ones or more; fewer are visited one after the other.
 template <class Real>
 TANDEM_HD_INLINE Mask<Real> several_triangles(const SceneView& scene, const UInt<Real>& primitive,
                                               const Mask<Real>& found) {
