@@ -1,4 +1,5 @@
 /// Triangles in the query of a packet to Embree: their hits are decided after the traversal, for all lanes at once.
+/// Tested by tests/cpu/triangle_query_test.cpp.
 #pragma once
 
 #include "cpu/kernels.h"
@@ -9,8 +10,7 @@
 
 namespace tandem {
 
-/// As Candidates (kernel/traversal/candidates.h), for each lane. Two are enough: a lane has more than one only near an
-/// edge of a mesh, or where surfaces nearly touch.
+/// As Candidates (kernel/traversal/candidates.h), for each lane. It keeps two: the caller decides at once about others.
 template <class Real>
 class LaneCandidates {
   public:

@@ -1,5 +1,5 @@
 /// What the lanes of a packet hit, in as few parts as possible: one primitive after the other, except for triangles of
-/// one material, which are one part.
+/// one material, which are one part. Tested by tests/kernel/hit_primitives_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/triangle_lanes.h"
@@ -124,6 +124,12 @@ class HitTriangles {
     Word material_, sides_;
 };
 
+/// The lanes whose primitive is not that of the first one.
+template <class Real>
+TANDEM_HD_INLINE Mask<Real> others(const UInt<Real>& primitive, const Mask<Real>& lanes) {
+    return lanes && primitive != UInt<Real>(lane(primitive, lowest_bit(lanes.bits())));
+}
+
 }  // namespace hit_primitives_detail
 
 template <class Real>
@@ -131,12 +137,6 @@ TANDEM_HD_INLINE SurfacePoint<Real> surface_point(const TriangleLanes<Real>& tri
                                                   const Ray<Real>& ray, const Double<Real>& t) {
     const auto normal = geometric_normal<Real>(triangles.v0, triangles.v1, triangles.v2);
     return spawn_detail::plane_point(triangles.v0, normal, ray, t);
-}
-
-/// The lanes whose primitive is not that of the first one.
-template <class Real>
-TANDEM_HD_INLINE Mask<Real> others(const UInt<Real>& primitive, const Mask<Real>& lanes) {
-    return lanes && primitive != UInt<Real>(lane(primitive, lowest_bit(lanes.bits())));
 }
 
 /// Whether there are several triangles to hit.
@@ -151,7 +151,8 @@ TANDEM_HD_INLINE Mask<Real> several_triangles(const SceneView& scene, const UInt
     const Word first(hit_primitives_detail::first_triangle(scene));
     const Mask<Real> triangles = found && !(primitive < first) && primitive < first + Word(scene.triangle_count);
     Mask<Real> rest = triangles;
-    for (int different = 0; different < 2 && any(rest); ++different) rest = others<Real>(primitive, rest);
+    for (int different = 0; different < 2 && any(rest); ++different)
+        rest = hit_primitives_detail::others<Real>(primitive, rest);
     return triangles && Mask<Real>(any(rest));
 }
 
@@ -166,10 +167,10 @@ TANDEM_HD_INLINE Mask<Real> for_each_triangle_part(const SceneView& scene, const
         ManyTriangles<Real> part;
         const Mask<Real> here = hits.part_of(lowest_bit(triangles.bits()), primitive, triangles, part);
         Mask<Real> later = triangles && !here;
-        if (any(here) && any(others<Real>(primitive, here))) {
+        if (any(here) && any(hit_primitives_detail::others<Real>(primitive, here))) {
             visit(part, here);
         } else {
-            later = others<Real>(primitive, triangles);
+            later = hit_primitives_detail::others<Real>(primitive, triangles);
             left = left || (triangles && !later);
         }
         triangles = later;

@@ -183,10 +183,6 @@ TANDEM_HD void clear(Surface<Real>& surface) {
     if (Effects::has(Effect::anisotropy)) surface.tangent = surface.normal;
 }
 
-}  // namespace surface_detail
-
-namespace surface_detail {
-
 /// The lanes of `here`, which hit `part` of for_each_part(). The lambda is inlined by force: g++ leaves it as a call
 /// otherwise, and renders take up to 2 % longer.
 template <class Effects, std::uint32_t kinds, class Real, class From, class Part>

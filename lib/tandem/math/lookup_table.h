@@ -1,4 +1,4 @@
-/// Tables in memory that each lane of a packet reads at a place of its own.
+/// Tables in memory that each lane of a packet reads at a place of its own. Tested by tests/math/lanes_test.cpp.
 #pragma once
 
 #include "tandem/math/real.h"

@@ -169,7 +169,7 @@ TEST(HitInterval, OfTrianglesInLanesAreThoseOfSingleRays) {
     for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
         for (std::uint64_t number = 0; number < cases_per_kind; ++number) {
             const Triangle triangle = test::triangle_case(kind, number).triangle;
-            QueryRay one[Packet::size];
+            QueryRay one[Packet::size] = {};
             QueryRayOf<Packet> packet{};
             for (int i = 0; i < Packet::size; ++i) {
                 const Ray<float> ray = test::triangle_case(kind, number + static_cast<std::uint64_t>(i)).ray;
