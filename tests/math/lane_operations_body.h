@@ -359,6 +359,7 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(U, to_float, to_float(a >> 1))                                                                         \
     OPERATION(U, high_word, high_word<Real>(a, b))                                                                   \
     OPERATION(U, low_word, low_word<Real>(a, b))                                                                     \
+    OPERATION(U, reversed_bits, reversed_bits(a))                                                                    \
     OPERATION(U, philox, (philox4x32<U>({{a, b, c, a}}, 17U, 23U).word[2]))                                          \
     OPERATION(U, unit_interval, to_unit_interval<Real>(a))                                                           \
     OPERATION(I, add, a + b)                                                                                         \

@@ -3,7 +3,6 @@
 #include "tandem/math/lanes.h"
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
 
 #include "math/lane_operations_body.h"
 #include "support/random.h"
@@ -99,24 +98,6 @@ TEST(Lanes, ForEachValueVisitsEveryActiveLaneOnce) {
         });
         for (int i = 0; i < 4; ++i) ASSERT_EQ(visits[i], pattern >> i & 1) << "lane " << i;
     }
-}
-
-// Beyond 2^31 bytes the offsets of a packet do not fit. The memory is reserved, but only two pages of it are used.
-TEST(Lanes, ReadTablesOfMoreThanTwoGigabytes) {
-    using Word = UInt<Packet>;
-    constexpr std::uint32_t width = 65536, height = 8193;
-    constexpr std::size_t bytes = sizeof(std::uint32_t) * width * height;
-    void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) GTEST_SKIP() << "the address space is limited";
-    auto* numbers = static_cast<std::uint32_t*>(memory);
-    numbers[1] = 5;
-    numbers[std::size_t{width} * (height - 1) + 7] = 6;
-    const LookupTable<std::uint32_t> table = {numbers, width, height};
-    const auto row = Word::from([](int i) { return i % 2 == 0 ? 0U : height - 1; });
-    const auto column = Word::from([](int i) { return i % 2 == 0 ? 1U : 7U; });
-    const Word read = table.at(row, column);
-    for (int i = 0; i < Packet::size; ++i) EXPECT_EQ(read[i], i % 2 == 0 ? 5U : 6U) << "lane " << i;
-    munmap(memory, bytes);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 /// The primitives of area lights, another one in each lane of a packet. Tested by tests/kernel/visit_lights_test.cpp.
 #pragma once
 
-#include <cstring>
 #include <type_traits>
 
 #include "tandem/kernel/lights/quad_light.h"
@@ -40,88 +39,63 @@ namespace visit_lights_detail {
 template <class Real>
 class LaneLights {
   public:
-    TANDEM_HD void put(int lane, const Sphere& sphere) {
-        put_corner(lane, 0, sphere.centre);
-        radius_[lane] = Scalar(sphere.radius);
-        set_lane(kind_, lane, kind_of<Sphere>);
+    /// The primitive of the lanes of `here`.
+    TANDEM_HD void put(const Mask<Real>& here, const Sphere& sphere) {
+        put_corners(here, sphere.centre);
+        radius_ = select(here, Real(sphere.radius), radius_);
+        spheres_ = spheres_ || here;
     }
-    TANDEM_HD void put(int lane, const Triangle& face) {
-        put_corner(lane, 0, face.v0);
-        put_corner(lane, 1, face.v1);
-        put_corner(lane, 2, face.v2);
-        put_kind_and_sides(lane, face);
+    TANDEM_HD void put(const Mask<Real>& here, const Triangle& face) {
+        put_corners(here, face.v0, face.v1, face.v2);
+        put_sides(here, face);
+        triangles_ = triangles_ || here;
         if constexpr (!is_fast<Real>) {
             if (is_double_sided(face.attributes)) return;
-            const Vec3d normal = triangle_normal(face.v0, face.v1, face.v2);
-            set_lane_constant(normal_.x, lane, normal.x);
-            set_lane_constant(normal_.y, lane, normal.y);
-            set_lane_constant(normal_.z, lane, normal.z);
+            normal_ = select(here, broadcast<D>(triangle_normal(face.v0, face.v1, face.v2)), normal_);
         }
     }
-    TANDEM_HD void put(int lane, const Quad& face) {
-        put_corner(lane, 0, face.v0);
-        put_corner(lane, 1, face.v1);
-        put_corner(lane, 2, face.v2);
-        put_corner(lane, 3, face.v3);
-        put_kind_and_sides(lane, face);
+    TANDEM_HD void put(const Mask<Real>& here, const Quad& face) {
+        put_corners(here, face.v0, face.v1, face.v2, face.v3);
+        put_sides(here, face);
+        quads_ = quads_ || here;
     }
 
     /// Calls visit(light, mask) for each kind of light.
     template <class Visitor>
     TANDEM_HD_INLINE void visit(Visitor visit) const {
-        const Mask<Real> spheres = lanes_of<Sphere>(), triangles = lanes_of<Triangle>(), quads = lanes_of<Quad>();
-        if (any(spheres)) visit(LaneSphere<Real>{corner(0), load(radius_)}, spheres);
-        if (any(triangles)) {
-            LaneTriangle<Real> faces = {corner(0), corner(1), corner(2), has_sides(FaceSides::double_sided), normal_};
+        const auto& [v0, v1, v2, v3] = corner_;
+        if (any(spheres_)) visit(LaneSphere<Real>{v0, radius_}, spheres_);
+        if (any(triangles_)) {
+            LaneTriangle<Real> faces = {v0, v1, v2, double_sided_, normal_};
             if constexpr (is_fast<Real>) faces.normal = normalize(cross(faces.v1 - faces.v0, faces.v2 - faces.v0));
-            visit(faces, triangles);
+            visit(faces, triangles_);
         }
-        if (any(quads)) {
-            visit(LaneQuad<Real>{corner(0), corner(1), corner(2), corner(3), has_sides(FaceSides::double_sided),
-                                 has_sides(FaceSides::culled)},
-                  quads);
-        }
+        if (any(quads_)) visit(LaneQuad<Real>{v0, v1, v2, v3, double_sided_, culled_}, quads_);
     }
 
   private:
     using D = Double<Real>;
-    using Word = UInt<Real>;
-    using Scalar = typename RealTraits<Real>::Scalar;
-    static constexpr int lanes = RealTraits<Real>::lanes;
 
-    TANDEM_HD static Real load(const Scalar (&values)[lanes]) {
-        Real loaded;
-        static_assert(sizeof(loaded) == sizeof(values));
-        std::memcpy(&loaded, values, sizeof(loaded));
-        return loaded;
-    }
-    [[nodiscard]] TANDEM_HD Vec3<Real> corner(int number) const {
-        return {load(corner_[number][0]), load(corner_[number][1]), load(corner_[number][2])};
-    }
-    TANDEM_HD void put_corner(int lane, int number, const Vec3f& at) {
-        corner_[number][0][lane] = Scalar(at.x);
-        corner_[number][1][lane] = Scalar(at.y);
-        corner_[number][2][lane] = Scalar(at.z);
+    template <class... Corners>
+    TANDEM_HD void put_corners(const Mask<Real>& here, const Corners&... at) {
+        int number = 0;
+        ((corner_[number] = select(here, broadcast<Real>(at), corner_[number]), ++number), ...);
     }
     template <class Face>
-    TANDEM_HD void put_kind_and_sides(int lane, const Face& face) {
-        set_lane(kind_, lane, kind_of<Face>);
-        set_lane(sides_, lane, static_cast<std::uint32_t>(face.attributes.sides));
-    }
-    [[nodiscard]] TANDEM_HD Mask<Real> has_sides(FaceSides sides) const {
-        return sides_ == Word(static_cast<std::uint32_t>(sides));
-    }
-    template <class Body>
-    [[nodiscard]] TANDEM_HD Mask<Real> lanes_of() const {
-        return kind_ == Word(kind_of<Body>);
+    TANDEM_HD void put_sides(const Mask<Real>& here, const Face& face) {
+        const FaceSides sides = face.attributes.sides;
+        double_sided_ = double_sided_ || (here && Mask<Real>(sides == FaceSides::double_sided));
+        culled_ = culled_ || (here && Mask<Real>(sides == FaceSides::culled));
     }
 
+    TANDEM_HD static Vec3<Real> zeros() { return {Real(0.0F), Real(0.0F), Real(0.0F)}; }
+
     // zeros in lanes without such a light: all lanes compute
-    Scalar corner_[4][3][lanes] = {};  ///< of a face; the first one is the centre of a sphere
-    Scalar radius_[lanes] = {};
-    Word kind_ = Word(0U);
-    Word sides_ = Word(0U);
+    Vec3<Real> corner_[4] = {zeros(), zeros(), zeros(), zeros()};  ///< of a face; the first one is a sphere's centre
+    Real radius_ = Real(0.0F);
     Vec3<D> normal_ = {D(0.0), D(0.0), D(0.0)};
+    Mask<Real> spheres_ = Mask<Real>(false), triangles_ = spheres_, quads_ = spheres_;
+    Mask<Real> double_sided_ = spheres_, culled_ = spheres_;
 };
 
 }  // namespace visit_lights_detail
@@ -143,12 +117,11 @@ TANDEM_HD_INLINE void visit_lights(const SceneView& scene, const UInt<Real>& pri
             });
     } else {
         visit_lights_detail::LaneLights<Real> lights;
-        for (auto left = active.bits(); left != 0; left &= left - 1) {
-            const int lane_number = lowest_bit(left);
-            visit_primitive(scene, lane(primitive, lane_number), [&](const auto& body) {
-                if constexpr (is_light<std::decay_t<decltype(body)>>) lights.put(lane_number, body);
+        for_each_unique_lane(primitive, active, [&](std::uint32_t number, const Mask<Real>& here) {
+            visit_primitive(scene, number, [&](const auto& body) {
+                if constexpr (is_light<std::decay_t<decltype(body)>>) lights.put(here, body);
             });
-        }
+        });
         lights.visit(visit);
     }
 }

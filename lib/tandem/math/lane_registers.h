@@ -146,6 +146,13 @@ TANDEM_HD_INLINE U16 multiply_even(U16 a, U16 b) {
     return reinterpret_cast<U16>(_mm_mul_epu32(reinterpret_cast<__m128i>(a), reinterpret_cast<__m128i>(b)));
 }
 
+#if defined(__SSSE3__)
+/// In each 16 bytes: the bytes of `bytes` at the places `at`, which are below 16.
+TANDEM_HD_INLINE U16 pick_bytes(U16 bytes, U16 at) {
+    return reinterpret_cast<U16>(_mm_shuffle_epi8(reinterpret_cast<__m128i>(bytes), reinterpret_cast<__m128i>(at)));
+}
+#endif
+
 #if defined(__AVX2__) && defined(__FMA__)
 using F32 = Native<float, 32>::type;
 using D32 = Native<double, 32>::type;
@@ -187,9 +194,12 @@ TANDEM_HD_INLINE D32 blend(D32 mask, D32 a, D32 b) {
 TANDEM_HD_INLINE U32 multiply_even(U32 a, U32 b) {
     return reinterpret_cast<U32>(_mm256_mul_epu32(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(b)));
 }
+TANDEM_HD_INLINE U32 pick_bytes(U32 bytes, U32 at) {
+    return reinterpret_cast<U32>(_mm256_shuffle_epi8(reinterpret_cast<__m256i>(bytes), reinterpret_cast<__m256i>(at)));
+}
 #endif
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512BW__)
 // The maskz forms, because GCC 12 warns of uninitialised variables in the plain ones.
 using F64 = Native<float, 64>::type;
 using D64 = Native<double, 64>::type;
@@ -228,7 +238,28 @@ TANDEM_HD_INLINE U64 multiply_even(U64 a, U64 b) {
     return reinterpret_cast<U64>(
         _mm512_maskz_mul_epu32(0xFF, reinterpret_cast<__m512i>(a), reinterpret_cast<__m512i>(b)));
 }
+TANDEM_HD_INLINE U64 pick_bytes(U64 bytes, U64 at) {
+    return reinterpret_cast<U64>(_mm512_shuffle_epi8(reinterpret_cast<__m512i>(bytes), reinterpret_cast<__m512i>(at)));
+}
 #endif
+
+/// reversed_bits() of each element, by tables of the bits of half a byte.
+template <class V>
+TANDEM_HD_INLINE V reversed_bits_of(V x) {
+#if defined(__SSSE3__)
+    const auto in_each_16_bytes = [](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        V words;
+        for (unsigned i = 0; i < sizeof(V) / 4; ++i) words[i] = i % 4 == 0 ? a : i % 4 == 1 ? b : i % 4 == 2 ? c : d;
+        return words;
+    };
+    const V reversed = in_each_16_bytes(0x0C040800U, 0x0E060A02U, 0x0D050901U, 0x0F070B03U);
+    const V other_end = in_each_16_bytes(0x00010203U, 0x04050607U, 0x08090A0BU, 0x0C0D0E0FU);
+    const V low = x & 0x0F0F0F0FU, high = (x >> 4) & 0x0F0F0F0FU;
+    return pick_bytes(pick_bytes(reversed << 4, low) | pick_bytes(reversed, high), other_end);
+#else
+    return per_element(x, [](std::uint32_t a) { return reversed_bits(a); });
+#endif
+}
 
 /// Gathers the elements at the given byte offsets from `base`. V has elements of 32 or 64 bits.
 template <class V, class Offsets>

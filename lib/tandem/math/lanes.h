@@ -312,6 +312,12 @@ TANDEM_HD_INLINE void multiply_wide(const Lanes<std::uint32_t, I>& a, const Lane
     low.part[0] = reinterpret_cast<Narrow>((even_product & low_word) | (odd_product << 32));
 }
 
+template <class I>
+TANDEM_HD_INLINE Lanes<std::uint32_t, I> reversed_bits(Lanes<std::uint32_t, I> x) {
+    x.part[0] = lanes_detail::reversed_bits_of(x.part[0]);
+    return x;
+}
+
 template <class T, class I>
 TANDEM_HD_INLINE T lane(const Lanes<T, I>& value, int i) {
     return value[i];

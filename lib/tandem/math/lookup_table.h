@@ -1,4 +1,5 @@
-/// Tables in memory that each lane of a packet reads at a place of its own. Tested by tests/math/lanes_test.cpp.
+/// Tables in memory that each lane of a packet reads, or searches, at a place of its own. Tested by
+/// tests/math/lookup_table_test.cpp and lanes_test.cpp.
 #pragma once
 
 #include "tandem/math/real.h"
@@ -19,6 +20,20 @@ struct InLanesOf<T, std::uint32_t> {
 };
 
 }  // namespace lookup_table_detail
+
+/// The first of `count` consecutive places of which is_before(place) does not hold, or else the last one. Needs: count
+/// > 0; is_before() holds of no place that follows one of which it does not. Bisects without a branch on the table, so
+/// that all lanes and threads take the same steps.
+template <class Word, class IsBefore>
+TANDEM_HD_INLINE Word bisect(std::uint32_t count, IsBefore is_before) {
+    Word first(0U);
+    for (std::uint32_t rest = count; rest > 1;) {
+        const std::uint32_t half = rest / 2;
+        first = select(is_before(first + Word(half - 1)), first + Word(half), first);
+        rest -= half;
+    }
+    return first;
+}
 
 /// Rows of entries, one row after the other. `step`: the number of T's from an entry to the next; its first one is
 /// read. T is float, double or std::uint32_t.

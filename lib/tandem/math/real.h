@@ -185,6 +185,19 @@ TANDEM_HD_INLINE void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint3
     low = static_cast<std::uint32_t>(product);
 }
 
+/// The bits in reverse order.
+TANDEM_HD_INLINE std::uint32_t reversed_bits(std::uint32_t x) {
+#if TANDEM_ON_DEVICE
+    return __brev(x);
+#else
+    x = ((x >> 1) & 0x55555555U) | ((x & 0x55555555U) << 1);
+    x = ((x >> 2) & 0x33333333U) | ((x & 0x33333333U) << 2);
+    x = ((x >> 4) & 0x0F0F0F0FU) | ((x & 0x0F0F0F0FU) << 4);
+    x = ((x >> 8) & 0x00FF00FFU) | ((x & 0x00FF00FFU) << 8);
+    return (x >> 16) | (x << 16);
+#endif
+}
+
 /// Reads or replaces the value of one lane. A scalar has one lane.
 template <class T>
 TANDEM_HD_INLINE T lane(const T& value, int) {

@@ -78,7 +78,7 @@ TEST(Sobol, HasTheDirectionNumbersOfThePrimitivePolynomials) {
         const std::uint32_t number = i < 50'000 ? i : static_cast<std::uint32_t>(random.bits());
         std::uint32_t radical_inverse = 0;  // the first dimension
         for (unsigned bit = 0; bit < 32; ++bit) radical_inverse |= (number >> bit & 1U) << (31 - bit);
-        ASSERT_EQ(reversed(number), radical_inverse) << number;
+        ASSERT_EQ(reversed_bits(number), radical_inverse) << number;
         ASSERT_EQ(sobol_detail::pascal(radical_inverse), second(number)) << number;
     }
 }

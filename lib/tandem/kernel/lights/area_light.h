@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tandem/math/real.h"
+#include "tandem/math/lookup_table.h"
 
 namespace tandem {
 
@@ -19,16 +19,7 @@ static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_h
 
 /// The light that a uniform number chooses: its index in `lights`, which must not be empty.
 TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
-    std::uint32_t first = 0, last = count - 1;
-    while (first < last) {
-        const std::uint32_t middle = (first + last) / 2;
-        if (number <= lights[middle].range_last) {
-            last = middle;
-        } else {
-            first = middle + 1;
-        }
-    }
-    return first;
+    return bisect<std::uint32_t>(count, [&](std::uint32_t light) { return lights[light].range_last < number; });
 }
 
 /// The probability of a primitive; 0 if it is no area light. `lights` are in the order of their primitives.

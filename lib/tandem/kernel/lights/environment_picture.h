@@ -66,16 +66,10 @@ struct CellPoint {
 };
 
 /// The first of the consecutive ranges of integers in `row` of a table of their ends that contains `number`; the last
-/// one if none does. Bisects without a branch on the numbers, so that all lanes and threads take the same steps.
+/// one if none does.
 template <class Word>
 TANDEM_HD Word find_range(const LookupTable<std::uint32_t>& ends, const Word& row, const Word& number) {
-    Word first(0U);
-    for (std::uint32_t rest = ends.width; rest > 1;) {
-        const std::uint32_t half = rest / 2;
-        first = select(number < ends.at(row, first + Word(half - 1)), first, first + Word(half));
-        rest -= half;
-    }
-    return first;
+    return bisect<Word>(ends.width, [&](const Word& range) { return !(number < ends.at(row, range)); });
 }
 /// The length of a range.
 template <class Word>

@@ -51,12 +51,12 @@ TANDEM_HD_INLINE PhiloxBlock<Word> sobol_block(JobSampler sampler, const Word& p
     const auto seed = [&](std::uint32_t number) __attribute__((always_inline)) {
         return hashed(first + Word(number * hash_step));
     };
-    const Word number = reversed(sample);
+    const Word number = reversed_bits(sample);
     const auto pair = [&](std::uint32_t from) __attribute__((always_inline)) {
         SobolSeeds<Word> seeds = {seed(from), seed(from + 1), seed(from + 2), Word(0U)};
         if (!among_pixels) return sobol_pair(number, seeds);
         seeds.of_tile = seed(from + 3);
-        return sobol_pair_among_pixels(number, reversed(pixel), seeds);
+        return sobol_pair_among_pixels(number, reversed_bits(pixel), seeds);
     };
     const SobolPair<Word> a = pair(0);
     if (has_one_pair(dimension)) return {{a.u, a.v, Word(0U), Word(0U)}};

@@ -31,20 +31,6 @@ struct SobolSeeds {
     Word of_tile;  ///< of the order of pixels; for sobol_pair_among_pixels() alone
 };
 
-/// The bits in reverse order.
-template <class Word>
-TANDEM_HD_INLINE Word reversed(Word x) {
-#if TANDEM_ON_DEVICE
-    return __brev(x);
-#else
-    x = ((x >> 1) & Word(0x55555555U)) | ((x & Word(0x55555555U)) << 1);
-    x = ((x >> 2) & Word(0x33333333U)) | ((x & Word(0x33333333U)) << 2);
-    x = ((x >> 4) & Word(0x0F0F0F0FU)) | ((x & Word(0x0F0F0F0FU)) << 4);
-    x = ((x >> 8) & Word(0x00FF00FFU)) | ((x & Word(0x00FF00FFU)) << 8);
-    return (x >> 16) | (x << 16);
-#endif
-}
-
 namespace sobol_detail {
 
 /// A random permutation of words, by `seed`, in which a bit depends on itself and on less significant bits alone.
@@ -60,7 +46,7 @@ TANDEM_HD_INLINE Word nested_permutation(Word x, const Word& seed) {
 /// Owen's scrambling of a fraction: each bit depends on itself and on more significant bits.
 template <class Word>
 TANDEM_HD_INLINE Word scrambled(const Word& x, const Word& seed) {
-    return reversed(nested_permutation(reversed(x), seed));
+    return reversed_bits(nested_permutation(reversed_bits(x), seed));
 }
 
 // Pascal's triangle modulo 2 as a matrix, with bit 0 the most significant one: bit j of the result is the sum of bits i
@@ -86,8 +72,8 @@ TANDEM_HD_INLINE Word pascal_transposed(Word x) {
 
 }  // namespace sobol_detail
 
-/// The point of a pair for a sample. `sample`: its number, with reversed() bits. Of a number with reversed bits, the
-/// nested permutation shuffles aligned blocks of 2^k numbers, for every k.
+/// The point of a pair for a sample. `sample`: its number, with reversed_bits() bits. Of a number with reversed bits,
+/// the nested permutation shuffles aligned blocks of 2^k numbers, for every k.
 template <class Word>
 TANDEM_HD_INLINE SobolPair<Word> sobol_pair(const Word& sample, const SobolSeeds<Word>& seeds) {
     using namespace sobol_detail;
@@ -95,11 +81,11 @@ TANDEM_HD_INLINE SobolPair<Word> sobol_pair(const Word& sample, const SobolSeeds
     return {scrambled(number, seeds.u), scrambled(pascal(number), seeds.v)};
 }
 
-/// The same for pixels that share their seeds, and differ in `place`: their number on a Morton curve, with reversed()
-/// bits. The samples of a pixel are a (0, 2)-sequence as before. In addition the first 2^k samples of each of 2^j
-/// pixels of an aligned block together have one in each of 2^(k + j) intervals of u, and of v; and the first samples of
-/// these pixels are a (0, 2)-net. So neighbours err in different directions.
-/// Method: u = s + P^T P m and v = P s + P^T m, modulo 2, for the bits of the sample's number s and of the pixel's m,
+/// The same for pixels that share their seeds, and differ in `place`: their number on a Morton curve, with
+/// reversed_bits() bits. The samples of a pixel are a (0, 2)-sequence as before. In addition the first 2^k samples of
+/// each of 2^j pixels of an aligned block together have one in each of 2^(k + j) intervals of u, and of v; and the
+/// first samples of these pixels are a (0, 2)-net. So neighbours err in different directions. Method: u = s + P^T P m
+/// and v = P s + P^T m, modulo 2, for the bits of the sample's number s and of the pixel's m,
 ///         and Pascal's matrix P. The first k columns of 1 and of P span the first k bits; the blocks of j rows from
 ///         the k-th on of the first j columns of P^T P and of P^T have the determinant 1.
 template <class Word>
