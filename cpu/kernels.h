@@ -55,14 +55,14 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU"). `direct` leaves out sheen, which glTF files need only beside
-/// microfacets, whose paths bounce. `exact` is for measuring that cost (CMake variable TANDEM_EXACT_VARIANT).
+/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable
+/// TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},
 #if defined(TANDEM_EXACT_EFFECTS)
     {"exact", EffectMask() | TANDEM_EXACT_EFFECTS},
 #endif
-    {"direct", all_effects - bouncing_effects - effects_of_local_lobes},
+    {"direct", direct_effects},
     {"full", all_effects},
 };
 inline constexpr std::size_t variant_count = std::size(variants);

@@ -1,6 +1,7 @@
 // The facts of a render kernel that is linked when Tandem is built: for all scenes that have no effects but those of
 // TANDEM_COMPILED_VARIANT and no primitives but TANDEM_COMPILED_KINDS (CMakeLists.txt). It renders if no kernel is
 // linked at load.
+#include "cuda/compiled_variants.h"
 #include "cuda/kernels.h"
 #include "cuda/linked_facts.h"
 

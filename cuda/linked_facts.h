@@ -4,17 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <iterator>
 
-#include "tandem/effects/variants.h"
+#include "tandem/effects/effects.h"
 
 namespace tandem::cuda {
-
-/// The sets of effects for which the render kernel is linked when Tandem is built.
-inline constexpr KernelVariant variants[] = {
-    {"plain", {}},
-    {"full", all_effects},
-};
 
 /// A plain struct of 32-bit integers.
 struct LinkedFacts {

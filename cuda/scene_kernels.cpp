@@ -24,6 +24,7 @@ namespace tandem::cuda {
     std::span<const std::byte> linked_long_loop_##name();  \
     std::span<const std::byte> linked_long_bvh_##name();   \
     TANDEM_COMPILED(plain, name)                           \
+    TANDEM_COMPILED(direct, name)                          \
     TANDEM_COMPILED(full, name)
 #define TANDEM_COMPILED(variant, name)                                    \
     std::span<const std::byte> compiled_##variant##_few_##name();         \
@@ -36,18 +37,15 @@ namespace tandem::cuda {
 #undef TANDEM_TIER
 
 // Scenes of instances: the tier fast has the kernels of strict.
-#define TANDEM_INSTANCED_TIER(name)                               \
-    std::span<const std::byte> linked_short_instanced_##name();   \
-    std::span<const std::byte> linked_long_instanced_##name();    \
-    std::span<const std::byte> compiled_plain_instanced_##name(); \
+#define TANDEM_INSTANCED_TIER(name)                                \
+    std::span<const std::byte> linked_short_instanced_##name();    \
+    std::span<const std::byte> linked_long_instanced_##name();     \
+    std::span<const std::byte> compiled_plain_instanced_##name();  \
+    std::span<const std::byte> compiled_direct_instanced_##name(); \
     std::span<const std::byte> compiled_full_instanced_##name();
 TANDEM_INSTANCED_TIER(strict)
 TANDEM_INSTANCED_TIER(precise)
 #undef TANDEM_INSTANCED_TIER
-
-static_assert(std::size(variants) == 2 && !variants[0].effects.has_any(synchronising_effects) &&
-                  variants[1].effects == all_effects,
-              "compiled_code() and CMakeLists.txt know two");
 
 static_assert(any_sampler == LinkedFacts::any && any_filter == LinkedFacts::any);
 
@@ -168,22 +166,27 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
 
 // The functions of a tier that is not compiled do not exist; only discarded statements name them.
 std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool faces, std::size_t variant) {
+    static_assert(variant_count == 3, "TANDEM_OF_VARIANT and CMakeLists.txt know three");
+#define TANDEM_OF_VARIANT(plain, direct, full) (variant == 0 ? (plain) : variant == 1 ? (direct) : (full))
     if (structure == Structure::instanced) {
         if (tier == Tier::precise) {
             if constexpr (TANDEM_IS_COMPILED_precise) {
-                return variant == 0 ? compiled_plain_instanced_precise() : compiled_full_instanced_precise();
+                return TANDEM_OF_VARIANT(compiled_plain_instanced_precise(), compiled_direct_instanced_precise(),
+                                         compiled_full_instanced_precise());
             }
         } else if constexpr (TANDEM_IS_COMPILED_strict) {
-            return variant == 0 ? compiled_plain_instanced_strict() : compiled_full_instanced_strict();
+            return TANDEM_OF_VARIANT(compiled_plain_instanced_strict(), compiled_direct_instanced_strict(),
+                                     compiled_full_instanced_strict());
         }
         return {};
     }
     switch (tier) {
-#define TANDEM_TIER(name, promise)                                                            \
-    case Tier::name:                                                                          \
-        if constexpr (TANDEM_IS_COMPILED_##name) {                                            \
-            return variant == 0 ? TANDEM_COMPILED(plain, name) : TANDEM_COMPILED(full, name); \
-        }                                                                                     \
+#define TANDEM_TIER(name, promise)                                                                \
+    case Tier::name:                                                                              \
+        if constexpr (TANDEM_IS_COMPILED_##name) {                                                \
+            return TANDEM_OF_VARIANT(TANDEM_COMPILED(plain, name), TANDEM_COMPILED(direct, name), \
+                                     TANDEM_COMPILED(full, name));                                \
+        }                                                                                         \
         break;
 #define TANDEM_COMPILED(variant, name)                                                            \
     (structure == Structure::few ? compiled_##variant##_few_##name()                              \
@@ -194,6 +197,7 @@ std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool fa
 #include "tandem/render/tiers.def"
 #undef TANDEM_COMPILED
 #undef TANDEM_TIER
+#undef TANDEM_OF_VARIANT
     }
     return {};
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "cuda/compiled_variants.h"
 #include "cuda/jit_link.h"
 #include "cuda/kernel_cache.h"
 #include "cuda/kernels.h"

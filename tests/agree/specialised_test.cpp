@@ -68,6 +68,8 @@ TEST_P(SpecialisedKernel, DrawsWhatTheOthersDraw) {
     const std::string expected = film_hash(on_cpu.film);
     EXPECT_EQ(film_hash(exact.film), expected);
     if (test::is_compiled(GetParam().tier)) {
+        const RenderResult compiled = render("cuda", Specialise::never);
+        EXPECT_EQ(film_hash(compiled.film), expected) << compiled.stats.variant;
         EXPECT_EQ(film_hash(render("cuda", Specialise::never, all_effects).film), expected) << "with all effects";
     }
     const EffectMask more = Effect::reflection | Effect::shadows;

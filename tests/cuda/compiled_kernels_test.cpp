@@ -15,6 +15,7 @@
 #include "support/compiled_tiers.h"
 #include "tandem/base/error.h"
 #include "tandem/base/whole_file.h"
+#include "tandem/effects/names.h"
 
 namespace tandem::cuda {
 namespace {
@@ -77,7 +78,8 @@ TEST_F(CompiledKernels, HaveTheMachineCodeOfALinkAtLoad) {
 #define TANDEM_TIER(name, promise) expect_equal(Tier::name, 0);
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
-    expect_equal(Tier::strict, 1);
+    // `direct` has the same instructions, but from PTX the assembler spills 8 bytes more than nvJitLink does
+    expect_equal(Tier::strict, variant_count - 1);
 }
 
 /// The kinds of primitives of the kernel for any scene, with triangles and quads (`faces`) or without.
@@ -123,11 +125,15 @@ TEST_F(CompiledKernels, OfTiersThatAreNotCompiledCanBeLinked) {
 TEST_F(CompiledKernels, HaveTheRegistersOfALinkAtLoad) {
     const auto expect_within = [](Tier tier) {
         if (!is_compiled(tier)) return;
-        const LinkedFacts facts = facts_of_any_scene(variants[1].effects, ConstantMemoryTracer::kinds);
-        const int most = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE).registers;
-        const int used = compiled(fmt::format("cuda/compiled_full_few_{}", to_string(tier)), "tandem_render").registers;
-        EXPECT_LE(used, most) << to_string(tier);
-        EXPECT_GT(used, most - 8) << to_string(tier);  // they are allocated in eights
+        for (const KernelVariant& variant : variants) {
+            if (!variant.effects.has_any(synchronising_effects)) continue;  // launch bounds limit the others
+            const LinkedFacts facts = facts_of_any_scene(variant.effects, ConstantMemoryTracer::kinds);
+            const int most = render_input(tier, Structure::few, facts, TANDEM_COMPILED_ARCHITECTURE).registers;
+            const std::string name = fmt::format("cuda/compiled_{}_few_{}", variant.name, to_string(tier));
+            const int used = compiled(name, "tandem_render").registers;
+            EXPECT_LE(used, most) << name;
+            EXPECT_GT(used, most - 8) << name;  // they are allocated in eights
+        }
     };
 #define TANDEM_TIER(name, promise) expect_within(Tier::name);
 #include "tandem/render/tiers.def"
@@ -168,7 +174,7 @@ TEST(CompiledCode, IsThereForEverySceneOfATierThatIsCompiled) {
     };
     for (const Structure structure : {Structure::few, Structure::loop, Structure::bvh, Structure::instanced}) {
         for (const bool faces : {false, true}) {
-            for (std::size_t variant = 0; variant < std::size(variants); ++variant) {
+            for (std::size_t variant = 0; variant < variant_count; ++variant) {
 #define TANDEM_TIER(name, promise) expect_code(Tier::name, structure, faces, variant);
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
@@ -204,11 +210,26 @@ TEST(CompiledCode, OfATierThatIsNotCompiledIsAnErrorThatSaysWhatToDo) {
     }
 }
 
+TEST(CompiledCode, IsTheLeastThatHasTheEffects) {
+    const auto chosen = [](EffectMask effects) { return variants[variant_for(variants, effects)].name; };
+    EXPECT_STREQ(chosen({}), "plain");
+    EXPECT_STREQ(chosen(Effect::shadows | Effect::lens | Effect::area_lights | Effect::emission), "direct");
+    EXPECT_STREQ(chosen(Effect::textures | Effect::normal_maps | Effect::environment_light), "direct");
+    for (const Effect one : {Effect::reflection, Effect::refraction, Effect::indirect, Effect::microfacets}) {
+        EXPECT_STREQ(chosen(Effect::shadows | one), "full") << to_string(one);
+    }
+}
+
 TEST(CompiledCode, IsShorterWithFewerFacts) {
     if (!is_compiled(Tier::strict)) GTEST_SKIP() << "only " TANDEM_COMPILED_TIERS;
-    const auto full = [](bool faces) { return compiled_code(Tier::strict, Structure::bvh, faces, 1).size(); };
-    EXPECT_LT(full(false), full(true));
-    EXPECT_LT(compiled_code(Tier::strict, Structure::bvh, true, 0).size(), full(true));
+    const auto bytes = [](std::size_t variant, bool faces) {
+        return compiled_code(Tier::strict, Structure::loop, faces, variant).size();
+    };
+    for (std::size_t variant = 0; variant < variant_count; ++variant) {
+        EXPECT_LT(bytes(variant, false), bytes(variant, true)) << variants[variant].name;
+    }
+    EXPECT_LT(bytes(0, true), bytes(1, true));
+    EXPECT_LT(bytes(1, true), bytes(2, true));
 }
 
 }  // namespace

@@ -93,6 +93,10 @@ inline constexpr EffectMask effects_of_lobes =
 inline constexpr EffectMask effects_of_local_lobes =
     lobes_detail::effects_of(&lobes_detail::LobeUse::needs, [](lobes_detail::LobeKind kind) { return kind.local; });
 
+/// The effects of kernels for paths that end at their first vertex. Sheen is not among them: glTF files need it only
+/// beside microfacets, whose paths go on.
+inline constexpr EffectMask direct_effects = all_effects - bouncing_effects - effects_of_local_lobes;
+
 /// The effects for which paths follow lobes that count as reflections (PathLimits).
 inline constexpr EffectMask effects_of_reflections = lobes_detail::effects_of(
     &lobes_detail::LobeUse::follows, [](lobes_detail::LobeKind kind) { return !has(kind.flags, LobeFlags::diffuse); });
