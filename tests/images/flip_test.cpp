@@ -161,6 +161,17 @@ TEST(Flip, OfLightIsThatOfTheLevelsThatShowIt) {
     }
 }
 
+TEST(Flip, IsTheSameWithAReferenceThatIsUsedAgain) {
+    const auto tried = pairs();
+    const FlipReference reference(tried.front().a, {.display = as_levels});
+    for (const Pair& pair : tried) {
+        const FlipDifference again = reference.difference(pair.b);
+        const FlipDifference alone = flip(tried.front().a, pair.b, {.display = as_levels});
+        EXPECT_EQ(again.errors, alone.errors) << pair.name;
+        EXPECT_EQ(again.mean, alone.mean) << pair.name;
+    }
+}
+
 TEST(Flip, SaysWhatItCannotCompare) {
     FloatImage small = grey(0);
     small.height -= 1;

@@ -38,7 +38,7 @@ constexpr std::size_t most_pending_bytes = std::size_t{256} << 20;  // of images
 struct Measured {
     const SweepBackend* backend = nullptr;
     const Scene* scene = nullptr;
-    const Reference* reference = nullptr;
+    const FlipReference* reference = nullptr;
     std::optional<ErrorMeter> meter;
     std::array<std::vector<double>, metrics.size()> errors;  ///< one per seed; squared for Metric::rmse
     std::size_t broken = 0;                                  ///< pixels of all seeds
@@ -47,8 +47,6 @@ struct Measured {
 /// Computes the errors of images on all cores, while nothing is timed.
 class PendingImages {
   public:
-    explicit PendingImages(const Display& display) : display_(display) {}
-
     void add(Measured& measured, FloatImage image) {
         bytes_ += image.pixels.size() * sizeof(Vec3f);
         images_.emplace_back(&measured, std::move(image));
@@ -72,15 +70,14 @@ class PendingImages {
     }
 
   private:
-    void measure(Measured& measured, const FloatImage& image) const {
+    static void measure(Measured& measured, const FloatImage& image) {
         const ImageErrors errors = measured.meter->add(image);
-        const double seen = flip(measured.reference->mean(), image, {.display = display_}).mean;
+        const double seen = measured.reference->difference(image).mean;
         const std::array values = {errors.squared, errors.relative, errors.trimmed, seen};
         for (std::size_t i = 0; i < metrics.size(); ++i) measured.errors[i].push_back(values[i]);
         measured.broken += errors.broken;
     }
 
-    const Display& display_;
     std::vector<std::pair<Measured*, FloatImage>> images_;
     std::size_t bytes_ = 0;
 };
@@ -280,6 +277,7 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
     for (const Setting& setting : sweep.plan.settings) {
         if (setting.level) twins.emplace(*setting.level, scene_of(sweep.scene.scene, setting));
     }
+    std::map<const Reference*, FlipReference> as_seen;
     std::vector<Measured> measured;
     for (const SweepBackend& backend : backends) {
         for (const Setting& setting : sweep.plan.settings) {
@@ -288,13 +286,15 @@ SceneSweep sweep_scene(const SweepOptions& options, const std::string& name,
             for (const int samples : options.samples) {
                 sweep.points.push_back(make_point(options, name, backend, setting, samples));
                 const Reference& own = sweep.reference_of(setting);
-                measured.push_back({&backend, &scene, &own, std::nullopt, {}, 0});
+                const FlipOptions flip_options{.display = sweep.display()};
+                const FlipReference& seen = as_seen.try_emplace(&own, own.mean(), flip_options).first->second;
+                measured.push_back({&backend, &scene, &seen, std::nullopt, {}, 0});
                 measured.back().meter.emplace(own);
             }
         }
     }
     render_first_frames(options, sweep, measured);
-    PendingImages pending(sweep.display());
+    PendingImages pending;
     for (int round = 0; round < options.seeds; ++round) {
         for (const std::size_t i : interleaved_order(sweep.points.size(), static_cast<std::size_t>(round))) {
             SweepPoint& point = sweep.points[i];

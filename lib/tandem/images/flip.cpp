@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "tandem/base/error.h"
 #include "tandem/images/separable_filter.h"
@@ -17,7 +16,21 @@
 
 namespace tandem {
 
+/// An image as perceived: blurred colours, and features of the unblurred image.
+struct flip_detail::Seen {
+    /// At each pixel.
+    struct Features {
+        Plane edges;
+        Plane points;
+    };
+
+    std::vector<Vec3d> lab;
+    Features features;
+};
+
 namespace {
+
+using flip_detail::Seen;
 
 constexpr double pi = std::numbers::pi;
 
@@ -97,13 +110,7 @@ Plane blurred(const Plane& plane, std::span<const Spread> spreads, double pixels
     return result;
 }
 
-/// The edge and point features at a pixel.
-struct Features {
-    Plane edges;
-    Plane points;
-};
-
-Features features_of(const Plane& luminance, double pixels_per_degree) {
+Seen::Features features_of(const Plane& luminance, double pixels_per_degree) {
     constexpr double width_of_edge = 0.082;  // degrees
     const double deviation = 0.5 * width_of_edge * pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3 * deviation));
@@ -122,12 +129,6 @@ Features features_of(const Plane& luminance, double pixels_per_degree) {
         axis_weights(radius, [&](double x) { return (x * x / (deviation * deviation) - 1) * gauss(x); });
     return {magnitude(normalised(first)), magnitude(normalised(second))};
 }
-
-/// An image as perceived: blurred colours, and features of the unblurred image.
-struct Seen {
-    std::vector<Vec3d> lab;
-    Features features;
-};
 
 Seen seen(const FloatImage& image, const FlipOptions& options) {
     const double pixels_per_degree = options.pixels_per_degree;
@@ -161,7 +162,7 @@ Seen seen(const FloatImage& image, const FlipOptions& options) {
     return result;
 }
 
-FlipDifference difference(const Seen& p, const Seen& q, const FloatImage& size) {
+FlipDifference difference_of(const Seen& p, const Seen& q, const FloatImage& size) {
     const double largest = largest_colour_error();
     FlipDifference result{size.width, size.height, {}, 0};
     result.errors.reserve(p.lab.size());
@@ -177,30 +178,30 @@ FlipDifference difference(const Seen& p, const Seen& q, const FloatImage& size) 
     return result;
 }
 
-void check(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
-    if (a.width != b.width || a.height != b.height || a.pixels.empty()) {
-        throw InputError(fmt::format("FLIP needs two images of equal size, but they have {} x {} and {} x {} pixels",
-                                     a.width, a.height, b.width, b.height));
-    }
+}  // namespace
+
+FlipReference::FlipReference(const FloatImage& image, const FlipOptions& options)
+    : options_(options), width_(image.width), height_(image.height) {
+    if (image.pixels.empty()) throw InputError("FLIP needs two images, but one has no pixels");
     if (!(options.pixels_per_degree > 0 && options.pixels_per_degree <= 1000)) {
         throw InputError(fmt::format("FLIP needs more than 0 and at most 1000 pixels per degree, not {}",
                                      options.pixels_per_degree));
     }
+    const DefaultFpEnvironment guard;
+    seen_ = std::make_shared<const Seen>(seen(image, options));
 }
 
-}  // namespace
+FlipDifference FlipReference::difference(const FloatImage& image) const {
+    if (image.width != width_ || image.height != height_) {
+        throw InputError(fmt::format("FLIP needs two images of equal size, but they have {} x {} and {} x {} pixels",
+                                     width_, height_, image.width, image.height));
+    }
+    const DefaultFpEnvironment guard;
+    return difference_of(*seen_, seen(image, options_), image);
+}
 
 FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options) {
-    return std::move(flip(a, std::span(&b, 1), options).front());
-}
-
-std::vector<FlipDifference> flip(const FloatImage& a, std::span<const FloatImage> b, const FlipOptions& options) {
-    const DefaultFpEnvironment guard;
-    for (const FloatImage& image : b) check(a, image, options);
-    const Seen p = seen(a, options);
-    std::vector<FlipDifference> results;
-    for (const FloatImage& image : b) results.push_back(difference(p, seen(image, options), a));
-    return results;
+    return FlipReference(a, options).difference(b);
 }
 
 FloatImage flip_map(const FlipDifference& difference) {

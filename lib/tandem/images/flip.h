@@ -7,13 +7,17 @@
 /// and differences of edges and points are amplified. Computed in double, with the same bits on every machine.
 #pragma once
 
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "tandem/images/display.h"
 #include "tandem/images/image.h"
 
 namespace tandem {
+
+namespace flip_detail {
+struct Seen;
+}
 
 struct FlipOptions {
     double pixels_per_degree =
@@ -28,14 +32,25 @@ struct FlipDifference {
     double mean = 0;
 };
 
+/// A linear image that others are compared with. The comparisons share the half of the work that is about this image.
+/// May be used by several threads at once.
+class FlipReference {
+  public:
+    /// Throws as flip().
+    explicit FlipReference(const FloatImage& image, const FlipOptions& options = {});
+    /// flip() of both.
+    [[nodiscard]] FlipDifference difference(const FloatImage& image) const;
+
+  private:
+    FlipOptions options_;
+    int width_, height_;
+    std::shared_ptr<const flip_detail::Seen> seen_;
+};
+
 /// Compares linear images as a screen shows them in PNG and PPM files with this display, interpreting every file as
 /// sRGB. Values are clamped, but not rounded to levels. A NaN is black. Symmetric. Throws InputError if the sizes
 /// differ or are zero, or if the number of pixels per degree is not above 0 and at most 1000.
 [[nodiscard]] FlipDifference flip(const FloatImage& a, const FloatImage& b, const FlipOptions& options = {});
-
-/// The same for several images `b`, which takes less time than one by one.
-[[nodiscard]] std::vector<FlipDifference> flip(const FloatImage& a, std::span<const FloatImage> b,
-                                               const FlipOptions& options = {});
 
 /// The errors as colours, from black (0) over violet and orange to pale yellow (1). The values are already meant for
 /// the screen: write them with TransferFunction::linear.

@@ -214,7 +214,9 @@ std::vector<TileErrors> flip_errors(const TiledFilm& all, const std::vector<Film
     const std::vector<Vec3d> first = some_noise(pixels, 1), second = some_noise(pixels, 2);
     const std::array films = {image_of(pixels, truth, &first, 1), image_of(pixels, truth, &second, 1),
                               image_of(pixels, truth, &first, std::sqrt(0.5))};
-    const std::vector<FlipDifference> flips = flip(image_of(pixels, truth, nullptr, 0), films, {.display = display});
+    const FlipReference reference(image_of(pixels, truth, nullptr, 0), {.display = display});
+    std::vector<FlipDifference> flips;
+    for (const FloatImage& film : films) flips.push_back(reference.difference(film));
 
     const std::vector<double> variances = block_variances(flips[0], flips[1]);
     const TileGrid blocks{grid.width, grid.height, block_edge};
