@@ -50,15 +50,13 @@ class TriangleQuery {
   public:
     using F = Float<Real>;
 
-    /// `farthest`: the end of a search for any hit. Faces that may be cut out or culled, and hits of rays that passed a
-    /// masked one, are decided at once, and so is everything in the tier fast.
+    /// `farthest`: the end of a search for any hit. Hits of rays that passed a masked one are decided at once, and so
+    /// is everything in the tier fast.
     template <Search search>
     TANDEM_HD_INLINE void start(const CpuSceneView& view, const Proposal<Real>& proposal,
                                 const QuerySource<Real>& source, const Double<Real>& farthest) {
         if constexpr (!is_fast<Real>) {
-            const bool may_not_count = (view.scene.cutout_kinds & PrimitiveKinds::triangle) != 0 ||
-                                       any(source.last_masked.t > Double<Real>(0.0));
-            if (view.scene.triangle_count == 0 || may_not_count) return;
+            if (view.scene.triangle_count == 0 || any(source.last_masked.t > Double<Real>(0.0))) return;
             count_ = view.scene.triangle_count;
             ray_ = make_query_ray(proposal, view.frame, NoSource{});
             if constexpr (search == Search::any) enough_ = proposal.start(farthest);
@@ -79,9 +77,15 @@ class TriangleQuery {
         const UInt<Real> number(id);
         Mask<Real> here = active && source.primitive != number && source.light != number;
         const Triangle& triangle = view.scene.triangles[id - view.first_id[embree_triangles]];
-        const auto interval = hit_interval(ray_, edges_of(triangle.v0, triangle.v1, triangle.v2));
+        const bool culls = source.culls && triangle.attributes.sides == FaceSides::culled;
+        const auto interval = hit_interval(ray_, edges_of(triangle.v0, triangle.v1, triangle.v2), culls);
         here = here && interval.lo <= limit;
         if (!any(here)) return here;
+        Mask<Real> unsure(false);
+        if (culls) {  // a certain hit is one of the front; of others, decide() does not ask for the side
+            unsure = here && !(interval.hi < F(interval_detail::infinity));
+            here = here && !unsure;
+        }
         if constexpr (search == Search::nearest) {
             limit = select(here, lesser(limit, interval.hi), limit);
         } else {
@@ -89,7 +93,7 @@ class TriangleQuery {
             limit = select(is_certain, F(found), limit);
             here = here && !is_certain;
         }
-        return candidates_.add(interval.lo, id, limit, here);
+        return unsure || candidates_.add(interval.lo, id, limit, here);
     }
 
     /// After the traversal, which ended at `limit`.

@@ -184,14 +184,56 @@ TEST(HitInterval, OfTrianglesInLanesAreThoseOfSingleRays) {
                 packet.drift.set(i, one[i].drift);
             }
             const TriangleEdges edges = edges_of(triangle.v0, triangle.v1, triangle.v2);
-            const auto intervals = hit_interval(packet, edges);
-            for (int i = 0; i < Packet::size; ++i) {
-                const HitInterval want = hit_interval(one[i], edges);
-                ASSERT_EQ(intervals.lo[i], want.lo) << "triangle_case(" << kind << ", " << number << "), lane " << i;
-                ASSERT_EQ(intervals.hi[i], want.hi) << "triangle_case(" << kind << ", " << number << "), lane " << i;
+            for (const bool culls : {false, true}) {
+                const auto intervals = hit_interval(packet, edges, culls);
+                for (int i = 0; i < Packet::size; ++i) {
+                    const HitInterval want = hit_interval(one[i], edges, culls);
+                    ASSERT_EQ(intervals.lo[i], want.lo)
+                        << "triangle_case(" << kind << ", " << number << "), lane " << i;
+                    ASSERT_EQ(intervals.hi[i], want.hi)
+                        << "triangle_case(" << kind << ", " << number << "), lane " << i;
+                }
             }
         }
     }
+}
+
+// The interval is that of both sides, or the ray certainly comes from behind.
+TEST(HitInterval, OfCulledTrianglesAreThoseOfTheirFronts) {
+    int from_behind = 0, known = 0;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < cases_per_kind; ++number) {
+            auto [triangle, ray] = test::triangle_case(kind, number);
+            if (!is_traceable(ray)) continue;
+            const StructureFrame frame = make_structure_frame(bounds(triangle));
+            const Proposal<float> proposal = propose(ray, frame, true);
+            if (!proposal.active) continue;
+            const QueryRay query = make_query_ray(proposal, frame, NoSource{});
+            const TriangleEdges edges = edges_of(triangle.v0, triangle.v1, triangle.v2);
+            const HitInterval both = hit_interval(query, edges), front = hit_interval(query, edges, true);
+            triangle.attributes.sides = FaceSides::culled;
+            double t = 0;
+            constexpr double farthest = __builtin_huge_val();
+            const bool hits = first_hit_from(NoSource{}, triangle, 7U, ray, true, farthest, t);
+            const bool counts = first_hit_from(PathSource<float>{}, triangle, 7U, ray, true, farthest, t, true);
+            const auto where =
+                "triangle_case(" + std::to_string(kind) + ", " + std::to_string(number) + "), " + test::reproducer(ray);
+            if (front.lo != both.lo || front.hi != both.hi) {
+                ASSERT_EQ(front.lo, certain_miss.lo) << where;
+            }
+            if (front.lo == certain_miss.lo) {
+                ASSERT_FALSE(counts) << where;
+            }
+            if (std::isfinite(front.hi)) {
+                ASSERT_TRUE(counts) << where;
+            }
+            if (!hits || counts) continue;
+            ++from_behind;
+            if (front.lo == certain_miss.lo) ++known;
+        }
+    }
+    EXPECT_GT(known, 0.9 * from_behind);
+    EXPECT_GT(from_behind, 1000);
 }
 
 struct QuadCase {
