@@ -10,17 +10,17 @@ namespace tandem::cuda {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteView = std::span<const std::byte>;
 
 /// A range of the bytes; empty if it would exceed them.
-Bytes part(Bytes bytes, std::uint64_t offset, std::uint64_t size) {
+ByteView part(ByteView bytes, std::uint64_t offset, std::uint64_t size) {
     if (offset > bytes.size() || size > bytes.size() - offset) return {};
     return bytes.subspan(offset, size);
 }
 
 template <class T>
-std::optional<T> read(Bytes bytes, std::uint64_t offset) {
-    const Bytes from = part(bytes, offset, sizeof(T));
+std::optional<T> read(ByteView bytes, std::uint64_t offset) {
+    const ByteView from = part(bytes, offset, sizeof(T));
     if (from.size() != sizeof(T)) return std::nullopt;
     T value;
     std::memcpy(&value, from.data(), sizeof(T));
@@ -28,7 +28,7 @@ std::optional<T> read(Bytes bytes, std::uint64_t offset) {
 }
 
 /// The text at an offset in a string table.
-std::string_view text_at(Bytes table, std::uint64_t offset) {
+std::string_view text_at(ByteView table, std::uint64_t offset) {
     if (offset >= table.size()) return {};
     const auto* first = reinterpret_cast<const char*>(table.data()) + offset;
     return {first, ::strnlen(first, table.size() - offset)};
@@ -36,7 +36,7 @@ std::string_view text_at(Bytes table, std::uint64_t offset) {
 
 class Elf {
   public:
-    explicit Elf(Bytes file) : file_(file) {
+    explicit Elf(ByteView file) : file_(file) {
         const auto header = read<Elf64_Ehdr>(file, 0);
         if (!header || std::memcmp(header->e_ident, ELFMAG, SELFMAG) != 0 || header->e_ident[EI_CLASS] != ELFCLASS64 ||
             header->e_machine != EM_CUDA) {
@@ -57,14 +57,14 @@ class Elf {
         return std::nullopt;
     }
     [[nodiscard]] std::string_view name(const Elf64_Shdr& section) const { return text_at(names_, section.sh_name); }
-    [[nodiscard]] Bytes contents(const Elf64_Shdr& section) const {
-        return section.sh_type == SHT_NOBITS ? Bytes{} : part(file_, section.sh_offset, section.sh_size);
+    [[nodiscard]] ByteView contents(const Elf64_Shdr& section) const {
+        return section.sh_type == SHT_NOBITS ? ByteView{} : part(file_, section.sh_offset, section.sh_size);
     }
 
   private:
-    Bytes file_;
+    ByteView file_;
     Elf64_Ehdr header_{};
-    Bytes names_;
+    ByteView names_;
 };
 
 /// The name of a symbol, by its index.
@@ -90,7 +90,7 @@ constexpr std::uint8_t kind_least_stack = 0x12;
 std::optional<int> attribute_of(const Elf& elf, std::uint8_t kind, std::string_view function) {
     const auto section = elf.section(".nv.info");
     if (!section) return std::nullopt;
-    const Bytes info = elf.contents(*section);
+    const ByteView info = elf.contents(*section);
     std::uint64_t at = 0;
     while (const auto attribute = read<Attribute>(info, at)) {
         at += sizeof(Attribute);
@@ -124,7 +124,7 @@ std::string_view variable_of_zeros(std::span<const std::byte> cubin) {
     const Elf elf(cubin);
     const auto symbols = elf.section(".symtab");
     if (!symbols) return {};
-    const Bytes entries = elf.contents(*symbols);
+    const ByteView entries = elf.contents(*symbols);
     std::uint64_t index = 0;
     while (const auto symbol = read<Elf64_Sym>(entries, index * sizeof(Elf64_Sym))) {
         const auto section = elf.section(symbol->st_shndx);
