@@ -12,6 +12,7 @@ option(TANDEM_QUICK_BASELINE "Compile kernels that tests hardly run quickly: the
 outside TANDEM_COMPILED_TIERS" OFF)
 set(TANDEM_COMPILED_TIERS "fast;strict;precise" CACHE STRING
     "Tiers whose CUDA render kernels are also compiled ahead of time; those of others need nvJitLink where they run")
+option(TANDEM_HARD_CASES "Put the corpus of hard cases into tandem-bench; the tests have it in any case" ON)
 option(TANDEM_UNITY "Compile files that read the same large headers together: faster full builds" OFF)
 set(TANDEM_SANITIZE "" CACHE STRING "Sanitizers for the host code, e.g. address,undefined")
 

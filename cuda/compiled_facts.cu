@@ -2,8 +2,9 @@
 // TANDEM_COMPILED_VARIANT and no primitives but TANDEM_COMPILED_KINDS (CMakeLists.txt). It renders if no kernel is
 // linked at load.
 #include "cuda/compiled_variants.h"
-#include "cuda/kernels.h"
 #include "cuda/linked_facts.h"
+#include "tandem/kernel/traversal/constant_memory_tracer.h"
+#include "tandem/kernel/traversal/instanced_tracer.h"
 
 namespace tandem::cuda {
 
