@@ -17,7 +17,8 @@ struct AreaLight {
 };
 static_assert(sizeof(AreaLight) == 24, "no byte of a light is undefined; scene_hash() reads all");
 
-/// The light that a uniform number chooses: its index in `lights`, which must not be empty.
+/// The light that a uniform number chooses: its index in `lights`, which must not be empty. Tested by the hard cases of
+/// tests/hard/corpus/group_m_lights.cpp.
 TANDEM_HD std::uint32_t choose_area_light(const AreaLight* lights, std::uint32_t count, std::uint64_t number) {
     return bisect<std::uint32_t>(count, [&](std::uint32_t light) { return lights[light].range_last < number; });
 }
