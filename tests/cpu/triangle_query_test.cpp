@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "support/random.h"
@@ -156,6 +157,26 @@ void compare_all() {
 
 TEST(TriangleQuery, FindsTheHitsOfSingleRaysInStrict) { compare_all<Lanes<float, Sse4>>(); }
 TEST(TriangleQuery, FindsTheHitsOfSingleRaysInPrecise) { compare_all<Lanes<double, Sse4>>(); }
+
+// A light may be infinitely far away.
+TEST(TriangleQuery, EndsASearchForAnyHitAtACertainOne) {
+    using Packet = Lanes<float, Sse4>;
+    Case scene;
+    scene.triangles = {{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}}};
+    scene.use();
+    const Ray<Packet> ray = {Vec3<Packet>(Vec3f{0, 0, 3}), Vec3<Packet>(Vec3f{0, 0, -1})};
+    const Proposal<Packet> proposal = propose(ray, scene.view.frame, Mask<Packet>(true));
+    for (const double end : {2.0, 4.0, HUGE_VAL}) {
+        TriangleQuery<Packet> query;
+        const Double<Packet> farthest(end);
+        query.start<Search::any>(scene.view, proposal, QuerySource<Packet>(), farthest);
+        Float<Packet> limit = proposal.limit(farthest);
+        const Mask<Packet> left =
+            query.test<Search::any>(scene.view, 0, QuerySource<Packet>(), Mask<Packet>(true), -1.0F, limit);
+        EXPECT_FALSE(any(left));
+        for (int i = 0; i < Packet::size; ++i) EXPECT_EQ(limit[i]<0, end> 3) << "until " << end;
+    }
+}
 
 TEST(TriangleQuery, DefersOnlyTrianglesWhoseHitsAllCount) {
     using Packet = Lanes<float, Sse4>;

@@ -40,11 +40,12 @@ struct Proposal {
         return narrow(select(s < most, s, most));
     }
 
-    /// A float in [0, query parameter of t]: traversal may start there for a ray whose last masked hit is at t.
+    /// A float in [0, query parameter of t], the largest for an infinite t: traversal may start there for a ray whose
+    /// last masked hit is at t, and may stop at a certain hit before it if any hit before t will do.
     TANDEM_HD_INLINE Float<Real> start(const Double<Real>& t) const {
         using D = Double<Real>;
         const D zero(0.0);
-        const D before = t - t * constant<D>(is_fast<Real> ? 0x1p-20 : 0x1p-50);
+        const D before = t * constant<D>(is_fast<Real> ? 1.0 - 0x1p-20 : 1.0 - 0x1p-50);
         const D s = (before - t_offset) * length_within(-1.0) * constant<D>(1.0 - 0x1p-18);
         const auto most = constant<D>(3e38);
         return narrow(select(s > zero, select(s < most, s, most), zero));
