@@ -112,13 +112,14 @@ template <Search search, class Real>
 TANDEM_HD_INLINE Mask<Real> is_excluded(const SceneView& scene, const QueryContext<Real>& query, const Float<Real>& s,
                                         const UInt<Real>& id, const Mask<Real>& valid) {
     const QuerySource<Real>& source = *query.source;
+    const Double<Real> t = query.proposal.parameter(s);
+    Mask<Real> excluded = source.primitive == id;
     if constexpr (search == Search::nearest) {
-        const Double<Real> t = query.proposal.parameter(s);
-        const Mask<Real> excluded = source.primitive == id || !is_beyond<Real>(source.last_masked, t, id);
-        return source.culls ? excluded || is_culled<Real>(scene, query.filter.ray, t, id, valid) : excluded;
+        excluded = excluded || !is_beyond<Real>(source.last_masked, t, id);
     } else {
-        return source.primitive == id || source.light == id || !(query.proposal.parameter(s) < query.best.t);
+        excluded = excluded || source.light == id || !(t < query.best.t);
     }
+    return source.culls ? excluded || is_culled<Real>(scene, query.filter.ray, t, id, valid) : excluded;
 }
 
 /// The query of one ray.

@@ -124,7 +124,7 @@ class PathSorter {
             moved |= to ^ i;
         }
         if (moved == 0) return;
-        const bool has_masks = scene.cutout_kinds != 0;
+        const bool has_masks = scene.masked_kinds != 0;
         const bool shares_light =
             scene.area_light_count > 0 && (scene.indirect_light != 0 || has_material_parts(scene));
         for (int i = 0; i < packet_count; ++i) {

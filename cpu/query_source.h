@@ -6,7 +6,7 @@
 
 namespace tandem {
 
-/// A PathSource that is also a ShadowSource: hits on `light` do not count. For paths, culled faces are not hit from
+/// A PathSource that is also a ShadowSource: hits on `light` do not count. `culls`: culled faces are not hit from
 /// behind.
 template <class Real>
 struct QuerySource : PathSource<Real> {
@@ -19,6 +19,8 @@ struct QuerySource : PathSource<Real> {
     TANDEM_HD_INLINE explicit QuerySource(const PathSource<Real>& source) : PathSource<Real>(source), culls(true) {}
     TANDEM_HD_INLINE explicit QuerySource(const ShadowSource<Real>& source)
         : PathSource<Real>{source}, light(source.light) {}
+    TANDEM_HD_INLINE explicit QuerySource(const CulledShadowSource<Real>& source)
+        : PathSource<Real>{source}, light(source.light), culls(true) {}
 };
 
 /// hit_interval_from() of the same source.
@@ -27,7 +29,7 @@ TANDEM_HD_INLINE HitInterval query_interval(const QuerySource<Real>& source, std
                                             const Primitive& primitive) {
     if (source.light == id) return certain_miss;
     const PathSource<Real>& path = source;
-    return hit_interval_from<Real, Primitive>(path, id, ray, primitive);
+    return hit_interval_from<Real, Primitive>(path, id, ray, primitive, source.culls);
 }
 
 namespace query_detail {

@@ -18,6 +18,7 @@ struct LinkedFacts {
     std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the area lights
     std::uint32_t area_lights = 0;                              ///< KnownAreaLights
     std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds with alpha masks or culled faces
+    std::uint32_t masked_kinds = 0;                             ///< PrimitiveKinds with alpha masks
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
@@ -34,6 +35,7 @@ constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds
             .kinds = kinds,
             .light_kinds = kinds,
             .cutout_kinds = kinds,
+            .masked_kinds = kinds,
             .several_slots = 1,
             .lights = any,
             .reflection = any,

@@ -13,6 +13,7 @@ extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
 #define TANDEM_LINKED_ANY_SCENE (tandem_facts.reflection == tandem::cuda::LinkedFacts::any)
 #define TANDEM_LINKED_SEVERAL_SLOTS tandem_facts.several_slots
 #define TANDEM_LINKED_CUTOUT_KINDS tandem_facts.cutout_kinds
+#define TANDEM_LINKED_MASKED_KINDS tandem_facts.masked_kinds
 #define TANDEM_LINKED_SAMPLER tandem_facts.sampler
 #define TANDEM_LINKED_FILTER tandem_facts.filter
 

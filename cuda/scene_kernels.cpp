@@ -140,7 +140,10 @@ LinkedFacts linked_facts(const SceneView& scene, EffectMask effects, const PathL
                                                          : KnownAreaLights::unknown;
         facts.area_lights = static_cast<std::uint32_t>(known);
     }
-    if (effects.has(Effect::cutouts)) facts.cutout_kinds = scene.cutout_kinds;
+    if (effects.has(Effect::cutouts)) {
+        facts.cutout_kinds = scene.cutout_kinds;
+        facts.masked_kinds = scene.masked_kinds;
+    }
     if (effects.has_any(Effect::textures | Effect::normal_maps | Effect::cutouts | Effect::anisotropy)) {
         facts.several_slots = scene.several_slots;
     }

@@ -51,10 +51,9 @@ struct CalledTracer {
                                                          const Double<Real>& farthest = no_hit<Real>().t) const {
         return closest_hit<Isa, Real>(view, ray, QuerySource<Real>(source), active, farthest);
     }
-    template <class Real>
+    template <class Real, class From>
     [[nodiscard]] TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                       const ShadowSource<Real>& source,
-                                                       const Mask<Real>& active) const {
+                                                       const From& source, const Mask<Real>& active) const {
         return any_hit<Isa, Real>(view, ray, t_max, QuerySource<Real>(source), active);
     }
     template <class Real>

@@ -239,6 +239,7 @@ TEST(PrepareTextures, ListsTheKindsWithAlphaMasks) {
     EXPECT_EQ(prepare(scene).cutout_kinds, PrimitiveKinds::sphere) << "the box has another material";
     scene.nodes[1].geometry[1].material = 0;
     EXPECT_EQ(prepare(scene).cutout_kinds, PrimitiveKinds::sphere | PrimitiveKinds::box);
+    EXPECT_EQ(prepare(scene).masked_kinds, PrimitiveKinds::sphere | PrimitiveKinds::box);
 }
 
 TEST(PrepareTextures, TurnsThePictureWithItsSphere) {

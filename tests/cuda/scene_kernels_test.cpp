@@ -35,6 +35,7 @@ class SceneKernel : public ::testing::Test {
         SceneView scene{};
         scene.sphere_count = 3;
         scene.light_count = lights;
+        scene.cutout_kinds = scene.masked_kinds = spheres;  // if the effect is simulated
         return linked_facts(scene, effects, PathLimits{}, sampler, filter);
     }
     /// Linked once for all tests of the program.
@@ -190,8 +191,9 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.light_count = 3;
     const PathLimits limits = {5, 6, 7};
     const LinkedFacts plain = linked_facts(scene, Effect::shadows, limits);
-    EXPECT_EQ(plain, (LinkedFacts{EffectMask(Effect::shadows).bits(), spheres | PrimitiveKinds::quad, 0, 0, 0, 0, 3, 0,
-                                  0, 0}));
+    EXPECT_EQ(plain, (LinkedFacts{.effects = EffectMask(Effect::shadows).bits(),
+                                  .kinds = spheres | PrimitiveKinds::quad,
+                                  .lights = 3}));
     const LinkedFacts mirrors = linked_facts(scene, Effect::reflection, limits);
     EXPECT_EQ(mirrors.reflection, 5U);
     EXPECT_EQ(mirrors.refraction, 0U);
@@ -213,7 +215,11 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).several_slots, 0U);
     scene.cutout_kinds = PrimitiveKinds::triangle;
     EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).cutout_kinds, PrimitiveKinds::triangle);
+    EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).masked_kinds, 0U) << "culled faces";
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).cutout_kinds, 0U);
+    scene.masked_kinds = PrimitiveKinds::triangle;
+    EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).masked_kinds, PrimitiveKinds::triangle);
+    EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).masked_kinds, 0U);
     EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::sobol_blue).sampler,
               static_cast<std::uint32_t>(Sampler::sobol_blue));
     EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::random, PixelFilter::tent).filter,

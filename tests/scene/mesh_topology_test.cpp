@@ -77,6 +77,7 @@ TEST(Culling, CostsNothingWhereNoBackCanBeSeen) {
         const bool effect = prepared.effects.has(Effect::cutouts);
         EXPECT_EQ(effect, prepared.triangles[0].attributes.sides == FaceSides::culled);
         EXPECT_EQ(effect, prepared.cutout_kinds != 0);
+        EXPECT_EQ(prepared.masked_kinds, 0U);
         return effect;
     };
     EXPECT_FALSE(culls({0, 0, 3}, PerspectiveCamera{}, true));

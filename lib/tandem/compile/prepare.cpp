@@ -90,7 +90,8 @@ class Preparer {
 #define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
     for (const TextureUse& use : result_.names) result_.several_slots = result_.several_slots || use.slot != 0;
 #include "tandem/kernel/bsdf/lobes.def"
-        result_.cutout_kinds |= kinds_cut_out_by_alpha(view(result_));
+        result_.masked_kinds = kinds_cut_out_by_alpha(view(result_));
+        result_.cutout_kinds |= result_.masked_kinds;
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
     if (scene_.authored) prepare_environment(*scene_.authored, result_);
 #include "tandem/kernel/lights/lights.def"

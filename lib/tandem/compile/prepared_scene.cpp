@@ -26,6 +26,7 @@ SceneView view(const PreparedScene& scene) {
         .area_lights_cast_shadows = scene.area_light_shadows ? 1U : 0U,
         .several_slots = scene.several_slots ? 1U : 0U,
         .cutout_kinds = scene.cutout_kinds,
+        .masked_kinds = scene.masked_kinds,
         .indirect_light = scene.indirect_light ? 1U : 0U,
         .roulette_from = scene.roulette_from,
         .media_overlap = scene.media_overlap ? 1U : 0U,

@@ -48,6 +48,7 @@ struct PreparedScene {
     bool area_light_shadows = true;
     bool several_slots = false;           ///< a material reads vertex colours, or another slot than 0
     std::uint32_t cutout_kinds = 0;       ///< PrimitiveKinds with alpha masks or culled faces
+    std::uint32_t masked_kinds = 0;       ///< PrimitiveKinds with alpha masks
     std::uint32_t culled_node = never;    ///< the first node with culled faces
     std::uint32_t roulette_from = never;  ///< vertex of a path
     CameraMedia camera_media{};

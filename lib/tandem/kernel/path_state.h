@@ -66,7 +66,7 @@ struct PathState<Effects, Real, true> {
 
     /// Of a new ray, in the lanes of `active`.
     TANDEM_HD void forget_masked_hits(const SceneView& scene, const Mask<Real>& active) {
-        if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) return;
+        if (!Effects::has(Effect::cutouts) || has_no_masks(scene)) return;
         source.last_masked.t = select(active, Double<Real>(0.0), source.last_masked.t);
         source.last_masked.primitive = select(active, UInt<Real>(no_primitive), source.last_masked.primitive);
     }

@@ -115,8 +115,8 @@ struct CulledTracer {
             return all.closest(ray, source, active, farthest);
         }
     }
-    template <class Real>
-    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+    template <class Real, class From>
+    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
                                    bool active) const {
         return all.occluded(ray, t_max, source, active);
     }

@@ -44,7 +44,8 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
     return tracer.closest(ray, source, active, farthest);
 }
 
-/// Tracer::occluded() through alpha masks. Adds one to `rays` for each segment of the ray.
+/// Tracer::occluded() through alpha masks and the backs of culled faces. Adds one to `rays` for each segment of the
+/// ray.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene,
                                           const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
@@ -52,6 +53,9 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
     count_rays<Effects, Real>(shadow.active, rays);
     if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) {
         return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
+    }
+    if (has_no_masks(scene)) {
+        return tracer.occluded(shadow.ray, shadow.t_max, CulledShadowSource<Real>{shadow.source}, shadow.active);
     }
     PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;

@@ -162,7 +162,7 @@ TANDEM_HD Mask<Real> hits_far_side(const SceneView& scene, std::uint32_t id, con
                                    const Double<Real>& t, const Mask<Real>& here) {
     Mask<Real> far = leaves_inward<Real>(source, id);
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
-        if (has_no_cutouts(scene) || !any(source.last_masked.t > Double<Real>(0.0))) return far;
+        if (has_no_masks(scene) || !any(source.last_masked.t > Double<Real>(0.0))) return far;
         visit_primitive<kinds>(scene, id, [&](const auto& primitive) {
             // rays pass the near side only of solids with an alpha mask
             if (!may_be_cut_out(kind_of<std::decay_t<decltype(primitive)>>)) return;

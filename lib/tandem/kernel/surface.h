@@ -241,7 +241,7 @@ TANDEM_HD void find_part(const SceneView& scene, const Ray<Real>& ray, const Fro
             const Rgba<Real> at = lit ? values.texture(textures.emission) : texels.base_colour;
             if (lit || optics.unlit != 0) texels.emission = {at.r, at.g, at.b};
         }
-        if (Effects::has(Effect::cutouts)) {
+        if (Effects::has(Effect::cutouts) && !has_no_masks(scene)) {
             surface.opaque = surface.opaque && (!here || is_opaque<Real>(textures, texels.base_colour.a));
         }
         if (Effects::has(Effect::microfacets) && Effects::has(Effect::textures) &&

@@ -165,6 +165,29 @@ TEST(PathSource, PassesTheBackOfACulledFace) {
     }
 }
 
+TEST(CulledShadowSource, PassesTheBackOfACulledFace) {
+    const Vec3f a{0, 0, 1}, b{1, 0, 1}, c{0, 1, 1};
+    const Ray<float> ray = {{0.125F, 0.5F, 4}, {0, 0, -1}};
+    for (const FaceSides sides : {FaceSides::single_sided, FaceSides::double_sided, FaceSides::culled}) {
+        Triangle front = {a, b, c};
+        Triangle back = {a, c, b};
+        front.attributes.sides = back.attributes.sides = sides;
+        CulledShadowSource<float> source;
+        const auto is_hit = [&](const auto& face) {
+            double t = 0;
+            return first_hit_from(source, face, 3, ray, true, HUGE_VAL, t);
+        };
+        EXPECT_TRUE(is_hit(front));
+        EXPECT_EQ(is_hit(back), sides != FaceSides::culled);
+        EXPECT_TRUE(is_hit(Sphere{{0, 0, 0}, 1}));
+        source.light = 3;
+        EXPECT_FALSE(is_hit(front)) << "the light itself";
+        source = {};
+        source.primitive = 3;
+        EXPECT_FALSE(is_hit(front)) << "the ray leaves it";
+    }
+}
+
 // Folded along the diagonal, the upper half seen from behind, the lower one from the front.
 TEST(PathSource, PassesTheCulledHalfOfAFoldedQuad) {
     Quad folded = {{-1, -1, 1}, {-1, 1, 2}, {1, 1, 1}, {-1, 1, 0.5F}};

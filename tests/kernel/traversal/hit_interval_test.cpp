@@ -198,60 +198,136 @@ TEST(HitInterval, OfTrianglesInLanesAreThoseOfSingleRays) {
     }
 }
 
-// The interval is that of both sides, or the ray certainly comes from behind.
+struct TriangleRay {
+    Triangle face;
+    Ray<float> ray;
+};
+TriangleRay triangle_ray(int kind, std::uint64_t number) {
+    const auto c = test::triangle_case(kind, number);
+    return {c.triangle, c.ray};
+}
+
+struct QuadRay {
+    Quad face;
+    Ray<float> ray;
+};
+/// A parallelogram, or a quad that may be folded.
+QuadRay quad_ray(int kind, std::uint64_t number) {
+    const auto c = test::triangle_case(kind, number);
+    Random random(number + 5);
+    const Vec3f &v0 = c.triangle.v0, &v1 = c.triangle.v1, &v2 = c.triangle.v2;
+    const Vec3f v3 = random.coin() ? v0 + (v2 - v1) : v1 + (v2 - v1) * random.uniform(-1.0F, 2.0F);
+    return {{v0, v1, v2, v3}, c.ray};
+}
+
+TEST(HitInterval, OfQuads) {
+    const Counts counts = check_cases(static_cast<int>(std::size(test::triangle_kinds)), cases_per_kind / 2, "quad_ray",
+                                      [](int kind, std::uint64_t number) { return quad_ray(kind, number); });
+    expect_sharp(counts, 0.5, 0.5);
+}
+
+// The interval of a triangle is that of both sides, or the ray certainly comes from behind.
 TEST(HitInterval, OfCulledTrianglesAreThoseOfTheirFronts) {
-    int from_behind = 0, known = 0;
     for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
         for (std::uint64_t number = 0; number < cases_per_kind; ++number) {
-            auto [triangle, ray] = test::triangle_case(kind, number);
+            const auto [triangle, ray] = triangle_ray(kind, number);
             if (!is_traceable(ray)) continue;
             const StructureFrame frame = make_structure_frame(bounds(triangle));
             const Proposal<float> proposal = propose(ray, frame, true);
             if (!proposal.active) continue;
             const QueryRay query = make_query_ray(proposal, frame, NoSource{});
-            const TriangleEdges edges = edges_of(triangle.v0, triangle.v1, triangle.v2);
-            const HitInterval both = hit_interval(query, edges), front = hit_interval(query, edges, true);
-            triangle.attributes.sides = FaceSides::culled;
-            double t = 0;
-            constexpr double farthest = __builtin_huge_val();
-            const bool hits = first_hit_from(NoSource{}, triangle, 7U, ray, true, farthest, t);
-            const bool counts = first_hit_from(PathSource<float>{}, triangle, 7U, ray, true, farthest, t, true);
-            const auto where =
-                "triangle_case(" + std::to_string(kind) + ", " + std::to_string(number) + "), " + test::reproducer(ray);
-            if (front.lo != both.lo || front.hi != both.hi) {
-                ASSERT_EQ(front.lo, certain_miss.lo) << where;
-            }
-            if (front.lo == certain_miss.lo) {
-                ASSERT_FALSE(counts) << where;
-            }
-            if (std::isfinite(front.hi)) {
-                ASSERT_TRUE(counts) << where;
-            }
-            if (!hits || counts) continue;
-            ++from_behind;
-            if (front.lo == certain_miss.lo) ++known;
+            const HitInterval both = hit_interval(query, triangle, false), front = hit_interval(query, triangle, true);
+            if (front.lo == both.lo && front.hi == both.hi) continue;
+            ASSERT_EQ(front.lo, certain_miss.lo)
+                << "triangle_ray(" << kind << ", " << number << "), " << test::reproducer(ray);
         }
     }
-    EXPECT_GT(known, 0.9 * from_behind);
-    EXPECT_GT(from_behind, 1000);
 }
 
-struct QuadCase {
-    Quad quad;
-    Ray<float> ray;
-};
+/// Checks the intervals of culled faces for the rays of paths, some of which have passed a masked hit, against the
+/// decisions: the backs do not count.
+template <class MakeRay>
+void expect_fronts_count(const char* name, std::uint64_t rays, const MakeRay& make_ray) {
+    int from_behind = 0, misses = 0, fronts = 0, certain = 0;
+    for (int kind = 0; kind < static_cast<int>(std::size(test::triangle_kinds)); ++kind) {
+        for (std::uint64_t number = 0; number < rays; ++number) {
+            auto [face, ray] = make_ray(kind, number);
+            if (!is_traceable(ray)) continue;
+            const StructureFrame frame = make_structure_frame(bounds(face));
+            const Proposal<float> proposal = propose(ray, frame, true);
+            if (!proposal.active) continue;
+            const auto where = std::string(name) + "(" + std::to_string(kind) + ", " + std::to_string(number) + "), " +
+                               test::reproducer(ray);
+            using Face = std::decay_t<decltype(face)>;
+            constexpr double farthest = __builtin_huge_val();
+            double t = 0;
+            const bool hits = first_hit_from(NoSource{}, face, 7U, ray, true, farthest, t);
+            PathSource<float> path;
+            Random random(number);
+            const bool has_passed = hits && random.below(4) == 0;
+            if (has_passed) path.last_masked = {t, random.coin() ? 7U : 5U};
+            if (has_passed && random.coin()) path.last_masked = {0.5 * t, 5U};
+            face.attributes.sides = FaceSides::culled;
+            const bool counts = first_hit_from(path, face, 7U, ray, true, farthest, t, true);
+            const HitInterval interval =
+                hit_interval_from<float, Face>(path, 7U, make_query_ray(proposal, frame, path), face);
+            if (interval.lo == certain_miss.lo) {
+                ASSERT_FALSE(counts) << where;
+            }
+            if (std::isfinite(interval.hi)) {
+                ASSERT_TRUE(counts) << where;
+            }
+            if (counts) {
+                const Big length = sqrt(test::dot(test::big(ray.direction), test::big(ray.direction)));
+                const Big s = (Big(t) - Big(proposal.t_offset)) * length;
+                if (interval.lo > 0) {
+                    ASSERT_LE(Big(interval.lo), s) << where;
+                }
+                if (std::isfinite(interval.hi)) {
+                    ASSERT_LE(s, Big(interval.hi)) << where;
+                }
+            }
+            if (kind != 0 || has_passed || !hits) continue;  // intervals of the hard kinds need not be sharp
+            ++(counts ? fronts : from_behind);
+            if (!counts && interval.lo == certain_miss.lo) ++misses;
+            if (counts && std::isfinite(interval.hi)) ++certain;
+        }
+    }
+    EXPECT_GT(misses, 0.9 * from_behind);
+    EXPECT_GT(certain, 0.4 * fronts);  // a third of the rays aims at edges, more at the diagonals of quads
+    EXPECT_GT(from_behind, 500);
+    EXPECT_GT(fronts, 500);
+}
 
-TEST(HitInterval, OfQuads) {
-    const auto make = [](int kind, std::uint64_t number) {
-        const auto c = test::triangle_case(kind, number);
-        Random random(number + 5);
-        const Vec3f &v0 = c.triangle.v0, &v1 = c.triangle.v1, &v2 = c.triangle.v2;
-        const Vec3f v3 = random.coin() ? v0 + (v2 - v1) : v1 + (v2 - v1) * random.uniform(-1.0F, 2.0F);
-        return QuadCase{{v0, v1, v2, v3}, c.ray};
-    };
-    const Counts counts = check_cases(static_cast<int>(std::size(test::triangle_kinds)), cases_per_kind / 2,
-                                      "quad from triangle_case", make);
-    expect_sharp(counts, 0.5, 0.5);
+TEST(HitInterval, OfPathsLeavesOutTheBacksOfCulledTriangles) {
+    expect_fronts_count("triangle_ray", cases_per_kind, triangle_ray);
+}
+
+TEST(HitInterval, OfPathsLeavesOutTheBacksOfCulledQuads) {
+    expect_fronts_count("quad_ray", cases_per_kind / 2, quad_ray);
+}
+
+// A ShadowSource is for scenes without culled faces; a CulledShadowSource passes their backs.
+TEST(HitInterval, OfShadowRaysDependsOnTheirSource) {
+    for (std::uint64_t number = 0; number < 1000; ++number) {
+        auto [quad, ray] = quad_ray(0, number);
+        const StructureFrame frame = make_structure_frame(bounds(quad));
+        const Proposal<float> proposal = propose(ray, frame, true);
+        if (!proposal.active) continue;
+        const QueryRay query = make_query_ray(proposal, frame, NoSource{});
+        quad.attributes.sides = FaceSides::culled;
+        const HitInterval both = hit_interval(query, quad, false);
+        const HitInterval shadow = hit_interval_from<float, Quad>(ShadowSource<float>{}, 7U, query, quad);
+        ASSERT_EQ(shadow.lo, both.lo) << "quad_ray(0, " << number << ")";
+        ASSERT_EQ(shadow.hi, both.hi) << "quad_ray(0, " << number << ")";
+        const HitInterval front = hit_interval(query, quad, true);
+        CulledShadowSource<float> source;
+        const HitInterval culled = hit_interval_from<float, Quad>(source, 7U, query, quad);
+        ASSERT_EQ(culled.lo, front.lo) << "quad_ray(0, " << number << ")";
+        ASSERT_EQ(culled.hi, front.hi) << "quad_ray(0, " << number << ")";
+        source.light = 7;
+        ASSERT_EQ((hit_interval_from<float, Quad>(source, 7U, query, quad).lo), certain_miss.lo);
+    }
 }
 
 template <class Body>
@@ -343,12 +419,14 @@ TEST(HitInterval, OfNanIsUnsure) {
         for (const bool own : {false, true}) {
             expect_unsure(hit_interval(ray, Sphere{{0, 0, 0}, 1}, own));
             expect_unsure(hit_interval(ray, Box{{-1, -1, -1}, {1, 1, 1}}, own));
-            expect_unsure(hit_interval(ray, Triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, own));
+            expect_unsure(hit_interval(ray, Triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, false));
             Placement body{{}, {0, 0, 0}, {{0, 0, 0}, 2}, {1, 1, 1}};
             expect_unsure(hit_interval(ray, Ellipsoid{body}, own));
             expect_unsure(hit_interval(ray, Parallelepiped{body}, own));
         }
     }
+    // the side of a culled face depends on the direction alone
+    expect_unsure(hit_interval({{0, 0, -3}, {0, 0, nan}, 1e-30F}, Triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, true));
 }
 
 }  // namespace

@@ -44,6 +44,15 @@ struct ShadowSource : Source<Real> {
     UInt<Real> light = UInt<Real>(no_primitive);
 };
 
+/// A shadow ray in a scene with culled faces: it passes their backs.
+template <class Real>
+struct CulledShadowSource : ShadowSource<Real> {};
+
+/// Whether rays from a source of this type pass the backs of culled faces.
+template <class Real, class From>
+inline constexpr bool passes_backs =
+    std::is_same_v<From, PathSource<Real>> || std::is_same_v<From, CulledShadowSource<Real>>;
+
 namespace source_detail {
 
 /// Makes t positive. The far crossing of an inward ray is in front of it, unless rounding moved the origin out of the
@@ -239,6 +248,20 @@ TANDEM_HD_INLINE Mask<Real> first_hit_from(const ShadowSource<Real>& source, con
                                            const Double<Real>& farthest, Double<Real>& t) {
     const Source<Real>& surface = source;
     return first_hit_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
+}
+
+template <class Real, class Primitive>
+TANDEM_HD_INLINE Mask<Real> first_hit_from(const CulledShadowSource<Real>& source, const Primitive& primitive,
+                                           std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& active,
+                                           const Double<Real>& farthest, Double<Real>& t) {
+    if constexpr (is_face<Primitive>) {
+        const PathSource<Real> path = {source};
+        const Mask<Real> counts = active && source.light != UInt<Real>(id);
+        return first_hit_from(path, primitive, id, ray, counts, farthest, t, true);
+    } else {
+        const ShadowSource<Real>& shadow = source;
+        return first_hit_from(shadow, primitive, id, ray, active, farthest, t);
+    }
 }
 
 }  // namespace tandem

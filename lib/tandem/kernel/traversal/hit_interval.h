@@ -287,17 +287,23 @@ TANDEM_HD_INLINE HitIntervalOf<F> hit_interval(const QueryRayOf<F>& ray, const T
                 select(is_certain && !is_unsure && !misses, s + margin, infinity)};
     }
 }
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Triangle& triangle, bool) {
-    return hit_interval(ray, edges_of(triangle.v0, triangle.v1, triangle.v2));
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Triangle& triangle, bool culls) {
+    return hit_interval(ray, edges_of(triangle.v0, triangle.v1, triangle.v2), culls);
 }
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const EntryTriangle& triangle, bool) {
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const EntryTriangle& triangle, bool culls) {
     const TriangleEdges& edges = triangle;
-    return hit_interval(ray, edges);
+    return hit_interval(ray, edges, culls);
 }
-/// The nearer hit of two.
-TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Quad& quad, bool) {
-    const HitInterval first = hit_interval(ray, edges_of(quad.v0, quad.v1, quad.v2));
-    const HitInterval second = hit_interval(ray, edges_of(quad.v0, quad.v2, quad.v3));
+/// The nearer hit of two. If a folded quad is hit on both halves at the same t, the side of the first half decides
+/// whether that hit counts: so where the first half may be hit from behind, a front hit of the second is not certain.
+TANDEM_HD_INLINE HitInterval hit_interval(const QueryRay& ray, const Quad& quad, bool culls) {
+    using interval_detail::infinity;
+    const TriangleEdges first_half = edges_of(quad.v0, quad.v1, quad.v2);
+    const HitInterval first = hit_interval(ray, first_half, culls);
+    HitInterval second = hit_interval(ray, edges_of(quad.v0, quad.v2, quad.v3), culls);
+    if (culls && second.hi < infinity && !(first.hi < infinity) && hit_interval(ray, first_half).lo < infinity) {
+        second.hi = infinity;
+    }
     return {lesser(first.lo, second.lo), lesser(first.hi, second.hi)};
 }
 
@@ -327,18 +333,21 @@ TANDEM_HD_INLINE bool is_culled(const Shape& shape) {
 
 /// The hit that counts for a ray from `source`, as test_primitive() finds it, on primitive `id` of type `Primitive`.
 /// `shape`: the primitive, the SphereLine of a sphere, the entry of a triangle, or a rough ellipsoid or parallelepiped.
+/// `culls`: culled faces let the ray pass from behind.
 template <class Real, class Primitive, class From, class Shape>
 TANDEM_HD_INLINE HitInterval hit_interval_from(const From& source, std::uint32_t id, const QueryRay& ray,
-                                               const Shape& shape) {
+                                               const Shape& shape, bool culls = passes_backs<Real, From>) {
     if (!can_meet<Real, Primitive>(source, id, false)) return certain_miss;
-    if constexpr (std::is_same_v<From, ShadowSource<Real>>) {
+    if constexpr (std::is_base_of_v<ShadowSource<Real>, From>) {
         if (source.light == id) return certain_miss;
     }
-    HitInterval hit = hit_interval(ray, shape, leaves_inward<Real>(source, id));
-    if constexpr (std::is_same_v<From, PathSource<Real>>) {
-        hit = interval_detail::beyond_masked<Primitive>(hit, ray);
-        if (interval_detail::is_culled(shape)) hit.hi = interval_detail::infinity;  // its back does not count
+    HitInterval hit;
+    if constexpr (is_face<Primitive>) {
+        hit = hit_interval(ray, shape, culls && interval_detail::is_culled(shape));
+    } else {
+        hit = hit_interval(ray, shape, leaves_inward<Real>(source, id));
     }
+    if constexpr (std::is_same_v<From, PathSource<Real>>) hit = interval_detail::beyond_masked<Primitive>(hit, ray);
     return hit;
 }
 

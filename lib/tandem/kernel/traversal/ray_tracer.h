@@ -19,8 +19,8 @@ struct RayTracer : Structure {
     }
 
     /// As LoopTracer::occluded().
-    template <class Real>
-    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const ShadowSource<Real>& source,
+    template <class Real, class From>
+    TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max, const From& source,
                                    bool active) const {
         Closest<Real> best = closest_starting_at<Real>(t_max);
         if (active) Structure::template find<Search::any>(ray, source, best);

@@ -36,6 +36,7 @@ struct SceneView {
     std::uint32_t area_lights_cast_shadows;
     std::uint32_t several_slots;   ///< 0: materials read no vertex colours, and only the texture coordinates of slot 0
     std::uint32_t cutout_kinds;    ///< PrimitiveKinds with alpha masks or culled faces
+    std::uint32_t masked_kinds;    ///< PrimitiveKinds with alpha masks
     std::uint32_t indirect_light;  ///< 1: diffuse surfaces receive light from other surfaces
     std::uint32_t roulette_from;   ///< vertex of a path at which Russian roulette starts
     std::uint32_t media_overlap;   ///< 0: dielectric solids neither overlap nor touch other primitives
@@ -146,6 +147,24 @@ TANDEM_HD_INLINE bool may_be_cut_out(std::uint32_t kinds) {
 #endif
 }
 
+/// Whether the scene has neither alpha masks nor culled faces. False in kernels that are compiled for all scenes.
+TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
+#if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
+    return TANDEM_LINKED_CUTOUT_KINDS == 0;
+#else
+    return scene.cutout_kinds == 0;
+#endif
+}
+
+/// Whether the scene has no alpha masks.
+TANDEM_HD_INLINE bool has_no_masks(const SceneView& scene) {
+#if defined(TANDEM_LINKED_MASKED_KINDS) && TANDEM_ON_DEVICE
+    return TANDEM_LINKED_MASKED_KINDS == 0 || (TANDEM_LINKED_ANY_SCENE && scene.masked_kinds == 0);
+#else
+    return scene.masked_kinds == 0;
+#endif
+}
+
 /// Whether an area light can be of one of these kinds.
 TANDEM_HD_INLINE bool may_emit_light(std::uint32_t kinds) {
 #if defined(TANDEM_LINKED_LIGHT_KINDS) && TANDEM_ON_DEVICE
@@ -162,16 +181,6 @@ TANDEM_HD_INLINE KnownAreaLights known_area_lights() {
     return static_cast<KnownAreaLights>(TANDEM_LINKED_AREA_LIGHTS);
 #else
     return KnownAreaLights::unknown;
-#endif
-}
-
-/// Whether the scene has neither alpha masks nor culled faces. False in kernels that are linked for one scene, which
-/// have may_be_cut_out() instead.
-TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
-#if defined(TANDEM_LINKED_ANY_SCENE) && TANDEM_ON_DEVICE
-    return TANDEM_LINKED_ANY_SCENE && scene.cutout_kinds == 0;
-#else
-    return scene.cutout_kinds == 0;
 #endif
 }
 
