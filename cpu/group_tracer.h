@@ -16,7 +16,7 @@ class GroupRay {
     TANDEM_HD_INLINE bool start(const CpuSceneView& view, const RayBatch<Real>& batch, int i) {
         const Ray<Real>& ray = batch.ray[i];
         const Double<Real>& t_max = batch.t_max[i];
-        const QuerySource<Real>& source = batch.source[i];
+        const QuerySource<Real>& source = *batch.source[i];
         query_.best = search == Search::any ? closest_starting_at<Real>(t_max) : no_hit<Real>();
         query_.limit = 3e38F;
         if (!batch.active[i]) return false;

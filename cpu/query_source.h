@@ -23,16 +23,15 @@ struct QuerySource : PathSource<Real> {
         : PathSource<Real>{source}, light(source.light), culls(true) {}
 };
 
-/// hit_interval_from() of the same source.
-template <class Real, class Primitive>
-TANDEM_HD_INLINE HitInterval query_interval(const QuerySource<Real>& source, std::uint32_t id, const QueryRay& ray,
-                                            const Primitive& primitive) {
-    if (source.light == id) return certain_miss;
-    const PathSource<Real>& path = source;
-    return hit_interval_from<Real, Primitive>(path, id, ray, primitive, source.culls);
-}
-
 namespace query_detail {
+
+/// hit_interval_from() of the front of a culled face. A call: with the side in the interval of every face, rays among
+/// faces that are not culled take 1 to 2 % longer.
+template <class Real, class Face>
+TANDEM_HD_CALL HitInterval front_interval(const PathSource<Real>& source, std::uint32_t id, const QueryRay& ray,
+                                          const Face& face) {
+    return hit_interval_from<Real, Face>(source, id, ray, face, true);
+}
 
 /// first_hit_from() for rays that start on the primitive itself, that have passed a masked hit, or that hit a culled
 /// face.
@@ -44,6 +43,22 @@ TANDEM_HD_CALL Mask<Real> first_hit_from_surface(const Primitive& primitive, std
 }
 
 }  // namespace query_detail
+
+/// hit_interval_from() of the same source.
+template <class Real, class Primitive>
+TANDEM_HD_INLINE HitInterval query_interval(const QuerySource<Real>& source, std::uint32_t id, const QueryRay& ray,
+                                            const Primitive& primitive) {
+    if (source.light == id) return certain_miss;
+    const PathSource<Real>& path = source;
+    const HitInterval both = hit_interval_from<Real, Primitive>(path, id, ray, primitive, false);
+    if constexpr (is_face<Primitive>) {
+        const bool culls = source.culls && primitive.attributes.sides == FaceSides::culled;
+        if (culls && both.lo < interval_detail::infinity) [[unlikely]] {
+            return query_detail::front_interval<Real>(path, id, ray, primitive);
+        }
+    }
+    return both;
+}
 
 /// test_primitive() as a call: inlining it into its many callers would take the compiler minutes.
 template <class Real, class Primitive>

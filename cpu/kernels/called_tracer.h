@@ -20,15 +20,13 @@ struct RayBatch {
     static constexpr int most = 16;
     int count = 0;
     Ray<Real> ray[most];
-    QuerySource<Real> source[most];
-    Double<Real> t_max[most];  ///< for any_hits()
+    const QuerySource<Real>* source[most];  ///< not copied: often all rays have the same
+    Double<Real> t_max[most];               ///< for any_hits()
     bool active[most];
 
-    TANDEM_HD_INLINE void add(const Ray<Real>& one, const QuerySource<Real>& from, const Double<Real>& end,
-                              bool is_active) {
+    TANDEM_HD_INLINE void add(const Ray<Real>& one, const QuerySource<Real>& from, bool is_active) {
         ray[count] = one;
-        source[count] = from;
-        t_max[count] = end;
+        source[count] = &from;
         active[count++] = is_active;
     }
 };

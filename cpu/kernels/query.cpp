@@ -34,7 +34,7 @@ void closest_hits(const CpuSceneView& view, const RayBatch<Real>& batch, Closest
         return trace_groups<Search::nearest, IsaOf<Isa, Real>>(view, batch, write);
     }
     for (int i = 0; i < batch.count; ++i) {
-        hits[i] = EmbreeTracer{view}.closest(batch.ray[i], batch.source[i], batch.active[i]);
+        hits[i] = EmbreeTracer{view}.closest(batch.ray[i], *batch.source[i], batch.active[i]);
     }
 }
 
@@ -45,7 +45,7 @@ void any_hits(const CpuSceneView& view, const RayBatch<Real>& batch, bool* occlu
         return trace_groups<Search::any, IsaOf<Isa, Real>>(view, batch, write);
     }
     for (int i = 0; i < batch.count; ++i) {
-        occluded[i] = EmbreeTracer{view}.occluded(batch.ray[i], batch.t_max[i], batch.source[i], batch.active[i]);
+        occluded[i] = EmbreeTracer{view}.occluded(batch.ray[i], batch.t_max[i], *batch.source[i], batch.active[i]);
     }
 }
 

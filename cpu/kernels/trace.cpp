@@ -54,8 +54,11 @@ template <class Reals>
 struct AskNearest {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
-        batch.add(to_real<One>(job.rays[i]), {}, {}, active);
+    struct Sources {
+        QuerySource<One> none;
+    };
+    TANDEM_HD static void add(RayBatch<One>& batch, Sources& sources, const TraceJob& job, std::size_t i, bool active) {
+        batch.add(to_real<One>(job.rays[i]), sources.none, active);
     }
     template <class Tracer>
     TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
@@ -87,9 +90,13 @@ template <class Reals>
 struct AskNearestFromSurface {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
-        const Source<One> source = to_real<One>(job.sources[i]);
-        batch.add(to_real<One>(job.rays[i]), QuerySource<One>(source), {}, active);
+    struct Sources {
+        QuerySource<One> of[RayBatch<One>::most];
+    };
+    TANDEM_HD static void add(RayBatch<One>& batch, Sources& sources, const TraceJob& job, std::size_t i, bool active) {
+        QuerySource<One>& source = sources.of[batch.count];
+        source = QuerySource<One>(to_real<One>(job.sources[i]));
+        batch.add(to_real<One>(job.rays[i]), source, active);
     }
     template <class Tracer>
     TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
@@ -109,12 +116,15 @@ template <class Reals>
 struct AskOccluded {
     using One = typename Reals::One;
     using Packet = typename Reals::Packet;
-    TANDEM_HD static void add(RayBatch<One>& batch, const TraceJob& job, std::size_t i, bool active) {
-        ShadowSource<One> source;
-        if (!job.sources.empty()) static_cast<Source<One>&>(source) = to_real<One>(job.sources[i]);
-        source.light = job.ends[i].light;
-        const auto t_max = constant<Double<One>>(job.ends[i].t);
-        batch.add(to_real<One>(job.rays[i]), QuerySource<One>(source), t_max, active);
+    using Sources = typename AskNearestFromSurface<Reals>::Sources;
+    TANDEM_HD static void add(RayBatch<One>& batch, Sources& sources, const TraceJob& job, std::size_t i, bool active) {
+        ShadowSource<One> shadow;
+        if (!job.sources.empty()) static_cast<Source<One>&>(shadow) = to_real<One>(job.sources[i]);
+        shadow.light = job.ends[i].light;
+        QuerySource<One>& source = sources.of[batch.count];
+        source = QuerySource<One>(shadow);
+        batch.t_max[batch.count] = constant<Double<One>>(job.ends[i].t);
+        batch.add(to_real<One>(job.rays[i]), source, active);
     }
     template <class Tracer>
     TANDEM_HD static void each(const Tracer& tracer, const TraceJob& job, const RayBatch<One>& batch,
@@ -158,7 +168,10 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
         }
         if constexpr (!always_packets) {
             RayBatch<typename Reals::One> batch;
-            for (std::size_t i = 0; i < used; ++i) Ask::add(batch, job, first + i, traceable[static_cast<int>(i)]);
+            typename Ask::Sources sources;
+            for (std::size_t i = 0; i < used; ++i) {
+                Ask::add(batch, sources, job, first + i, traceable[static_cast<int>(i)]);
+            }
             Ask::each(tracer, job, batch, first);
         }
     }
