@@ -1,4 +1,5 @@
 /// The source and end of a ray in the CPU's tracers: one type for all rays, so that each decision is compiled once.
+/// Tested by tests/cpu/query_source_test.cpp.
 #pragma once
 
 #include "tandem/kernel/traversal/hit_interval.h"
@@ -26,7 +27,7 @@ struct QuerySource : PathSource<Real> {
 namespace query_detail {
 
 /// hit_interval_from() of the front of a culled face. A call: with the side in the interval of every face, rays among
-/// faces that are not culled take 1 to 2 % longer.
+/// faces that are not culled took 1 % longer.
 template <class Real, class Face>
 TANDEM_HD_CALL HitInterval front_interval(const PathSource<Real>& source, std::uint32_t id, const QueryRay& ray,
                                           const Face& face) {

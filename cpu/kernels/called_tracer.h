@@ -20,7 +20,7 @@ struct RayBatch {
     static constexpr int most = 16;
     int count = 0;
     Ray<Real> ray[most];
-    const QuerySource<Real>* source[most];  ///< not copied: often all rays have the same
+    const QuerySource<Real>* source[most];  ///< the caller keeps them; often all are the same
     Double<Real> t_max[most];               ///< for any_hits()
     bool active[most];
 

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <vector>
 
-#include "support/random.h"
+#include "support/aim.h"
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
 namespace {
+
+using test::any_point;
 
 struct Case {
     std::vector<Triangle> triangles;
@@ -26,10 +28,6 @@ struct Case {
         view.frame = make_structure_frame(box);
     }
 };
-
-Vec3f any_point(test::Random& random) {
-    return {random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)};
-}
 
 /// A fan of triangles around an edge and its ends, as in a mesh.
 void add_fan(test::Random& random, std::vector<Triangle>& triangles) {
@@ -174,7 +172,8 @@ TEST(TriangleQuery, EndsASearchForAnyHitAtACertainOne) {
         const Mask<Packet> left =
             query.test<Search::any>(scene.view, 0, QuerySource<Packet>(), Mask<Packet>(true), -1.0F, limit);
         EXPECT_FALSE(any(left));
-        for (int i = 0; i < Packet::size; ++i) EXPECT_EQ(limit[i]<0, end> 3) << "until " << end;
+        const bool reaches_triangle = end > 3;
+        for (int i = 0; i < Packet::size; ++i) EXPECT_EQ(limit[i] < 0, reaches_triangle) << "until " << end;
     }
 }
 

@@ -3,18 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
+#include "support/aim.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/traversal/intersect.h"
 
 namespace tandem {
 namespace {
 
-using CutoutEffects = EffectSet<(Effect::shadows | Effect::cutouts).bits()>;
+using test::any_point;
 
-Vec3f any_point(test::Random& random) {
-    return {random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)};
-}
+using CutoutEffects = EffectSet<(Effect::shadows | Effect::cutouts).bits()>;
 
 /// A few faces with any sides, some of them with a common corner or edge, and a ball.
 PreparedScene any_faces(test::Random& random) {

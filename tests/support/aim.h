@@ -11,6 +11,11 @@
 
 namespace tandem::test {
 
+/// A point in the cube from -1 to 1.
+inline Vec3f any_point(Random& random) {
+    return {random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)};
+}
+
 inline Vec3d any_unit(Random& random) {
     for (;;) {
         const Vec3d v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};

@@ -1,4 +1,4 @@
-/// Shadow rays: whether something blocks a light at a point.
+/// Shadow rays: whether something blocks a light at a point. Tested by tests/kernel/shadow_test.cpp.
 #pragma once
 
 #include "tandem/kernel/incident_light.h"

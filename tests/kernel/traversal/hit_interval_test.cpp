@@ -36,6 +36,20 @@ StructureFrame any_frame(Random& random, const Aabb& primitive) {
     return make_structure_frame(merge(primitive, {other * size, other * size}));
 }
 
+/// The query parameter of a hit at t.
+Big query_parameter(const Ray<float>& ray, const Proposal<float>& proposal, const Big& t) {
+    return (t - Big(proposal.t_offset)) * sqrt(test::dot(test::big(ray.direction), test::big(ray.direction)));
+}
+
+void expect_contains(const HitInterval& interval, const Big& s, const std::string& where) {
+    if (interval.lo > 0) {
+        ASSERT_LE(Big(interval.lo), s) << where;
+    }
+    if (std::isfinite(interval.hi)) {
+        ASSERT_LE(s, Big(interval.hi)) << where;
+    }
+}
+
 /// `exact`: t of the hit; `own`: the ray leaves the solid inward, for which the decision says what is exact.
 template <class Primitive>
 void check(const Primitive& primitive, const Ray<float>& ray, const std::optional<Big>& exact, bool own, Random& random,
@@ -58,19 +72,13 @@ void check(const Primitive& primitive, const Ray<float>& ray, const std::optiona
     }
     if (std::isfinite(interval.hi)) ++counts.sure;
     const auto expect_within = [&](const Big& t, const char* what) {
-        const Big length = sqrt(test::dot(test::big(ray.direction), test::big(ray.direction)));
-        const Big s = (t - Big(proposal.t_offset)) * length;
+        const Big s = query_parameter(ray, proposal, t);
         const auto rounded = static_cast<double>(t);
         if (s > 1e-30 && Big(rounded) == t) {  // far below, subnormal floats are no bounds
             ASSERT_LE(s, Big(proposal.limit(rounded))) << what << ", limit, " << where;
             ASSERT_LE(Big(proposal.start(rounded)), s) << what << ", start, " << where;
         }
-        if (interval.lo > 0) {
-            ASSERT_LE(Big(interval.lo), s) << what << ", " << where;
-        }
-        if (std::isfinite(interval.hi)) {
-            ASSERT_LE(s, Big(interval.hi)) << what << ", " << where;
-        }
+        expect_contains(interval, s, what + (", " + where));
     };
     expect_within(*exact, "exact");
     double t = 0;
@@ -277,16 +285,8 @@ void expect_fronts_count(const char* name, std::uint64_t rays, const MakeRay& ma
             if (std::isfinite(interval.hi)) {
                 ASSERT_TRUE(counts) << where;
             }
-            if (counts) {
-                const Big length = sqrt(test::dot(test::big(ray.direction), test::big(ray.direction)));
-                const Big s = (Big(t) - Big(proposal.t_offset)) * length;
-                if (interval.lo > 0) {
-                    ASSERT_LE(Big(interval.lo), s) << where;
-                }
-                if (std::isfinite(interval.hi)) {
-                    ASSERT_LE(s, Big(interval.hi)) << where;
-                }
-            }
+            if (counts) expect_contains(interval, query_parameter(ray, proposal, Big(t)), where);
+            if (testing::Test::HasFatalFailure()) return;
             if (kind != 0 || has_passed || !hits) continue;  // intervals of the hard kinds need not be sharp
             ++(counts ? fronts : from_behind);
             if (!counts && interval.lo == certain_miss.lo) ++misses;

@@ -5,7 +5,8 @@
 /// Needs: a QueryRay of a traceable ray, and a primitive within coordinate_limit.
 /// Gives: an interval that contains the query parameter of the hit, if there is one; certain_miss only if there is
 ///        none; a finite `hi` only if there is one. The parameter is that of the t that first_hit_from() returns. Lower
-///        ends are not negative. NaN and overflow give [0, infinity].
+///        ends are not negative. NaN and overflow give [0, infinity],
+///        unless the direction alone shows that a culled face is hit from behind.
 /// Method: rounding is seen as a small change of the primitive. A solid is grown and shrunk by a bound of all errors,
 ///        as lengths: before the ray enters the grown one, there is no hit; where it enters the shrunk one, it has hit.
 ///        A face's volumes are compared with their errors, as in may_touch_triangle().

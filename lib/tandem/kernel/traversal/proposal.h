@@ -5,7 +5,8 @@
 /// Bound: with S = reach of the scene's bounds and u = 2^-24, a slab test b * rcp - o * rcp with approximate
 /// reciprocals (Embree's) moves the planes by at most 13 u S when |o| <= S, and node_ray.h by 16 u S. Moving the
 /// origin adds 2 u S (it may end up to 2^-6 S beyond S), rounding it 1 u S, and rounding the direction 3 u S along a
-/// path of length 2 S. Boxes are padded by 32 u S. Tested by tests/agree/structure_test.cpp.
+/// path of length 2 S. Boxes are padded by 32 u S. Tested by tests/agree/structure_test.cpp;
+/// the ends of a query by tests/kernel/traversal/proposal_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
