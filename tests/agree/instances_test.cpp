@@ -8,12 +8,14 @@
 
 #include "support/backend_list.h"
 #include "support/random.h"
+#include "support/structure.h"
 #include "support/thrown_message.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
+#include "tandem/kernel/shadow.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/instanced_tracer.h"
 #include "tandem/scene/icosphere.h"
@@ -31,6 +33,7 @@ struct Crowd {
     bool mirrors = true, turns = true, thin = false, twice = false;
     Vec3d at{0, 0, 0};
     bool ground = false;  ///< and spheres: primitives of other kinds
+    bool masked = false;  ///< the ground, in part
     bool normals = true, colours = false;
     FaceSides sides = FaceSides::single_sided;
     bool closed = false;
@@ -75,6 +78,10 @@ Scene scene_of(const Crowd& crowd) {
         Mesh ground;
         ground.positions = {{-20, -2, -20}, {20, -2, -20}, {20, -2, 20}, {-20, -2, 20}};
         ground.triangles = {0, 2, 1, 0, 3, 2};
+        if (crowd.masked) {
+            for (std::size_t i = 0; i < 4; ++i) ground.colours.push_back({{1, 1, 1}, i < 2 ? 1.0F : 0.1F});
+            scene.materials[1].alpha_mode = AlphaMode::mask;
+        }
         scene.meshes.push_back(ground);
         scene.nodes[3].geometry = {{MeshShape{1}, 1, {}}, {SphereShape{1.5}, 1, {}}, {BoxShape{{1, 5, 1}}, 0, {}}};
     }
@@ -94,6 +101,7 @@ const Crowd crowds[] = {
     {.name = "closed and culled", .sides = FaceSides::culled, .closed = true},
     {.name = "double sided", .sides = FaceSides::double_sided},
     {.name = "coloured", .ground = true, .colours = true},
+    {.name = "masked", .ground = true, .masked = true},
 };
 
 PreparedScene kept_once(const Crowd& crowd) {
@@ -178,26 +186,6 @@ struct Traced {
     Bvh other_bvh;
 };
 
-/// The same faces written out, each with an entry of its own.
-struct Written {
-    explicit Written(const PreparedScene& kept) : scene(written_out(kept, "this is a test")) {
-        for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
-            bounds = merge(bounds, primitive_bounds(view(scene), id));
-        }
-        frame = make_structure_frame(bounds);
-        bvh = build_bvh(view(scene), frame.margin);
-    }
-    [[nodiscard]] BvhTracer tracer() const {
-        return {{view(scene),
-                 {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), bvh.entry_triangles.data(),
-                  bvh.placements.data(), frame, nullptr}}};
-    }
-    PreparedScene scene;
-    Aabb bounds;
-    StructureFrame frame{};
-    Bvh bvh;
-};
-
 std::vector<Ray<float>> rays_through(const Aabb& box, int count) {
     Random random(23);
     std::vector<Ray<float>> rays;
@@ -245,12 +233,19 @@ void expect_same(const InstancedTracer& tracer, const BvhTracer& reference, cons
     for (const double t : {1e-3, 1.0, 30.0, 1e300}) {
         ASSERT_EQ(tracer.occluded(spawned.ray, t, shadow, true), reference.occluded(spawned.ray, t, shadow, true))
             << what << ", until " << t;
+        using Effects = EffectSet<(Effect::shadows | Effect::cutouts).bits()>;
+        const ShadowRay<Real> through_masks = {spawned.ray, shadow, t, true};
+        UInt<Real> rays = 0;
+        const auto is_blocked = [&](const auto& by) {
+            return is_blocked_by_opaque<Effects>(by, by.scene, IncidentLight<Real>{}, through_masks, rays);
+        };
+        ASSERT_EQ(is_blocked(tracer), is_blocked(LoopTracer{reference.scene})) << what << ", until " << t;
     }
 }
 
 TEST_P(Instances, AreHitAsIfTheyWereWrittenOut) {
     const Traced traced(GetParam());
-    const Written written(traced.scene);
+    const test::Structure written(written_out(traced.scene, "this is a test"));
     const BvhTracer reference = written.tracer();
     const InstancedTracer tracer = traced.tracer();
     const std::vector<Ray<float>> rays = rays_through(written.bounds, 1500);
@@ -304,7 +299,7 @@ struct MovedPoint {
 TEST(ScatteredInstances, AreHitByRaysMovedWithinTheBound) {
     const Crowd crowd = {.name = "scattered", .spacing = 900};
     const Traced traced(crowd);
-    const Written written(traced.scene);
+    const test::Structure written(written_out(traced.scene, "this is a test"));
     const InstancedTracer tracer = traced.tracer();
     const BvhTracer reference = written.tracer();
     const PreparedInstances& all = traced.scene.instances;

@@ -15,11 +15,9 @@
 #include "support/bundles.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
-#include "tandem/compile/build_bvh.h"
+#include "support/structure.h"
 #include "tandem/compile/prepare.h"
-#include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/spawn_ray.h"
-#include "tandem/kernel/traversal/bvh_tracer.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"
 #include "tandem/kernel/traversal/make_node.h"
 #include "tandem/scene/named_scenes.h"
@@ -27,27 +25,7 @@
 namespace tandem {
 namespace {
 
-/// A scene with its hierarchy.
-struct Structure {
-    explicit Structure(PreparedScene prepared) : scene(std::move(prepared)) {
-        const SceneView scene_view = view(scene);
-        Aabb bounds;
-        for (std::uint32_t id = 0; id < primitive_count(scene_view); ++id) {
-            bounds = merge(bounds, primitive_bounds(scene_view, id));
-        }
-        frame = make_structure_frame(bounds);
-        bvh = build_bvh(scene_view, frame.margin);
-    }
-    template <Decisions decisions = Decisions::in_leaves, std::uint32_t kinds = PrimitiveKinds::all>
-    [[nodiscard]] BvhTracerFor<kinds, decisions> tracer() const {
-        return {view(scene),
-                {bvh.nodes.data(), bvh.entry_spheres.data(), bvh.entry_ids.data(), bvh.entry_triangles.data(),
-                 bvh.placements.data(), frame, nullptr, BvhView{}.bits_of_8, placed_by_entry(view(scene)) ? 1U : 0U}};
-    }
-    PreparedScene scene;
-    StructureFrame frame;
-    Bvh bvh;
-};
+using test::Structure;
 
 /// Limits to ask with around a hit at t: before it, at it and just behind it; then one near and one far, whatever t is.
 std::array<double, 5> distances_around(double t) { return {0.5 * t, t, t * (1 + 1e-15), 1.0, 1e300}; }

@@ -5,8 +5,7 @@
 namespace tandem {
 
 std::uint32_t kinds_cut_out_by_alpha(const SceneView& scene) {
-    if (!has_textures(scene.textures)) return 0;
-    const auto is_cut_out = [&](std::uint32_t material) { return scene.textures.materials[material].alpha_cutoff > 0; };
+    const auto is_cut_out = [&](std::uint32_t material) { return has_alpha_mask(scene, material); };
     std::uint32_t kinds = 0;
     const std::uint32_t* first = scene.material_of;
 #define TANDEM_PRIMITIVE(Type, name, names)                                                        \

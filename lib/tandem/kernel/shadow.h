@@ -44,8 +44,39 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
     return tracer.closest(ray, source, active, farthest);
 }
 
-/// Tracer::occluded() through alpha masks and the backs of culled faces. Adds one to `rays` for each segment of the
-/// ray.
+namespace shadow_detail {
+
+/// The hits of one shadow ray on primitives with alpha masks.
+template <std::uint32_t kinds, class Real>
+struct MaskedHits {
+    const SceneView& scene;
+    const ShadowRay<Real>& shadow;
+    std::uint32_t light;       ///< the primitive that is the light, which blocks nothing
+    std::uint32_t passed = 0;  ///< hits of any primitive
+
+    /// Whether the ray is blocked at a hit of primitive `id`, or has passed too many.
+    TANDEM_HD_INLINE bool block(std::uint32_t id) {
+        PathSource<Real> source = {shadow.source};
+        for (; passed < max_masked_hits; ++passed) {
+            Closest<Real> hit = {shadow.t_max, no_primitive};
+            visit_primitive<kinds>(scene, id, [&](const auto& primitive) {
+                test_primitive(primitive, id, shadow.ray, source, true, hit);
+            });
+            if (!(hit.t < shadow.t_max)) return false;
+            if (id != light && is_opaque_at<kinds>(scene, shadow.ray, source, hit, true)) return true;
+            source.last_masked = hit;
+        }
+        return true;
+    }
+};
+
+}  // namespace shadow_detail
+
+/// Whether a shadow ray is blocked by an opaque surface: it passes alpha masks where they are open, and the backs of
+/// culled faces. Adds one to `rays` for each ray.
+///
+/// With masks, what blocks a ray does not depend on the order of its hits. Where the tracer can visit them in any order
+/// it is one search, else one search after the other for the nearest. Tested by tests/kernel/shadow_test.cpp.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene,
                                           const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
@@ -56,6 +87,14 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
     }
     if (has_no_masks(scene)) {
         return tracer.occluded(shadow.ray, shadow.t_max, CulledShadowSource<Real>{shadow.source}, shadow.active);
+    }
+    if constexpr (requires { Tracer::finds_blockers; }) {
+        if (!shadow.active) return false;
+        shadow_detail::MaskedHits<Tracer::kinds, Real> hits = {scene, shadow, light.primitive};
+        const MaskedShadowSource<Real> source = {shadow.source, light.primitive};
+        const auto end =
+            tracer.find_blocker(shadow.ray, shadow.t_max, source, [&](std::uint32_t id) { return hits.block(id); });
+        if (is_linked || !end.stack_was_full) return end.stopped;
     }
     PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;
@@ -69,7 +108,6 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
         blocked = blocked || (found && !passes);
         open = found && passes;
         if (!any(open)) return blocked;
-        count_rays<Effects, Real>(open, rays);
         source.last_masked.t = select(open, hit.t, source.last_masked.t);
         source.last_masked.primitive = select(open, hit.primitive, source.last_masked.primitive);
     }

@@ -139,9 +139,9 @@ Mask<Real> is_opaque_at(const SceneView& scene, const Ray<Real>& ray, const From
                         const Mask<Real>& found) {
     Mask<Real> opaque(true);
     const auto test = [&](const auto& part, const Mask<Real>& here) {
-        if (!has_textures(scene.textures)) return;
-        const MaterialTextures& textures = scene.textures.materials[material_of<kinds>(scene, part)];
-        if (!(textures.alpha_cutoff > 0.0F)) return;
+        const std::uint32_t material = material_of<kinds>(scene, part);
+        if (!has_alpha_mask(scene, material)) return;
+        const MaterialTextures& textures = scene.textures.materials[material];
         bool on_face = false;
         const Mask<Real> exits = hits_far_side<kinds>(scene, part, ray, source, hit.t, here);
         HitRecord<Real> record;

@@ -48,10 +48,17 @@ struct ShadowSource : Source<Real> {
 template <class Real>
 struct CulledShadowSource : ShadowSource<Real> {};
 
+/// A shadow ray in a scene with alpha masks: it may pass those, the backs of culled faces, and the light.
+template <class Real>
+struct MaskedShadowSource : Source<Real> {
+    UInt<Real> light = UInt<Real>(no_primitive);
+};
+
 /// Whether rays from a source of this type pass the backs of culled faces.
 template <class Real, class From>
 inline constexpr bool passes_backs =
-    std::is_same_v<From, PathSource<Real>> || std::is_same_v<From, CulledShadowSource<Real>>;
+    std::is_same_v<From, PathSource<Real>> || std::is_same_v<From, CulledShadowSource<Real>> ||
+    std::is_same_v<From, MaskedShadowSource<Real>>;
 
 namespace source_detail {
 

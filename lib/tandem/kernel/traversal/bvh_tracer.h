@@ -36,6 +36,7 @@ template <std::uint32_t kind_set, Decisions decisions = Decisions::in_leaves>
 struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
     static constexpr bool has_hierarchy = true;
+    static constexpr bool finds_blockers = true;
     /// At the edges of a mesh more than two faces are unsure.
     static constexpr int most_candidates = (kinds & PrimitiveKinds::faces) != 0 ? 4 : 2;
 
@@ -57,6 +58,27 @@ struct BvhStructure {
         }
         if (end.stack_was_full) [[unlikely]]
             try_what_was_missed(ray, source, best);
+    }
+
+    /// Searches for a primitive that blocks a shadow ray before `t_max`, in any order. Stops where `blocks(id)` says so
+    /// of one that the ray may hit, or where the ray certainly hits one that lets nothing pass.
+    template <class Real, class Blocks>
+    TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                      const MaskedShadowSource<Real>& source,
+                                                      const Blocks& blocks) const {
+        const Proposal<Real> proposal = propose(ray);
+        if (!proposal.active) return {};
+        const float limit = first_limit(proposal, t_max);
+        bvh_detail::WalkEnd end{};
+        if constexpr (decides_behind<Real>) {
+            end = find_blocker_behind_walk(source, proposal, limit, to_plain(proposal.start(t_max)), blocks);
+        } else {
+            const NodeRay node_ray = make_node_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
+            end = bvh_detail::walk<false>(bvh, node_ray, 0.0F, limit,
+                                          [&](std::uint32_t entry) { return blocks(bvh.entry_ids[entry]); });
+        }
+        if (is_linked && end.stack_was_full) bvh_detail::count(bvh.stack_overflows);
+        return end;
     }
 
     template <class Real>
@@ -223,6 +245,38 @@ struct BvhStructure {
             found.get().for_each(reached, [&](std::uint32_t kept) { decide_kept(same_ray, source, kept, best); });
         }
         return end;
+    }
+
+    /// Asks about candidates whenever there is no place for more.
+    template <class Real, class Blocks>
+    TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker_behind_walk(const MaskedShadowSource<Real>& source,
+                                                                  const Proposal<Real>& proposal, float limit,
+                                                                  float enough, const Blocks& blocks) const {
+        const QueryRay query = make_query_ray(proposal, bvh.frame, source);
+        const NodeRay node_ray = make_node_ray(query.origin, query.direction);
+        bvh_detail::LocalStack stack;
+        bvh_detail::Walk at = bvh_detail::Walk::from_root(stack);
+        do {
+            Candidates<most_candidates> candidates;
+            bool is_full = false;
+            while (!at.is_done() && !is_full) {
+                if (!at.is_at_entry()) at.template descend<false>(stack, bvh, node_ray, 0.0F, limit);
+                if (!at.is_at_entry()) continue;
+                std::uint32_t id = no_primitive;
+                const HitInterval interval = interval_at<Real>(at.entry(), source, query, id);
+                if (interval.lo <= limit) {
+                    const bool is_certain = interval.hi < enough && id != source.light;
+                    if (is_certain && !has_alpha_mask(scene, material_of<kinds>(scene, id))) return {true, false};
+                    candidates.add(interval.lo, id, limit);
+                    is_full = candidates.is_full(limit);
+                }
+                at.pop(stack);
+            }
+            bool blocked = false;
+            candidates.for_each(limit, [&](std::uint32_t id) { blocked = blocked || blocks(id); });
+            if (blocked) return {true, false};
+        } while (!at.is_done());
+        return {false, at.depth > 0};
     }
 
     /// Where the ray hits the primitive of an entry. `id`: of the primitive, unless keeps_entries.

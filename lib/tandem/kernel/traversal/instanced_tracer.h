@@ -196,6 +196,7 @@ struct Walk {
 struct InstancedStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all | PrimitiveKinds::instanced;
     static constexpr bool has_hierarchy = true;
+    static constexpr bool finds_blockers = true;
 
     InstancedView scene;
     DeferringBvhTracer others;  ///< the other primitives; without nodes if there are none
@@ -208,6 +209,29 @@ struct InstancedStructure {
             others.template find<search>(ray, source, best);
             if (search == Search::any && best.t < t_max) return;
         }
+        find_in_instances<search>(ray, source, best);
+    }
+
+    /// As BvhStructure::find_blocker(). Materials of instanced meshes have no alpha masks and do not glow
+    /// (compile/place_instances.cpp).
+    template <class Real, class Blocks>
+    TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                      const MaskedShadowSource<Real>& source,
+                                                      const Blocks& blocks) const {
+        bvh_detail::WalkEnd end{};
+        if (others.bvh.nodes != nullptr) end = others.find_blocker(ray, t_max, source, blocks);
+        if (end.stopped || end.stack_was_full) return end;
+        Closest<Real> best = closest_starting_at<Real>(t_max);
+        find_in_instances<Search::any>(ray, CulledShadowSource<Real>{{source}}, best);
+        return {best.t < t_max, false};
+    }
+
+  private:
+    static constexpr int most_candidates = 4;
+
+    template <Search search, class Real, class From>
+    TANDEM_HD_INLINE void find_in_instances(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        const Double<Real> t_max = best.t;
         const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
         const Parked<QueryRay> query(make_query_ray(proposal, bvh.frame, source));
@@ -242,9 +266,6 @@ struct InstancedStructure {
             if (!walk.is_done()) limit = rough_lesser(limit, limit_of(propose(same_ray), best));
         } while (!walk.is_done());
     }
-
-  private:
-    static constexpr int most_candidates = 4;
 
     template <class Real>
     TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray) const {

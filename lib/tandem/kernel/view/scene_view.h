@@ -226,6 +226,11 @@ TANDEM_HD_INLINE std::uint32_t material_of(const SceneView& scene, std::uint32_t
     return scene.material_of[id];
 }
 
+/// Whether a material has an alpha mask.
+TANDEM_HD_INLINE bool has_alpha_mask(const SceneView& scene, std::uint32_t material) {
+    return has_textures(scene.textures) && scene.textures.materials[material].alpha_cutoff > 0.0F;
+}
+
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
