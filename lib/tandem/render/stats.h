@@ -41,7 +41,8 @@ struct RenderCounters {
 struct RenderStats {
     PhaseTimes seconds;
     RenderCounters counters;
-    /// All rays that were traced: camera rays, path continuations and shadow rays; of the oracle, camera rays only.
+    /// All rays that were traced: camera rays, path continuations and shadow rays; of the oracle, camera rays only. A
+    /// shadow ray counts once, however many alpha masks it passes.
     std::uint64_t rays = 0;
     std::size_t device_bytes = 0;
     int registers = 0;     ///< of the kernel, per thread; 0 on the CPU
