@@ -7,11 +7,14 @@
 #include "cpu/kernels.h"
 #include "cpu/query_source.h"
 #include "cpu/triangle_query.h"
-#include "tandem/kernel/spawn_ray.h"
+#include "tandem/kernel/masked_hits.h"
 #include "tandem/kernel/traversal/intersect.h"
 #include "tandem/math/lanes.h"
 
 namespace tandem {
+
+template <class Real>
+using CpuMaskedHits = MaskedHits<PrimitiveKinds::all, Real>;
 
 /// The data of a query. The QueryContext must come first: Embree passes its address to the callback.
 template <class Real>
@@ -21,7 +24,14 @@ struct QueryContext {
     Proposal<Real> proposal;
     Closest<Real> best;
     const QuerySource<Real>* source;
+    CpuMaskedHits<Real>* masked = nullptr;  ///< of a search for what blocks a shadow ray
     TriangleQuery<Real> triangles;
+
+    /// Whether `masked` decides about primitive `id`.
+    [[nodiscard]] TANDEM_HD_INLINE bool asks(const SceneView& scene, std::uint32_t id, const Mask<Real>& active) const {
+        return masked != nullptr &&
+               may_let_pass<PrimitiveKinds::all>(scene, id, any(active && source->light == UInt<Real>(id)));
+    }
 };
 
 /// `One` and `Packet`: the Reals of the tier, for one ray and for many.
@@ -70,6 +80,13 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
     auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
     auto& tfar = *reinterpret_cast<Float<Packet>*>(ray.tfar);
+    if (query.asks(view.scene, args->primID, active)) [[unlikely]] {
+        visit_primitive(view.scene, args->primID, [&]<class Primitive>(const Primitive& primitive) {
+            if constexpr (has_filter<Packet, Primitive>) active = active && may_touch(query.filter, primitive);
+        });
+        if (any(active)) tfar = select(query.masked->block(args->primID, active), Float<Packet>(found), tfar);
+        return;
+    }
     if (query.triangles.defers(view, args->primID)) {
         active = query.triangles.template test<Search::any>(view, args->primID, *query.source, active, found, tfar);
         if (!any(active)) [[likely]]
@@ -161,7 +178,16 @@ void filter_callback(const RTCFilterFunctionNArguments* args) {
     const auto s = load<Float<Packet>>(reinterpret_cast<const typename Lanes::Ray*>(args->ray)->tfar);
     const Word id = embree_detail::primitive_of<Word>(view, load<Word>(hit.geomID), load<Word>(hit.primID));
     const Mask<Packet> valid(load<typename Mask<Packet>::Vector>(args->valid));
-    const auto kept = (valid && !is_excluded<search, Packet>(view.scene, query, s, id, valid)).vector();
+    Mask<Packet> counts = valid && !is_excluded<search, Packet>(view.scene, query, s, id, valid);
+    if constexpr (search == Search::any) {
+        if (query.masked != nullptr) {
+            for_each_unique_lane(id, valid, [&](std::uint32_t number, const Mask<Packet>& here) {
+                if (!query.asks(view.scene, number, here)) return;
+                counts = (counts && !here) || query.masked->block(number, here);
+            });
+        }
+    }
+    const auto kept = counts.vector();
     std::memcpy(args->valid, &kept, sizeof(kept));
 }
 
@@ -243,12 +269,14 @@ struct EmbreeTracer {
     [[nodiscard]] TANDEM_HD_INLINE LaneMask<Isa> occluded(const Ray<Lanes<T, Isa>>& ray,
                                                           const Double<Lanes<T, Isa>>& t_max,
                                                           const QuerySource<Lanes<T, Isa>>& source,
-                                                          const LaneMask<Isa>& active) const {
+                                                          const LaneMask<Isa>& active,
+                                                          CpuMaskedHits<Lanes<T, Isa>>* masked = nullptr) const {
         using Real = Lanes<T, Isa>;
         using F = Float<Real>;
         QueryContext<Real> query;
         query.best = closest_starting_at<Real>(t_max);
         query.source = &source;
+        query.masked = masked;
         if (!start(query, ray, active, true)) return LaneMask<Isa>(false);
         const F limit = query.proposal.limit(t_max);
         query.proposal.active = query.proposal.active && limit >= F(0.0F);
@@ -263,7 +291,6 @@ struct EmbreeTracer {
         return found || (query.proposal.active && query.best.t < t_max);
     }
 
-  private:
     /// Fills the common part of all queries; false if no lane can hit anything.
     template <class Real>
     TANDEM_HD_INLINE bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,

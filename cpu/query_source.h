@@ -22,6 +22,8 @@ struct QuerySource : PathSource<Real> {
         : PathSource<Real>{source}, light(source.light) {}
     TANDEM_HD_INLINE explicit QuerySource(const CulledShadowSource<Real>& source)
         : PathSource<Real>{source}, light(source.light), culls(true) {}
+    TANDEM_HD_INLINE explicit QuerySource(const MaskedShadowSource<Real>& source)
+        : PathSource<Real>{source}, light(source.light), culls(true) {}
 };
 
 namespace query_detail {

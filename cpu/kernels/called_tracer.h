@@ -13,6 +13,9 @@ template <class Isa, class Real>
 template <class Isa, class Real>
 [[nodiscard]] Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
                                  const QuerySource<Real>& source, const Mask<Real>& active);
+template <class Isa, class Real, class Hits>
+[[nodiscard]] Mask<Real> any_blocker(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
+                                     const MaskedShadowSource<Real>& source, const Mask<Real>& active, Hits& hits);
 
 /// Rays that are traced one by one.
 template <class Real>
@@ -53,6 +56,15 @@ struct CalledTracer {
     [[nodiscard]] TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
                                                        const From& source, const Mask<Real>& active) const {
         return any_hit<Isa, Real>(view, ray, t_max, QuerySource<Real>(source), active);
+    }
+    /// Whether the tracer has find_blocker(): not where it tests all primitives.
+    [[nodiscard]] TANDEM_HD_INLINE bool finds_blockers() const { return view.embree != nullptr; }
+    /// As BvhStructure::find_blocker().
+    template <class Real, class Hits>
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                           const MaskedShadowSource<Real>& source,
+                                                           const Mask<Real>& active, Hits& hits) const {
+        return any_blocker<Isa, Real>(view, ray, t_max, source, active, hits);
     }
     template <class Real>
     TANDEM_HD_INLINE void closest(const RayBatch<Real>& batch, Closest<Real>* hits) const {

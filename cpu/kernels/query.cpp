@@ -25,6 +25,12 @@ Mask<Real> any_hit(const CpuSceneView& view, const Ray<Real>& ray, const Double<
     return EmbreeTracer{view}.occluded(ray, t_max, source, active);
 }
 
+template <class Isa, class Real, class Hits>
+Mask<Real> any_blocker(const CpuSceneView& view, const Ray<Real>& ray, const Double<Real>& t_max,
+                       const MaskedShadowSource<Real>& source, const Mask<Real>& active, Hits& hits) {
+    return EmbreeTracer{view}.occluded(ray, t_max, QuerySource<Real>(source), active, &hits);
+}
+
 // Single rays go through groups, if there are any.
 
 template <class Isa, class Real>
@@ -80,6 +86,10 @@ template Closest<Packet> closest_hit<ThisIsa, Packet>(const CpuSceneView&, const
                                                       const Double<Packet>&);
 template Mask<Packet> any_hit<ThisIsa, Packet>(const CpuSceneView&, const Ray<Packet>&, const Double<Packet>&,
                                                const QuerySource<Packet>&, const Mask<Packet>&);
+template Mask<Packet> any_blocker<ThisIsa, Packet, CpuMaskedHits<Packet>>(const CpuSceneView&, const Ray<Packet>&,
+                                                                          const Double<Packet>&,
+                                                                          const MaskedShadowSource<Packet>&,
+                                                                          const Mask<Packet>&, CpuMaskedHits<Packet>&);
 template void closest_hits<ThisIsa, One>(const CpuSceneView&, const RayBatch<One>&, Closest<One>*);
 template void any_hits<ThisIsa, One>(const CpuSceneView&, const RayBatch<One>&, bool*);
 template void These::intersect(const RTCIntersectFunctionNArguments*);

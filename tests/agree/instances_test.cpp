@@ -237,7 +237,7 @@ void expect_same(const InstancedTracer& tracer, const BvhTracer& reference, cons
         const ShadowRay<Real> through_masks = {spawned.ray, shadow, t, true};
         UInt<Real> rays = 0;
         const auto is_blocked = [&](const auto& by) {
-            return is_blocked_by_opaque<Effects>(by, by.scene, IncidentLight<Real>{}, through_masks, rays);
+            return is_blocked_by_opaque<Effects>(by, by.scene, through_masks, rays);
         };
         ASSERT_EQ(is_blocked(tracer), is_blocked(LoopTracer{reference.scene})) << what << ", until " << t;
     }

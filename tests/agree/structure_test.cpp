@@ -67,6 +67,22 @@ struct Answers {
     bool occluded_to_light = false;
 };
 
+/// In the place of MaskedHits (kernel/masked_hits.h): any hit blocks.
+struct AnyHit {
+    bool block(std::uint32_t id, bool /*open*/) const {
+        Closest<float> best = closest_starting_at<float>(t_max);
+        visit_primitive(scene, id,
+                        [&](const auto& primitive) { test_primitive(primitive, id, ray, NoSource{}, true, best); });
+        return best.t < t_max;
+    }
+    void begin_again() { ++begun_again; }
+
+    const SceneView& scene;
+    Ray<float> ray;
+    double t_max;
+    int begun_again = 0;
+};
+
 template <class Real>
 void expect_equal(const Closest<Real>& actual, const Closest<Real>& expected, const std::string& what) {
     ASSERT_EQ(actual.primitive, expected.primitive) << what;
@@ -332,6 +348,13 @@ TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
         expect_same(behind_walk, expected, "behind the walk, x = " + std::to_string(x));
         const Answers from_behind(one_by_one, {{x, 0, -1000}, {0, 0, 1}});
         expect_same(tracer, from_behind, "from behind, x = " + std::to_string(x));
+        for (const double t_max : {0.5 * expected.nearest.t, 2.0 * expected.nearest.t}) {
+            const bool blocked = expected.nearest.t < t_max;
+            AnyHit of_leaves = {tracer.scene, expected.ray, t_max}, of_candidates = of_leaves;
+            EXPECT_EQ(tracer.find_blocker(expected.ray, t_max, {}, true, of_leaves), blocked) << x;
+            EXPECT_EQ(behind_walk.find_blocker(expected.ray, t_max, {}, true, of_candidates), blocked) << x;
+            EXPECT_TRUE(blocked || (of_leaves.begun_again == 1 && of_candidates.begun_again == 1)) << x;
+        }
     }
     EXPECT_GT(overflows, 0U);
     tracer.bvh.stack_overflows = nullptr;  // need not be counted

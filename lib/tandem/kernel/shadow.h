@@ -2,7 +2,7 @@
 #pragma once
 
 #include "tandem/kernel/incident_light.h"
-#include "tandem/kernel/surface.h"
+#include "tandem/kernel/masked_hits.h"
 
 namespace tandem {
 
@@ -46,65 +46,19 @@ TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, 
 
 namespace shadow_detail {
 
-/// The hits of one shadow ray on primitives with alpha masks.
-template <std::uint32_t kinds, class Real>
-struct MaskedHits {
-    const SceneView& scene;
-    const ShadowRay<Real>& shadow;
-    std::uint32_t light;       ///< the primitive that is the light, which blocks nothing
-    std::uint32_t passed = 0;  ///< hits of any primitive
-
-    /// Whether the ray is blocked at a hit of primitive `id`, or has passed too many.
-    TANDEM_HD_INLINE bool block(std::uint32_t id) {
-        PathSource<Real> source = {shadow.source};
-        for (; passed < max_masked_hits; ++passed) {
-            Closest<Real> hit = {shadow.t_max, no_primitive};
-            visit_primitive<kinds>(scene, id, [&](const auto& primitive) {
-                test_primitive(primitive, id, shadow.ray, source, true, hit);
-            });
-            if (!(hit.t < shadow.t_max)) return false;
-            if (id != light && is_opaque_at<kinds>(scene, shadow.ray, source, hit, true)) return true;
-            source.last_masked = hit;
-        }
-        return true;
-    }
-};
-
-}  // namespace shadow_detail
-
-/// Whether a shadow ray is blocked by an opaque surface: it passes alpha masks where they are open, and the backs of
-/// culled faces. Adds one to `rays` for each ray.
-///
-/// With masks, what blocks a ray does not depend on the order of its hits. Where the tracer can visit them in any order
-/// it is one search, else one search after the other for the nearest. Tested by tests/kernel/shadow_test.cpp.
+/// Whether a shadow ray through alpha masks is blocked, by searches for the nearest hit, one after the other.
 template <class Effects, class Real, class Tracer>
-TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene,
-                                          const IncidentLight<Real>& light, const ShadowRay<Real>& shadow,
-                                          UInt<Real>& rays) {
-    count_rays<Effects, Real>(shadow.active, rays);
-    if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) {
-        return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
-    }
-    if (has_no_masks(scene)) {
-        return tracer.occluded(shadow.ray, shadow.t_max, CulledShadowSource<Real>{shadow.source}, shadow.active);
-    }
-    if constexpr (requires { Tracer::finds_blockers; }) {
-        if (!shadow.active) return false;
-        shadow_detail::MaskedHits<Tracer::kinds, Real> hits = {scene, shadow, light.primitive};
-        const MaskedShadowSource<Real> source = {shadow.source, light.primitive};
-        const auto end =
-            tracer.find_blocker(shadow.ray, shadow.t_max, source, [&](std::uint32_t id) { return hits.block(id); });
-        if (is_linked || !end.stack_was_full) return end.stopped;
-    }
+TANDEM_HD Mask<Real> is_blocked_one_by_one(const Tracer& tracer, const SceneView& scene,
+                                           const ShadowRay<Real>& shadow) {
     PathSource<Real> source = {shadow.source};
     Mask<Real> open = shadow.active;
     Mask<Real> blocked(false);
-    for (std::uint32_t masked_hits = 0; masked_hits < max_masked_hits; ++masked_hits) {
+    for (std::uint32_t passed = 0; passed < max_masked_hits; ++passed) {
         const Closest<Real> hit = nearest_hit<Effects>(tracer, shadow.ray, source, open, shadow.t_max);
         const Mask<Real> found = open && hit.primitive != UInt<Real>(no_primitive) && hit.t < shadow.t_max;
         if (!any(found)) return blocked;
         const Mask<Real> passes =
-            hit.primitive == light.primitive || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, found);
+            hit.primitive == shadow.source.light || !is_opaque_at<Tracer::kinds>(scene, shadow.ray, source, hit, found);
         blocked = blocked || (found && !passes);
         open = found && passes;
         if (!any(open)) return blocked;
@@ -114,6 +68,34 @@ TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView&
     return blocked || open;
 }
 
+}  // namespace shadow_detail
+
+/// Whether a shadow ray is blocked by an opaque surface: it passes alpha masks where they are open, and the backs of
+/// culled faces. Adds one to `rays` for each ray, however many masks it passes.
+///
+/// With masks, what blocks a ray does not depend on the order of its hits. So it is one search in a hierarchy. Tracers
+/// that test all primitives search for the nearest hit again and again, with code that paths need anyway: that is
+/// faster among few primitives (docs/performance.md, "GPU, hierarchies").
+template <class Effects, class Real, class Tracer>
+TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene, const ShadowRay<Real>& shadow,
+                                          UInt<Real>& rays) {
+    count_rays<Effects, Real>(shadow.active, rays);
+    if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) {
+        return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
+    }
+    if (has_no_masks(scene)) {
+        return tracer.occluded(shadow.ray, shadow.t_max, CulledShadowSource<Real>{shadow.source}, shadow.active);
+    }
+    if constexpr (requires { tracer.finds_blockers(); }) {
+        if (tracer.finds_blockers()) {
+            MaskedHits<Tracer::kinds, Real> hits(scene, shadow);
+            const MaskedShadowSource<Real> source = {shadow.source, shadow.source.light};
+            return tracer.find_blocker(shadow.ray, shadow.t_max, source, shadow.active, hits);
+        }
+    }
+    return shadow_detail::is_blocked_one_by_one<Effects>(tracer, scene, shadow);
+}
+
 /// Whether `light` is blocked at `point`, in the lanes of `active`. A light exactly at the point counts as blocked.
 template <class Effects, class Real, class Tracer>
 TANDEM_HD_CALL_ON(host)
@@ -121,7 +103,7 @@ Mask<Real> is_blocked(const Tracer& tracer, const SceneView& scene, const Incide
                       const SurfacePoint<Real>& point, const Mask<Real>& active, UInt<Real>& rays) {
     ShadowRay<Real> shadow = spawn_shadow_ray(point, light.position_or_direction, light.primitive, light.is_far);
     shadow.active = shadow.active && active;
-    return (active && !shadow.active) || is_blocked_by_opaque<Effects>(tracer, scene, light, shadow, rays);
+    return (active && !shadow.active) || is_blocked_by_opaque<Effects>(tracer, scene, shadow, rays);
 }
 
 }  // namespace tandem

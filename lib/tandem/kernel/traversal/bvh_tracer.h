@@ -36,7 +36,6 @@ template <std::uint32_t kind_set, Decisions decisions = Decisions::in_leaves>
 struct BvhStructure {
     static constexpr std::uint32_t kinds = kind_set;
     static constexpr bool has_hierarchy = true;
-    static constexpr bool finds_blockers = true;
     /// At the edges of a mesh more than two faces are unsure.
     static constexpr int most_candidates = (kinds & PrimitiveKinds::faces) != 0 ? 4 : 2;
 
@@ -60,25 +59,36 @@ struct BvhStructure {
             try_what_was_missed(ray, source, best);
     }
 
-    /// Searches for a primitive that blocks a shadow ray before `t_max`, in any order. Stops where `blocks(id)` says so
-    /// of one that the ray may hit, or where the ray certainly hits one that lets nothing pass.
-    template <class Real, class Blocks>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                      const MaskedShadowSource<Real>& source,
-                                                      const Blocks& blocks) const {
+    /// Whether the tracer has find_blocker().
+    TANDEM_HD_INLINE static constexpr bool finds_blockers() { return true; }
+
+    /// Whether something blocks a shadow ray at t < t_max, where primitives may let it pass. `hits` decides: MaskedHits
+    /// (kernel/masked_hits.h).
+    template <class Real, class Hits>
+    TANDEM_HD_INLINE bool find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
+                                       const MaskedShadowSource<Real>& source, bool active, Hits& hits) const {
+        if (!active) return false;
         const Proposal<Real> proposal = propose(ray);
-        if (!proposal.active) return {};
+        if (!proposal.active) return false;
         const float limit = first_limit(proposal, t_max);
         bvh_detail::WalkEnd end{};
         if constexpr (decides_behind<Real>) {
-            end = find_blocker_behind_walk(source, proposal, limit, to_plain(proposal.start(t_max)), blocks);
+            end = find_blocker_behind_walk(source, proposal, limit, to_plain(proposal.start(t_max)), hits);
         } else {
             const NodeRay node_ray = make_node_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
             end = bvh_detail::walk<false>(bvh, node_ray, 0.0F, limit,
-                                          [&](std::uint32_t entry) { return blocks(bvh.entry_ids[entry]); });
+                                          [&](std::uint32_t entry) { return hits.block(bvh.entry_ids[entry], true); });
         }
-        if (is_linked && end.stack_was_full) bvh_detail::count(bvh.stack_overflows);
-        return end;
+        if (end.stack_was_full) [[unlikely]] {
+            bvh_detail::count(bvh.stack_overflows);
+            if constexpr (!is_linked) {
+                hits.begin_again();
+                for (std::uint32_t id = 0; id < primitive_count(scene) && !end.stopped; ++id) {
+                    end.stopped = hits.block(id, true);
+                }
+            }
+        }
+        return end.stopped;
     }
 
     template <class Real>
@@ -247,11 +257,11 @@ struct BvhStructure {
         return end;
     }
 
-    /// Asks about candidates whenever there is no place for more.
-    template <class Real, class Blocks>
+    /// Decides about candidates whenever there is no place for more.
+    template <class Real, class Hits>
     TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker_behind_walk(const MaskedShadowSource<Real>& source,
                                                                   const Proposal<Real>& proposal, float limit,
-                                                                  float enough, const Blocks& blocks) const {
+                                                                  float enough, Hits& hits) const {
         const QueryRay query = make_query_ray(proposal, bvh.frame, source);
         const NodeRay node_ray = make_node_ray(query.origin, query.direction);
         bvh_detail::LocalStack stack;
@@ -265,15 +275,16 @@ struct BvhStructure {
                 std::uint32_t id = no_primitive;
                 const HitInterval interval = interval_at<Real>(at.entry(), source, query, id);
                 if (interval.lo <= limit) {
-                    const bool is_certain = interval.hi < enough && id != source.light;
-                    if (is_certain && !has_alpha_mask(scene, material_of<kinds>(scene, id))) return {true, false};
+                    if (interval.hi < enough && !may_let_pass<kinds>(scene, id, id == source.light)) {
+                        return {true, false};
+                    }
                     candidates.add(interval.lo, id, limit);
                     is_full = candidates.is_full(limit);
                 }
                 at.pop(stack);
             }
             bool blocked = false;
-            candidates.for_each(limit, [&](std::uint32_t id) { blocked = blocked || blocks(id); });
+            candidates.for_each(limit, [&](std::uint32_t id) { blocked = blocked || hits.block(id, true); });
             if (blocked) return {true, false};
         } while (!at.is_done());
         return {false, at.depth > 0};

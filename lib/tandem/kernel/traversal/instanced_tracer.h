@@ -196,7 +196,6 @@ struct Walk {
 struct InstancedStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all | PrimitiveKinds::instanced;
     static constexpr bool has_hierarchy = true;
-    static constexpr bool finds_blockers = true;
 
     InstancedView scene;
     DeferringBvhTracer others;  ///< the other primitives; without nodes if there are none
@@ -212,18 +211,19 @@ struct InstancedStructure {
         find_in_instances<search>(ray, source, best);
     }
 
+    /// Whether the tracer has find_blocker().
+    TANDEM_HD_INLINE static constexpr bool finds_blockers() { return true; }
+
     /// As BvhStructure::find_blocker(). Materials of instanced meshes have no alpha masks and do not glow
     /// (compile/place_instances.cpp).
-    template <class Real, class Blocks>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
-                                                      const MaskedShadowSource<Real>& source,
-                                                      const Blocks& blocks) const {
-        bvh_detail::WalkEnd end{};
-        if (others.bvh.nodes != nullptr) end = others.find_blocker(ray, t_max, source, blocks);
-        if (end.stopped || end.stack_was_full) return end;
+    template <class Real, class Hits>
+    TANDEM_HD_INLINE bool find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
+                                       const MaskedShadowSource<Real>& source, bool active, Hits& hits) const {
+        if (!active) return false;
+        if (others.bvh.nodes != nullptr && others.find_blocker(ray, t_max, source, true, hits)) return true;
         Closest<Real> best = closest_starting_at<Real>(t_max);
         find_in_instances<Search::any>(ray, CulledShadowSource<Real>{{source}}, best);
-        return {best.t < t_max, false};
+        return best.t < t_max;
     }
 
   private:

@@ -231,6 +231,12 @@ TANDEM_HD_INLINE bool has_alpha_mask(const SceneView& scene, std::uint32_t mater
     return has_textures(scene.textures) && scene.textures.materials[material].alpha_cutoff > 0.0F;
 }
 
+/// Whether primitive `id` may let shadow rays pass, as the light of one or by an alpha mask.
+template <std::uint32_t kinds>
+TANDEM_HD_INLINE bool may_let_pass(const SceneView& scene, std::uint32_t id, bool is_light) {
+    return is_light || has_alpha_mask(scene, material_of<kinds>(scene, id));
+}
+
 /// Calls visitor(primitive) with primitive `id`, of its own type; `kinds`: the ones that the scene may have.
 template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
