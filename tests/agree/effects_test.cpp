@@ -102,6 +102,10 @@ TEST_P(EffectBits, OfCutoutsInAHierarchyAreThoseOfTheLeastProcessor) {
         const std::string expected = film_hash(reference->render(reference->load(scene, GetParam().tier), job).film);
         EXPECT_EQ(film_hash(backend_->render(load(scene), job).film), expected) << "masks: " << has_masks;
     }
+    const PreparedScene leaves = prepare(named_scene("leaves/3000"));
+    ASSERT_TRUE(leaves.effects.covers(Effect::shadows | Effect::cutouts));
+    const std::string expected = film_hash(reference->render(reference->load(leaves, GetParam().tier), job).film);
+    EXPECT_EQ(film_hash(backend_->render(load(leaves), job).film), expected) << "leaves";
 }
 
 // The exact set, each set with one effect more, and the set of all effects.

@@ -185,7 +185,7 @@ TEST_P(FilmBits, ChangeWithSeedAndFrame) {
 }
 
 TEST_P(FilmBits, AreNearTheOracle) {
-    for (const char* name : {"paper", "mixed/64", "triangles/60", "quads/60", "icosphere/1"}) {
+    for (const char* name : {"paper", "mixed/64", "triangles/60", "quads/60", "leaves/60", "icosphere/1"}) {
         const PreparedScene scene = prepare(named_scene(name));
         const Film film = backend_->render(load(scene), job()).film;
         const Film oracle = render_with("oracle", {}, scene, job());

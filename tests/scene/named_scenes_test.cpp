@@ -39,6 +39,10 @@ TEST(NamedScenes, FacesAreWhatTheirNamesSay) {
     EXPECT_EQ(triangles.triangles.size(), 100U);
     EXPECT_EQ(triangles.triangles[0].attributes.sides, FaceSides::double_sided);
     EXPECT_EQ(prepare(named_scene("quads/3")).quads.size(), 3U);
+    const PreparedScene leaves = prepare(named_scene("leaves/40"));
+    EXPECT_EQ(leaves.quads.size(), 40U);
+    EXPECT_EQ(leaves.masked_kinds, PrimitiveKinds::quad);
+    EXPECT_TRUE(leaves.effects.covers(Effect::shadows | Effect::cutouts));
     const auto ball = prepare(named_scene("icosphere/2"));
     EXPECT_EQ(ball.triangles.size(), 320U);
     EXPECT_EQ(ball.normals.size(), 960U);

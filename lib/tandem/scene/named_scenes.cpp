@@ -241,6 +241,36 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
+/// A leaf: an ellipse of 32 x 32 texels, of one colour, with nothing around it.
+Image leaf() {
+    constexpr std::uint32_t edge = 32;
+    Image image{"leaf", edge, edge, {}};
+    for (std::uint32_t i = 0; i < edge * edge; ++i) {
+        const double x = (i % edge + 0.5) / (edge / 2.0) - 1, y = (i / edge + 0.5) / (edge / 2.0) - 1;
+        const std::uint32_t alpha = x * x + 3 * y * y < 0.9 ? 255U : 0U;
+        image.texels.push_back(90U | 160U << 8 | 60U << 16 | alpha << 24);
+    }
+    return image;
+}
+
+/// The quads of random_faces(), each with an alpha mask, which cast shadows.
+Scene random_leaves(const std::string& name, std::uint32_t count, std::uint32_t seed) {
+    Scene scene = random_faces(name, count, seed, 4);
+    scene.nodes[1].light->casts_shadows = true;
+    scene.images = {leaf()};
+    scene.textures = {{.image = 0}};
+    for (Mesh& mesh : scene.meshes) {
+        const Vec2f corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        std::vector<Vec2f>& texcoords = mesh.texcoords.emplace_back();
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) texcoords.push_back(corners[i % 4]);
+    }
+    for (Material& material : scene.materials) {
+        material.diffuse_texture = TextureReference{.texture = 0};
+        material.alpha_mode = AlphaMode::mask;
+    }
+    return scene;
+}
+
 Scene one_icosphere(const std::string& name, int level) {
     Scene scene = crowd(name);
     scene.meshes = {icosphere(level)};
@@ -288,6 +318,7 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
 std::size_t least_bytes(std::string_view kind) {
     if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
     if (kind == "quads") return 4 * 16 + 72;
+    if (kind == "leaves") return 4 * 16 + 72 + 2 * 4 * 8;  // and texture coordinates
     if (kind == "block" || kind == "city") return sizeof(Trs) + 240;
     return sizeof(Trs) + (kind == "spheres" ? 24 : kind == "mixed" ? 90 : 152);  // turned boxes have matrices
 }
@@ -305,9 +336,9 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }  // namespace
 
 std::vector<std::string> scene_names() {
-    return {"paper",          "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
-            "boxes/N[/SEED]", "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
-            "block/N[/SEED]", "city/N[/SEED]"};
+    return {"paper",           "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
+            "boxes/N[/SEED]",  "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
+            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -332,6 +363,7 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
             if (parts[0] == "triangles") return random_faces(full, *count, *seed, 3);
             if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
+            if (parts[0] == "leaves") return random_leaves(full, *count, *seed);
             if (parts[0] == "block" || parts[0] == "city") {
                 return instances_of_icosphere(full, *count, *seed, parts[0] == "city");
             }
