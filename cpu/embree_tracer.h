@@ -291,6 +291,7 @@ struct EmbreeTracer {
         return found || (query.proposal.active && query.best.t < t_max);
     }
 
+  private:
     /// Fills the common part of all queries; false if no lane can hit anything.
     template <class Real>
     TANDEM_HD_INLINE bool start(QueryContext<Real>& query, const Ray<Real>& ray, const Mask<Real>& active,

@@ -10,8 +10,7 @@
 
 namespace tandem::test {
 
-/// A few faces with any sides, some of them with a common corner or edge, and a ball. All
-/// triangles have the same v0.
+/// A few faces with any sides, some of them with a common edge, and a ball. All triangles have the same v0.
 inline PreparedScene any_faces(Random& random, int count = 4) {
     PreparedScene scene;
     scene.spheres.push_back({any_point(random), 0.1F});
