@@ -23,20 +23,11 @@ class PathSorter {
     TANDEM_HD_INLINE void take(SampleSets<Real>& samples) {
         for (int i = 0; i < packet_count; ++i) {
             Packet& packet = now_[i];
-            unsigned int free = (!packet.walk.working()).bits();
-            if (free == 0) continue;
-            Word x(0U), y(0U), sample(0U), place(0U), got(0U);
-            for (SampleItem item; free != 0 && samples.next(item); free &= free - 1) {
-                const int lane = lowest_bit(free);
-                set_lane(x, lane, item.x);
-                set_lane(y, lane, item.y);
-                set_lane(sample, lane, item.sample);
-                set_lane(place, lane, item.place);
-                set_lane(got, lane, 1U);
-            }
-            const Mask<Real> taken = got != Word(0U);
-            packet.walk.take_sample(x, y, sample, taken);
-            packet.place = select(taken, place, packet.place);
+            const Mask<Real> idle = !packet.walk.working();
+            if (!any(idle)) continue;
+            const LaneSamples<Real> next = samples.take(idle);
+            packet.walk.take_sample(next.x, next.y, next.sample, next.taken);
+            packet.place = select(next.taken, next.place, packet.place);
         }
     }
 
@@ -149,11 +140,7 @@ class PathSorter {
     TANDEM_HD_INLINE static void keep(const Vec3<Real>& radiance, const Word& place, const Mask<Real>& ended,
                                       SampleSets<Real>& samples, TileStats& stats) {
         const Addend<Real> addend = addend_of(radiance);
-        const Vec3<Wide<Real>> wide = to_wide(addend.radiance);
-        for (unsigned int rest = ended.bits(); rest != 0; rest &= rest - 1) {
-            const int i = lowest_bit(rest);
-            samples.keep(place[i], {wide.x[i], wide.y[i], wide.z[i]});
-        }
+        samples.keep(place, to_wide(addend.radiance), ended);
         stats.counters.invalid_samples +=
             static_cast<std::uint64_t>(std::popcount((ended && !addend.is_number).bits()));
     }

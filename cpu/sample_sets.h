@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "cpu/kernels.h"
 #include "cpu/tile_pixels.h"
@@ -10,38 +11,62 @@
 
 namespace tandem {
 
-/// A sample that a path is to follow.
-struct SampleItem {
-    std::uint32_t x, y;
-    std::uint32_t sample;
-    std::uint32_t place;  ///< of its radiance
+/// Samples that paths are to follow, one a lane.
+template <class Real>
+struct LaneSamples {
+    UInt<Real> x{0U}, y{0U};
+    UInt<Real> sample{0U};
+    UInt<Real> place{0U};     ///< of its radiance
+    Mask<Real> taken{false};  ///< the lanes that have one
 };
 
 /// Sets of some samples of a few pixels. Neighbouring lanes follow samples of one pixel, so that their rays visit the
 /// same nodes of a hierarchy. When all samples of a set are done, those of each pixel are added in their order, which
-/// gives the bits of one lane per pixel.
+/// gives the bits of one lane per pixel. Tested by tests/cpu/sample_sets_test.cpp.
 template <class Real>
 class SampleSets {
   public:
+    using Word = UInt<Real>;
+
     TANDEM_HD_INLINE SampleSets(const PixelJob& job, const Tile& tile, Vec3d* sums)
         : job_(job), pixels_(tile), sums_(sums) {}
 
-    /// The next sample to follow; false if there is none, or none until others are done.
-    TANDEM_HD_INLINE bool next(SampleItem& item) {
-        if (next_ == 0 && !begin_set()) return false;
-        const Set& set = sets_[(begun_ - 1) % set_count];
-        const std::uint32_t index = set.pixels * set.samples - next_;
-        const std::uint32_t pixel = index / set.samples, sample = index - pixel * set.samples;
-        --next_;
-        item = {set.x[pixel], set.y[pixel], job_.first_sample + set.first + sample,
-                (begun_ - 1) % set_count * set_size + index};
-        return true;
+    /// The next samples, for the lanes of `free` in their order. Fewer if no samples are left, or none until others are
+    /// done.
+    TANDEM_HD_INLINE LaneSamples<Real> take(const Mask<Real>& free) {
+        LaneSamples<Real> result;
+        const Word rank = lanes_before(free);
+        const auto wanted = static_cast<std::uint32_t>(std::popcount(free.bits()));
+        for (std::uint32_t taken = 0; taken != wanted && (next_ != 0 || begin_set());) {
+            const std::uint32_t slot = (begun_ - 1) % set_count;
+            const Set& set = sets_[slot];
+            const std::uint32_t count = std::min(wanted - taken, next_);
+            const Word from_here = rank - Word(taken);  // wraps in the lanes that have a sample
+            const Mask<Real> here = free && from_here < Word(count);
+            const Word index = select(here, from_here + Word(set.pixels * set.samples - next_), Word(0U));
+            const Word pixel = (index * Word(set.inverse_samples)) >> inverse_bits;
+            const Word first_sample(job_.first_sample + set.first);
+            result.x = select(here, permute(set.x, pixel), result.x);
+            result.y = select(here, permute(set.y, pixel), result.y);
+            result.sample = select(here, first_sample + index - pixel * Word(set.samples), result.sample);
+            result.place = select(here, Word(slot * set_size) + index, result.place);
+            result.taken = result.taken || here;
+            next_ -= count;
+            taken += count;
+        }
+        return result;
     }
 
-    /// The radiance of a sample that is done.
-    TANDEM_HD_INLINE void keep(std::uint32_t place, const Vec3d& radiance) {
-        radiances_[place] = radiance;
-        --sets_[place / set_size].open;
+    /// The radiances of the samples of `done`, at their places.
+    TANDEM_HD_INLINE void keep(const Word& places, const Vec3<Wide<Real>>& radiances, const Mask<Real>& done) {
+        for (unsigned int rest = done.bits(); rest != 0; rest &= rest - 1) {
+            const int i = lowest_bit(rest);
+            radiances_[places[i]] = {radiances.x[i], radiances.y[i], radiances.z[i]};
+        }
+        for_each_unique_lane(places >> std::countr_zero(set_size), done,
+                             [&](std::uint32_t slot, const Mask<Real>& of_set) {
+                                 sets_[slot].open -= static_cast<std::uint32_t>(std::popcount(of_set.bits()));
+                             });
     }
 
     /// Adds the sets that are done to the sums.
@@ -60,12 +85,14 @@ class SampleSets {
     }
 
   private:
+    static constexpr int inverse_bits = 16;
     static constexpr std::uint32_t most_samples = 8, set_size = most_samples * Real::size, set_count = 8;
 
     struct Set {
-        std::array<std::uint32_t, Real::size> x, y;
+        Word x, y;  ///< of the pixels
         std::uint32_t pixels, first, samples;
-        std::uint32_t open;  ///< samples that are not done
+        std::uint32_t inverse_samples;  ///< 2^inverse_bits / samples, rounded up: gives exact quotients below set_size
+        std::uint32_t open;             ///< samples that are not done
     };
 
     TANDEM_HD_INLINE bool begin_set() {
@@ -78,12 +105,12 @@ class SampleSets {
             set.pixels = last->pixels;
             set.first = last->first + last->samples;
         } else {
-            set.pixels = 0;
-            while (set.pixels != Real::size && pixels_.next(set.x[set.pixels], set.y[set.pixels])) ++set.pixels;
+            set.pixels = static_cast<std::uint32_t>(std::popcount(pixels_.next(set.x, set.y).bits()));
             set.first = 0;
             if (set.pixels == 0) return false;
         }
         set.samples = std::min(most_samples, job_.samples - set.first);
+        set.inverse_samples = ((1U << inverse_bits) + set.samples - 1) / set.samples;
         set.open = next_ = set.pixels * set.samples;
         ++begun_;
         return true;

@@ -235,6 +235,26 @@ TANDEM_HD Mask<Real> gathered_less(const UInt<Real>& a, const UInt<Real>& b, con
     }
 }
 
+/// `a` by way of a register, where its lanes lie the other way round.
+template <class Real>
+TANDEM_HD UInt<Real> permuted(const UInt<Real>& a) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return a;
+    } else {
+        return permute(reversed<Real>(a), from_end<Real>());
+    }
+}
+/// lanes_before() less the number that counting one lane after the other gives: 0.
+template <class Real>
+TANDEM_HD UInt<Real> miscounted_before(const Mask<Real>& mask) {
+    if constexpr (RealTraits<Real>::lanes == 1) {
+        return 0U;
+    } else {
+        std::uint32_t count = 0;
+        return lanes_before(mask) - UInt<Real>::from([&](int i) { return mask[i] ? count++ : count; });
+    }
+}
+
 /// The entry of a table with two rows, by any words.
 template <class Real, class T>
 TANDEM_HD auto looked_up(const UInt<Real>& a, const UInt<Real>& b) {
@@ -350,6 +370,8 @@ TANDEM_HD Double<Real> globe(const Double<Real>& x, const Double<Real>& y, const
     OPERATION(U, gather, gathered<Real>(a))                                                                          \
     OPERATION(U, pick, picked<Real>(a, b, c))                                                                        \
     OPERATION(U, pick_mask, picked<Real>(a < b, b < a, c))                                                           \
+    OPERATION(U, permute, permuted<Real>(a))                                                                         \
+    OPERATION(U, lanes_before, miscounted_before<Real>(a < b))                                                       \
     OPERATION(U, gather_mask, gathered_less<Real>(a, b, c & U(1U)))                                                  \
     OPERATION(U, table_of_floats, (looked_up<Real, float>(a, b)))                                                    \
     OPERATION(U, table_of_doubles, (looked_up<Real, double>(a, b)))                                                  \

@@ -297,6 +297,27 @@ TANDEM_HD_INLINE V gather(const void* base, Offsets offsets) {
     }
 }
 
+/// The 32-bit elements at the given places of a register.
+template <class V, class Places>
+TANDEM_HD_INLINE V permute(V values, Places places) {
+    static_assert(sizeof(V) == sizeof(Places) && sizeof(values[0]) == 4);
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    if constexpr (sizeof(V) == 64) {
+        return reinterpret_cast<V>(_mm512_maskz_permutexvar_epi32(0xFFFF, reinterpret_cast<__m512i>(places),
+                                                                  reinterpret_cast<__m512i>(values)));
+    } else
+#endif
+#if defined(__AVX2__)
+        if constexpr (sizeof(V) == 32) {
+        return reinterpret_cast<V>(
+            _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(values), reinterpret_cast<__m256i>(places)));
+    } else
+#endif
+    {
+        return gather<V>(&values, places << 2);
+    }
+}
+
 }  // namespace lanes_detail
 
 }  // namespace tandem

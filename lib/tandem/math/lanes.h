@@ -348,4 +348,27 @@ TANDEM_HD_INLINE Lanes<std::uint32_t, I> lane_index(const Lanes<std::uint32_t, I
     return Lanes<std::uint32_t, I>::from([](int lane) { return static_cast<std::uint32_t>(lane); });
 }
 
+/// Lane i is the value of lane[i]; each lane number is below the size.
+template <class T, class I>
+TANDEM_HD_INLINE Lanes<T, I> permute(const Lanes<T, I>& values, const Lanes<std::uint32_t, I>& lane) {
+    static_assert(Lanes<T, I>::parts == 1);
+    Lanes<T, I> result;
+    result.part[0] = lanes_detail::permute(values.part[0], lane.part[0]);
+    return result;
+}
+
+/// For each lane, how many lanes of the mask are before it.
+template <class I>
+TANDEM_HD_INLINE Lanes<std::uint32_t, I> lanes_before(const LaneMask<I>& mask) {
+    using Word = Lanes<std::uint32_t, I>;
+    static_assert(Word::size <= 16);
+    const Word before = Word::from([](int lane) { return (1U << lane) - 1U; });
+    // counts bits in ever larger groups
+    Word count = Word(mask.bits()) & before;
+    count = count - ((count >> 1) & Word(0x5555U));
+    count = (count & Word(0x3333U)) + ((count >> 2) & Word(0x3333U));
+    count = (count + (count >> 4)) & Word(0x0F0FU);
+    return (count + (count >> 8)) & Word(0x1FU);
+}
+
 }  // namespace tandem
