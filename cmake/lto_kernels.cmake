@@ -28,7 +28,7 @@ endfunction()
 # tandem_share_optimiser(TARGET ALONE_FROM): runs the optimiser once for the GPUs before ALONE_FROM, for the lowest of
 # them, and assembles machine code from its output; from ALONE_FROM on it runs for each. ALONE_FROM: a compute capability
 # times 10; 0 for code that depends on the GPU, 1000 to run it once for all. From 90 on, the optimiser uses an instruction
-# that makes traversal faster (docs/performance.md, "A cold build").
+# that makes traversal faster (docs/performance/build-time.md).
 function(tandem_share_optimiser target alone_from)
   tandem_cuda_architectures(architectures)
   tandem_lowest_architecture(lowest)
@@ -52,7 +52,7 @@ function(tandem_share_optimiser target alone_from)
   target_compile_options(${target} PRIVATE ${options})
 endfunction()
 
-# Optimised as far as possible without the facts, so that a link starts from there (docs/performance.md). Not every
+# Optimised as far as possible without the facts, so that a link starts from there (docs/performance/paths.md). Not every
 # supported toolkit may have the option.
 execute_process(
   COMMAND ${CMAKE_CUDA_COMPILER} --help
@@ -63,7 +63,7 @@ set(tandem_optimised_lto)
 if(tandem_nvcc_help MATCHES "--gen-opt-lto")
   set(tandem_optimised_lto --gen-opt-lto)
 endif()
-# Fewer optimisations, for tests: half of the time to compile (docs/performance.md). It allows no approximation.
+# Fewer optimisations, for tests: half of the time to compile (docs/performance/build-time.md). It allows no approximation.
 set(tandem_quick_device_code)
 if(tandem_nvcc_help MATCHES "--Ofast-compile")
   set(tandem_quick_device_code --Ofast-compile=max)
@@ -98,7 +98,7 @@ function(tandem_compile_to_lto fatbin)
   endif()
   set(tier tandem_cuda_${arg_TIER})
   set(includes ${arg_INCLUDES} $<TARGET_PROPERTY:${tier},INTERFACE_INCLUDE_DIRECTORIES>)
-  # Optimising takes six sevenths of the time, and pays from the second link on (docs/performance.md).
+  # Optimising takes six sevenths of the time, and pays from the second link on (docs/performance/build-time.md).
   set(optimised ${tandem_optimised_lto})
   if(TANDEM_QUICK_BASELINE AND NOT arg_TIER IN_LIST TANDEM_COMPILED_TIERS)
     set(optimised)
@@ -176,8 +176,8 @@ function(tandem_add_compiled_kernels target)
   # options were. With one, it passes on all of these options, with nvcc's values for divisions and square roots.
   get_target_property(options tandem_cuda_${arg_TIER} TANDEM_LINK_OPTIONS)
   list(TRANSFORM options PREPEND -Xnvvm=)
-  # One link for all GPUs, because the optimiser's output does not depend on the GPU (docs/performance.md): PTX of the lowest,
-  # which is assembled for each.
+  # One link for all GPUs, because the optimiser's output does not depend on the GPU (docs/performance/build-time.md): PTX of
+  # the lowest, which is assembled for each.
   tandem_lowest_architecture(lowest)
   set(ptx ${name}.ptx)
   add_custom_command(

@@ -1,5 +1,5 @@
 # With TANDEM_UNITY files that read the same large headers are compiled together: most of the time to compile one of them
-# goes into those headers and into templates that its neighbours instantiate too (docs/performance.md).
+# goes into those headers and into templates that its neighbours instantiate too (docs/performance/build-time.md).
 
 if(TANDEM_UNITY)
   # g++ collects garbage as often as small files need; in these files that takes a tenth of the time.

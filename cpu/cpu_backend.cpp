@@ -37,15 +37,16 @@ namespace tandem {
 
 namespace {
 
-/// Up to this number of primitives a packet tests all of them; for more, it queries Embree (docs/performance.md).
+/// Up to this number of primitives a packet tests all of them; for more, it queries Embree
+/// (docs/performance/hierarchies.md).
 constexpr std::size_t loop_limit = 24;
 
 /// The least memory that Embree's hierarchy takes while it is built; we measured 115 bytes with Embree 3.13.
 constexpr std::size_t bvh_bytes_per_primitive = 100;
 
-/// From this number of primitives on, single rays may go through a hierarchy of groups (docs/performance.md). Its build
-/// raised the peak of the memory by 117 bytes a primitive, for three million spheres and for 1.3 million triangles of a
-/// mesh.
+/// From this number of primitives on, single rays may go through a hierarchy of groups (docs/performance/cpu.md). Its
+/// build raised the peak of the memory by 117 bytes a primitive, for three million spheres and for 1.3 million
+/// triangles of a mesh.
 constexpr std::size_t least_for_groups = 20'000;
 constexpr std::size_t group_bytes_per_primitive = 120;
 

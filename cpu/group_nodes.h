@@ -1,4 +1,4 @@
-/// The nodes of the hierarchy of groups, which single rays traverse (docs/performance.md, "CPU").
+/// The nodes of the hierarchy of groups, which single rays traverse (docs/performance/cpu.md).
 #pragma once
 
 #include "cpu/primitive_groups.h"

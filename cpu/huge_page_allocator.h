@@ -1,5 +1,5 @@
 /// Memory for arrays that rays read in random order: with larger pages, fewer reads miss the processor's TLB
-/// (docs/performance.md, "CPU").
+/// (docs/performance/cpu.md).
 #pragma once
 
 #include <sys/mman.h>

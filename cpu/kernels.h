@@ -55,7 +55,7 @@ struct TileStats {
 };
 
 /// The sets of effects that the path loop is compiled for, chosen by the cost of carried effects in the scenes of
-/// assets/scenes (docs/performance.md, "CPU"). `exact` is for measuring that cost (CMake variable
+/// assets/scenes (docs/performance/cpu.md). `exact` is for measuring that cost (CMake variable
 /// TANDEM_EXACT_VARIANT).
 inline constexpr KernelVariant variants[] = {
     {"plain", {}},

@@ -1,5 +1,5 @@
 /// Groups of neighbouring primitives. In the hierarchy that single rays traverse, a leaf is a group, so that a ray is
-/// tested against several primitives at once (docs/performance.md, "CPU").
+/// tested against several primitives at once (docs/performance/cpu.md).
 #pragma once
 
 #include "tandem/kernel/shapes/hit.h"

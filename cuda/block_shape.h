@@ -43,7 +43,7 @@ struct RenderGrid {
     return at_a_time;
 }
 
-/// How many threads share a pixel, for paths of one vertex (docs/performance.md, "Threads share pixels"). In a
+/// How many threads share a pixel, for paths of one vertex (docs/performance/shared-pixels.md). In a
 /// hierarchy of few primitives, rays through larger tiles visit the same nodes too; so fewer threads begin each pixel
 /// and exchange its radiances, and an idle thread is worth less.
 [[nodiscard]] inline std::uint32_t sharing_threads(std::uint32_t samples, std::size_t primitives) {

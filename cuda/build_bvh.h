@@ -46,7 +46,7 @@ struct BuildEffort {
     bool far;                    ///< clusters look for the nearest within 12 places of the curve, else within 8
 };
 
-/// For a scene of that many primitives. Chosen by measurement (docs/performance.md).
+/// For a scene of that many primitives. Chosen by measurement (docs/performance/hierarchies.md).
 [[nodiscard]] constexpr BuildEffort effort_for(std::uint32_t primitives) {
     return primitives <= 2'000'000 ? BuildEffort{4096, 8, true} : BuildEffort{512, 0, false};
 }

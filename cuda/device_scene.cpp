@@ -17,7 +17,7 @@ namespace tandem::cuda {
 
 namespace {
 
-/// Up to this number of primitives a kernel tests all of them (docs/performance.md).
+/// Up to this number of primitives a kernel tests all of them (docs/performance/hierarchies.md).
 constexpr std::size_t loop_limit = 12;
 
 /// Lays out arrays one after another, each aligned for 16-byte loads.
@@ -79,7 +79,7 @@ class Layout {
 /// length. The criterion is how many boxes of triangles a line through the scene hits on average: the sum of the boxes'
 /// areas, estimated from some triangles, over the area of the scene's box. This number is 4 for a sphere of fine
 /// triangles, and 8.9 for a million triangles without order (named:triangles/1000000), the two scenes in which the
-/// limit was tried (docs/performance.md).
+/// limit was tried (docs/performance/hierarchies.md).
 bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
     constexpr std::uint32_t most_inspected = 1024;
     constexpr double many = 8;

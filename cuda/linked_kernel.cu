@@ -58,7 +58,7 @@ struct LinkedEffects {
 using LinkedReal = tier_real::TANDEM_LINKED_TIER;
 
 #if defined(TANDEM_SHORT_PATHS)
-// Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance.md).
+// Blocks per multiprocessor: measured on an H200 against 1, 3, 4, 6 and 8 (docs/performance/paths.md).
 #define TANDEM_LINKED_BOUNDS __launch_bounds__(block_threads, std::is_same_v<LinkedReal, double> ? 4 : 6)
 #else
 // None: the link limits registers (most_registers() in scene_kernels.cpp), and registers limit threads (pixel_queue()).
@@ -71,8 +71,8 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
                                                               void* __restrict__ radiances,
                                                               DeviceCounters* __restrict__ counters) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_SHORT_PATHS) && __CUDACC_VER_MAJOR__ >= 13
-    // Spills registers to shared memory first, most of which is otherwise unused (docs/performance.md, "Registers of
-    // kernels for long paths").
+    // Spills registers to shared memory first, most of which is otherwise unused (docs/performance/paths.md, "Registers
+    // of kernels for long paths").
     asm volatile(".pragma \"enable_smem_spilling\";");
 #endif
 #if defined(TANDEM_SHORT_PATHS)

@@ -18,7 +18,7 @@ namespace tandem::cuda {
                                  cudaStream_t stream);
 
 /// The factor by which the cost of rays may rise before a tree is built again. Chosen by measurement
-/// (docs/performance.md).
+/// (docs/performance/hierarchies.md).
 inline constexpr double most_wear = 1.05;
 
 /// Whether a tree that was `built` and refitted has become so bad that it should be built again: by its cost relative

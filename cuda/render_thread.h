@@ -109,7 +109,7 @@ __device__ __forceinline__ void render_short(const Tracer& tracer, const PixelJo
 
 /// Pixels from a queue, for longer paths (synchronising_effects): a thread that is finished takes the next pixel. The
 /// threads of a block synchronise before each vertex, because the code of a vertex is larger than the instruction
-/// caches: so the instructions are fetched once for all warps (docs/performance.md). The assignment of pixels to
+/// caches: so the instructions are fetched once for all warps (docs/performance/paths.md). The assignment of pixels to
 /// threads changes no bit.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJob& job, std::uint32_t height,

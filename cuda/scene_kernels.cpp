@@ -94,7 +94,7 @@ bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bit
 
 /// The most registers of a thread; 0: as the launch bounds of a kernel without a queue say. A multiprocessor has room
 /// for 12 warps with 168 registers and for 16 with 128. Long code with doubles is faster with fewer warps and fewer
-/// spills; measured for the tier strict by effects (docs/performance.md, "Registers of kernels for long paths").
+/// spills; measured for the tier strict by effects (docs/performance/paths.md, "Registers of kernels for long paths").
 int most_registers(Tier tier, EffectMask effects) {
     constexpr int for_12_warps = 168, for_16_warps = 128;
     if (!has_queue(effects)) return 0;
@@ -205,8 +205,8 @@ std::span<const std::byte> compiled_code(Tier tier, Structure structure, bool fa
     return {};
 }
 
-// Measured on an H200 (docs/performance.md, "Blocks of kernels for long paths"). Much of the code of exact tiers runs
-// on few threads, so it may exceed the caches by more; in a loop over few primitives each thread uses more of it.
+// Measured on an H200 (docs/performance/paths.md, "Blocks of kernels for long paths"). Much of the code of exact tiers
+// runs on few threads, so it may exceed the caches by more; in a loop over few primitives each thread uses more of it.
 unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes) {
     const std::size_t most = tier == Tier::fast ? 90'000 : has_hierarchy(structure) ? 150'000 : 120'000;
     return code_bytes > 0 && code_bytes <= most ? 2 : 1;

@@ -1,7 +1,7 @@
 /// One pixel whose samples several neighbouring threads of a warp compute.
 ///
 /// Rays through one pixel differ less than rays through a tile of pixels. So the threads of a warp visit the same nodes
-/// of a hierarchy, and fewer of them wait for others (docs/performance.md, "Threads share pixels").
+/// of a hierarchy, and fewer of them wait for others (docs/performance/shared-pixels.md).
 #pragma once
 
 #include <type_traits>

@@ -9,7 +9,7 @@
 namespace tandem::cuda {
 
 /// Blocks per multiprocessor: with 8 a thread has 64 registers, with 6 it has 80, with 4 it has 128. Measured on an
-/// H200 (docs/performance.md): fewer blocks do not hide the latency of double precision, and more cause spills.
+/// H200 (docs/performance/paths.md): fewer blocks do not hide the latency of double precision, and more cause spills.
 template <class Real, class Tracer>
 inline constexpr unsigned int resident_blocks = [] {
     if (std::is_same_v<Real, double>) return 4;

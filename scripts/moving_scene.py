@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes a glTF file in which many primitives move, to measure hierarchies that are refitted (docs/performance.md).
+"""Writes a glTF file in which many primitives move, to measure hierarchies that are refitted
+(docs/performance/hierarchies.md).
 
     scripts/moving_scene.py FILE.glb spheres|triangles PRIMITIVES GROUPS STEP
 

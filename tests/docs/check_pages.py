@@ -10,10 +10,22 @@ pages = [*root.glob("*.md"), *root.glob("docs/**/*.md")]
 problems = []
 
 
+def anchors(page):
+    """The anchors of a page's headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ +(.*)$", re.sub(r"```.*?```", "", page.read_text(), flags=re.S), re.M)
+    words = (re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading) for heading in headings)
+    return {re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-") for text in words}
+
+
 def check_links(page, text):
-    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", text):
-        if not re.match(r"[a-z]+:", target) and not (page.parent / target).exists():
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        file = page.parent / target if target else page
+        if not file.exists():
             problems.append(f"{page}: the link to {target} leads nowhere")
+        elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+            problems.append(f"{page}: {target} has no heading #{anchor}")
 
 
 def check_scripts(page, text):

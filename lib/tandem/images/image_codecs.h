@@ -57,7 +57,8 @@ struct DecodedImage {
 ///   level 3                   17 ms  92 kB    91 ms 768 kB
 ///   level 6                   37 ms  64 kB   270 ms 684 kB
 /// Choosing the filter row by row takes about 20 ms more and saves at most a sixth. ISA-L takes a seventh of the time
-/// of runs only, for files of that size (docs/performance.md), and several threads may share it (png_encoder.h).
+/// of runs only, for files of that size (docs/performance/program.md), and several threads may share it
+/// (png_encoder.h).
 [[nodiscard]] Bytes encode_png(const ByteImageView& image, const ImageMetadata& metadata, int level);
 /// Every PNG; grey and palettes become RGB, alpha is dropped. The display is that of the metadata. Without metadata, a
 /// file with the chunk sRGB is sRGB, and in any other value / largest value is linear, whatever its other tags say.

@@ -10,7 +10,7 @@ namespace tandem {
 
 /// A path in each lane, one vertex at a time. A lane has no pixel before take(), and none after the last sample of its
 /// pixel. A lane or thread starts its next sample as soon as its path ends: it waits for the others at each vertex, not
-/// at each sample (docs/performance.md). The caller sums the radiance of the paths.
+/// at each sample (docs/performance/paths.md). The caller sums the radiance of the paths.
 template <class Effects, class Real>
 class PathWalk {
   public:

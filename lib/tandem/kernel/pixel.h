@@ -90,7 +90,7 @@ TANDEM_HD Addend<Real> addend_of(const Vec3<Real>& radiance) {
 }
 
 /// Adds the radiance of a sample. A call on the host: inline, the sums would take registers from the whole loop over
-/// samples (docs/performance.md, "CPU").
+/// samples (docs/performance/before-and-after.md).
 template <class Real>
 TANDEM_HD_CALL_ON(host)
 void add(const Vec3<Real>& radiance, PixelSum<Real>& pixel) {

@@ -31,7 +31,7 @@ Closest<Real> closest_by_call(const Tracer& tracer, Ray<Real> ray, From source, 
 ///
 /// Without effects that scatter, paths and shadow rays share one out-of-line copy, if the tracer tests all primitives.
 /// With such effects two copies are faster. A tracer with a hierarchy is never called out of line: after such a call
-/// the barrier of the block stopped with "illegal instruction" on an H200 (docs/performance.md, "Barriers").
+/// the barrier of the block stopped with "illegal instruction" on an H200 (docs/performance/paths.md, "Barriers").
 template <class Effects, class Real, class From, class Tracer>
 TANDEM_HD Closest<Real> nearest_hit(const Tracer& tracer, const Ray<Real>& ray, const From& source,
                                     const Mask<Real>& active, const Double<Real>& farthest = no_hit<Real>().t) {
@@ -75,7 +75,7 @@ TANDEM_HD Mask<Real> is_blocked_one_by_one(const Tracer& tracer, const SceneView
 ///
 /// With masks, what blocks a ray does not depend on the order of its hits. So it is one search in a hierarchy. Tracers
 /// that test all primitives search for the nearest hit again and again, with code that paths need anyway: that is
-/// faster among few primitives (docs/performance.md, "GPU, hierarchies").
+/// faster among few primitives (docs/performance/hierarchies.md).
 template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene, const ShadowRay<Real>& shadow,
                                           UInt<Real>& rays) {

@@ -17,7 +17,7 @@
 /// TANDEM_HD_CALL_ON(side) a call on one side, always inline on the other. `host`: a step of the path loop; the call
 ///                         keeps compile time linear in the code, and on the device it would need a stack. `device`:
 ///                         long code with many callers, because warps wait if the code is larger than the instruction
-///                         caches (docs/performance.md); inline in kernels that fit into the caches too
+///                         caches (docs/performance/paths.md); inline in kernels that fit into the caches too
 ///                         (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
 /// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
 ///                         short

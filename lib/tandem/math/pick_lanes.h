@@ -70,7 +70,7 @@ template <std::size_t stride, class T, class I>
 TANDEM_HD_INLINE Lanes<T, I> pick(const Lanes<T, I>& first, const Lanes<std::uint32_t, I>& place) {
     static_assert(stride % alignof(Lanes<T, I>) == 0);
 #if TANDEM_MASK_REGISTERS
-    if constexpr (I::bytes == 64) {  // gathering takes longer: docs/performance.md, "Re-sorting paths"
+    if constexpr (I::bytes == 64) {  // gathering takes longer: docs/performance/cpu.md, "Re-sorting paths"
         using Vector = typename Lanes<T, I>::Vector;
         const auto* from = reinterpret_cast<const std::byte*>(&first);
         Lanes<T, I> result;

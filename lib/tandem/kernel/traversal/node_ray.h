@@ -61,7 +61,7 @@ TANDEM_HD_INLINE std::int32_t least_of(std::int32_t a, std::int32_t b, std::int3
 
 /// 8 + b / 128, where b is the byte of `child`. `bits_of_8`: see BvhView. On the GPU one permutation of bytes makes two
 /// halves, and the unit for floating-point multiplication converts these to float; the unit that permutes and compares
-/// is the busiest (docs/performance.md).
+/// is the busiest (docs/performance/hierarchies.md).
 TANDEM_HD_INLINE float plane_of(std::uint32_t bytes, std::uint32_t child, std::uint32_t bits_of_8) {
 #if TANDEM_ON_DEVICE
     const std::uint32_t halves = __byte_perm(bytes, bits_of_8, child < 2 ? 0x5150U : 0x5352U);
