@@ -75,7 +75,7 @@ class SampleSets {
             const std::uint32_t slot = added_++ % set_count;
             const Set& set = sets_[slot];
             const Vec3d* radiance = radiances_.data() + slot * set_size;
-            for (std::uint32_t pixel = 0; pixel < set.pixels; ++pixel) {
+            for (int pixel = 0; pixel < static_cast<int>(set.pixels); ++pixel) {
                 Vec3d& at = sums_[set.y[pixel] * job_.width + set.x[pixel]];
                 Vec3d sum = set.first == 0 ? Vec3d{0.0, 0.0, 0.0} : at;
                 for (std::uint32_t i = 0; i < set.samples; ++i) sum = sum + *radiance++;
