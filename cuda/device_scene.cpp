@@ -136,7 +136,7 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
 #undef TANDEM_TEXTURE_ARRAY
     }
     const PreparedInstances& instances = scene.instances;
-    const InstancedBvh instanced_bvh = instances.empty() ? InstancedBvh{} : build_instanced_bvh(instances);
+    const InstancedBvh instanced_bvh = instances.empty() ? InstancedBvh{} : build_instanced_bvh(scene);
     layout.add(instances.instances, view_.instanced.instances);
     layout.add(instances.meshes, view_.instanced.meshes);
     layout.add(instances.faces, view_.instanced.faces);

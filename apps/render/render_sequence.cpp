@@ -16,7 +16,6 @@
 #include "render/frame_pattern.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
-#include "tandem/compile/cutout_kinds.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/plane_names.h"
 #include "tandem/images/exposure.h"
@@ -245,7 +244,7 @@ class Sequence {
         const RenderJob& job = options_.job;
         const double bounds = bounds_per_ray(prepared, job.width, job.height);
         double work = bounds;
-        if (kinds_cut_out_by_alpha(view(prepared)) != 0) {
+        if (prepared.masked_kinds != 0) {
             work *= 1 + std::min(bounds, double{max_masked_hits});  // each masked hit costs a search of its own
             if (options_.shorter_paths && affordable_limits(job.limits, job.samples, work) != job.limits) {
                 effects_.off = effects_.off | Effect::cutouts;

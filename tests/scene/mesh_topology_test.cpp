@@ -89,6 +89,16 @@ TEST(Culling, CostsNothingWhereNoBackCanBeSeen) {
     EXPECT_TRUE(culls({5, 0, 0.2}, OrthographicCamera{1}, true)) << "its plane crosses the ball";
 }
 
+TEST(Culling, StaysWhereAnAlphaMaskOpensAClosedMesh) {
+    Scene scene = seen_from({0, 0, 3}, PerspectiveCamera{}, true);
+    const auto sides = [&] { return prepare(scene).triangles[0].attributes.sides; };
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(sides(), FaceSides::single_sided) << "the mask is nowhere open";
+    scene.meshes[0].colours.assign(scene.meshes[0].positions.size(), {{1, 1, 1}, 1});
+    scene.meshes[0].colours[0].alpha = 0;
+    EXPECT_EQ(sides(), FaceSides::culled);
+}
+
 TEST(Culling, IsForcedOffWithCutouts) {
     PrepareOptions options;
     options.effects.off = Effect::cutouts;

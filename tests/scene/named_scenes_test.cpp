@@ -76,6 +76,15 @@ TEST(NamedScenes, BlocksAndCitiesAreInstancesInTheirCells) {
     EXPECT_TRUE(contains(test::input_error([&] { (void)named_scene("city/0"); }), "city/N"));
 }
 
+TEST(NamedScenes, ForestsAreInstancesWithAlphaMasks) {
+    const PreparedScene forest = prepare(named_scene("forest/1000"));
+    EXPECT_EQ(forest.instances.instances.size(), 1000U);
+    EXPECT_EQ(forest.instances.faces.size(), 2000U);
+    EXPECT_EQ(forest.masked_kinds, PrimitiveKinds::triangle);
+    EXPECT_EQ(primitive_count(forest), 1U);
+    EXPECT_TRUE(forest.effects.covers(Effect::shadows | Effect::cutouts));
+}
+
 TEST(NamedScenes, SeedsMakeOtherScenesAndNamesTheSame) {
     const auto hash = [](const char* name) { return scene_hash(prepare(named_scene(name))); };
     EXPECT_EQ(hash("mixed/50"), hash("mixed/50/1"));

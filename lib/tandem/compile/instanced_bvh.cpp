@@ -113,15 +113,18 @@ float margin_of(const PreparedInstances& all, const InstancedMesh& mesh, const M
     return margin;
 }
 
-/// The numbers of instances that are not copies of an earlier one of the same mesh.
-std::vector<std::uint32_t> distinct_instances(const PreparedInstances& all) {
+/// The numbers of instances that are not copies of an earlier one of the same mesh, and of all with an alpha mask.
+std::vector<std::uint32_t> distinct_instances(const PreparedScene& scene) {
+    const PreparedInstances& all = scene.instances;
+    const SceneView scene_view = view(scene);
     std::vector<std::uint32_t> distinct;
     for (const InstancedMesh& mesh : all.meshes) {
+        const bool keeps_copies = has_alpha_mask(scene_view, mesh.material);
         std::unordered_set<std::string> seen;
         for (std::uint32_t i = mesh.first_instance; i < mesh.first_instance + mesh.instance_count; ++i) {
             std::string bytes(sizeof(Transform), '\0');
             std::memcpy(bytes.data(), &all.instances[i].render_from_object, sizeof(Transform));
-            if (seen.insert(std::move(bytes)).second) distinct.push_back(i);
+            if (seen.insert(std::move(bytes)).second || keeps_copies) distinct.push_back(i);
         }
     }
     return distinct;
@@ -129,8 +132,9 @@ std::vector<std::uint32_t> distinct_instances(const PreparedInstances& all) {
 
 }  // namespace
 
-InstancedBvh build_instanced_bvh(const PreparedInstances& all) {
-    const std::vector<std::uint32_t> distinct = distinct_instances(all);
+InstancedBvh build_instanced_bvh(const PreparedScene& scene) {
+    const PreparedInstances& all = scene.instances;
+    const std::vector<std::uint32_t> distinct = distinct_instances(scene);
     std::vector<Middle> middles;
     middles.reserve(all.meshes.size());
     for (const InstancedMesh& mesh : all.meshes) middles.push_back(middle_of(box_of(all, mesh)));
@@ -224,8 +228,9 @@ bool contains(const Box& box, const Vec3f& p) {
 
 }  // namespace
 
-std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedInstances& all) {
-    const std::vector<std::uint32_t> distinct = distinct_instances(all);
+std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedScene& scene) {
+    const PreparedInstances& all = scene.instances;
+    const std::vector<std::uint32_t> distinct = distinct_instances(scene);
     std::vector<std::size_t> place_of(all.instances.size(), distinct.size());
     for (std::size_t k = 0; k < distinct.size(); ++k) place_of[distinct[k]] = k;
     std::vector<std::int32_t> root_of(all.instances.size(), 0);

@@ -22,8 +22,7 @@ constexpr double farthest = 1e9;
 
 bool can_be_kept_once(const Mesh& mesh, const Material& material) {
     return mesh.triangles.size() / 3 >= least_faces_of_mesh && !material.unlit && !material.emissive_texture &&
-           norm1(material.optics.emission) == 0 && material.optics.transmission == 0 &&
-           material.alpha_mode == AlphaMode::opaque;
+           norm1(material.optics.emission) == 0 && material.optics.transmission == 0;
 }
 
 double frobenius_norm(const Matrix3& m) {
@@ -165,12 +164,12 @@ void InstanceList::add_to(RenderOrigin& origin, const Vec3d& camera) const {
     }
 }
 
-std::vector<PlacedSurface> InstanceList::take_back(const Vec3d& origin,
+std::vector<PlacedSurface> InstanceList::take_back(const Vec3d& origin, const PreparedScene& prepared,
                                                    const std::function<bool(const Aabb&)>& sees_outside_of) {
     std::vector<PlacedSurface> back;
     for (auto& [key, surfaces] : instances_) {
         if (scene_.materials[key.use.material].sides != FaceSides::culled) continue;
-        if (!scene_.meshes[key.use.mesh].is_closed) continue;
+        if (!hides_backs(scene_.meshes[key.use.mesh], key.use.material, prepared)) continue;
         const MeshFacts& of_mesh = facts(key.use.mesh);
         const auto is_seen_from_outside = [&](const PlacedSurface& surface) {
             const Vec3d centre = transform_point(surface.world_from_object, of_mesh.centre) - origin;
@@ -195,7 +194,7 @@ void InstanceList::place(const Vec3d& origin, const std::vector<CornerSlots>& sl
         const Mesh& mesh = scene_.meshes[key.use.mesh];
         FaceSides sides = scene_.materials[key.use.material].sides;
         // take_back() has returned those whose backs may be seen
-        if (sides == FaceSides::culled && mesh.is_closed) sides = FaceSides::single_sided;
+        if (sides == FaceSides::culled && hides_backs(mesh, key.use.material, scene)) sides = FaceSides::single_sided;
         const std::vector<Triangle> faces =
             faces_of(mesh, surfaces.size(), key.mirrors, sides, slots[key.use.material], scene);
         if (faces.empty()) continue;

@@ -19,9 +19,9 @@ struct MeshUse {
     friend auto operator<=>(const MeshUse&, const MeshUse&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The meshes that are kept once: triangles alone, with an opaque material that neither emits nor transmits, 64 faces
-/// or more, and 8 instances or more. Empty if their instances have fewer than `least_faces` faces in all, or if the
-/// scene has quads or a material that transmits.
+/// The meshes that are kept once: triangles alone, with a material that neither emits nor transmits, 64 faces or more,
+/// and 8 instances or more. Empty if their instances have fewer than `least_faces` faces in all, or if the scene has
+/// quads or a material that transmits.
 [[nodiscard]] std::set<MeshUse> instanced_uses(const Scene& scene, std::uint64_t least_faces);
 
 class InstanceList {
@@ -38,8 +38,9 @@ class InstanceList {
     /// camera.
     void add_to(RenderOrigin& origin, const Vec3d& camera) const;
 
-    /// Removes and returns the instances of closed meshes with culled faces in whose boxes the camera may be.
-    [[nodiscard]] std::vector<PlacedSurface> take_back(const Vec3d& origin,
+    /// Removes and returns the instances of meshes with culled faces that hides_backs(), but in whose boxes the camera
+    /// may be. `prepared`: with the textures.
+    [[nodiscard]] std::vector<PlacedSurface> take_back(const Vec3d& origin, const PreparedScene& prepared,
                                                        const std::function<bool(const Aabb&)>& sees_outside_of);
 
     /// Places the instances in render space. Faces that are degenerate in their mesh are dropped; those that rounding

@@ -123,6 +123,10 @@ PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, Face
     return Placer(mesh, world_from_object, sides, slots, scene).run();
 }
 
+bool hides_backs(const Mesh& mesh, std::uint32_t material, const PreparedScene& scene) {
+    return mesh.is_closed && !has_alpha_mask(view(scene), material);
+}
+
 Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object) {
     Aabb bounds;
     for (const Vec3f& position : mesh.positions) {

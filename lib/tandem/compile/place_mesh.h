@@ -37,6 +37,9 @@ struct PlacedMesh {
 PlacedMesh place_mesh(const Mesh& mesh, const Transform& world_from_object, FaceSides sides, const CornerSlots& slots,
                       PreparedScene& scene);
 
+/// Whether the backs of a mesh's faces cannot be seen from outside: it is closed, and no alpha mask opens it.
+[[nodiscard]] bool hides_backs(const Mesh& mesh, std::uint32_t material, const PreparedScene& scene);
+
 /// The bounds of a placed mesh, before its corners are rounded.
 [[nodiscard]] Aabb bounds_of(const Mesh& mesh, const Transform& world_from_object);
 

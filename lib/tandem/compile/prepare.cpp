@@ -90,7 +90,7 @@ class Preparer {
 #define TANDEM_PART_TEXTURE(part, needs, name, names, space, is) \
     for (const TextureUse& use : result_.names) result_.several_slots = result_.several_slots || use.slot != 0;
 #include "tandem/kernel/bsdf/lobes.def"
-        result_.masked_kinds = kinds_cut_out_by_alpha(view(result_));
+        result_.masked_kinds = kinds_cut_out_by_alpha(result_);
         result_.cutout_kinds |= result_.masked_kinds;
 #define TANDEM_ENVIRONMENT(Type, name, Authored, authored, needs, is) \
     if (scene_.authored) prepare_environment(*scene_.authored, result_);
@@ -237,7 +237,7 @@ class Preparer {
         }
         const std::vector<CornerSlots> slots = corner_slots(scene_);
         const std::vector<PlacedSurface> written_out =
-            instances_.take_back(origin, [this](const Aabb& box) { return sees_outside_of(box); });
+            instances_.take_back(origin, result_, [this](const Aabb& box) { return sees_outside_of(box); });
         surfaces_.insert(surfaces_.end(), written_out.begin(), written_out.end());
         const std::size_t faces = reserve_faces(slots);
         solids.place(origin, faces, result_);
@@ -279,10 +279,11 @@ class Preparer {
         return triangles + quads;
     }
 
-    /// Turns culling off for faces whose backs cannot be seen: those of a closed mesh with the camera outside.
+    /// Turns culling off for faces whose backs cannot be seen: those of a mesh that hides_backs(), with the camera
+    /// outside.
     FaceSides sides_of(const PlacedSurface& surface, const Transform& render_from_object) const {
         const FaceSides sides = scene_.materials[surface.material].sides;
-        if (sides != FaceSides::culled || !surface.mesh->is_closed) return sides;
+        if (sides != FaceSides::culled || !hides_backs(*surface.mesh, surface.material, result_)) return sides;
         return sees_outside_of(bounds_of(*surface.mesh, render_from_object)) ? FaceSides::single_sided : sides;
     }
 

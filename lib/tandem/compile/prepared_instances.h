@@ -43,11 +43,12 @@ struct InstancedBvh {
     std::vector<EntryFace> entry_faces;
     StructureFrame frame;
 };
-/// Instances that are exact copies of an earlier one are left out: the lower id wins. Deterministic.
-[[nodiscard]] InstancedBvh build_instanced_bvh(const PreparedInstances& instances);
+/// Instances that are exact copies of an earlier one are left out, since the lower id wins; not those with an alpha
+/// mask, which a ray passes one by one. Deterministic.
+[[nodiscard]] InstancedBvh build_instanced_bvh(const PreparedScene& scene);
 
 /// What is wrong with the hierarchies of instances, as find_bvh_defect(): a face or an instance that is missing or
 /// twice, a box that does not contain its child, or a mesh's box that is not padded enough for an instance. For tests.
-[[nodiscard]] std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedInstances& instances);
+[[nodiscard]] std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedScene& scene);
 
 }  // namespace tandem

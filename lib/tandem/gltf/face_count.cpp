@@ -48,7 +48,6 @@ bool is_plain(const Json& document, const Json& primitive) {
     if (number == nullptr) return true;
     const Json& material = document["materials"][number->get<std::size_t>()];
     if (find(material, "emissiveTexture") != nullptr || find(material, "emissiveFactor") != nullptr) return false;
-    if (const Json* mode = find(material, "alphaMode"); mode != nullptr && *mode != "OPAQUE") return false;
     return find_extension(material, "KHR_materials_unlit") == nullptr;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "tandem/kernel/sampler/philox.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/math/lengths.h"
 #include "tandem/scene/icosphere.h"
 
 namespace tandem {
@@ -253,22 +255,46 @@ Image leaf() {
     return image;
 }
 
-/// The quads of random_faces(), each with an alpha mask, which cast shadows.
-Scene random_leaves(const std::string& name, std::uint32_t count, std::uint32_t seed) {
-    Scene scene = random_faces(name, count, seed, 4);
+/// Turns faces into leaves: material `material`, and the faces of `mesh`, whose vertices 4 i to 4 i + 3 are the corners
+/// of face i. The scene has the image of a leaf as texture 0.
+void make_leaves(Scene& scene, std::uint32_t mesh, std::uint32_t material) {
+    const Vec2f corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    Mesh& faces = scene.meshes[mesh];
+    std::vector<Vec2f>& texcoords = faces.texcoords.emplace_back();
+    for (std::size_t i = 0; i < faces.positions.size(); ++i) texcoords.push_back(corners[i % 4]);
+    scene.materials[material].diffuse_texture = TextureReference{.texture = 0};
+    scene.materials[material].alpha_mode = AlphaMode::mask;
+    scene.materials[material].sides = FaceSides::double_sided;
+}
+
+/// What scenes of leaves have in common.
+void begin_leaves(Scene& scene) {
     scene.nodes[1].light->casts_shadows = true;
     scene.images = {leaf()};
     scene.textures = {{.image = 0}};
-    for (Mesh& mesh : scene.meshes) {
-        const Vec2f corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-        std::vector<Vec2f>& texcoords = mesh.texcoords.emplace_back();
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) texcoords.push_back(corners[i % 4]);
-    }
-    for (Material& material : scene.materials) {
-        material.diffuse_texture = TextureReference{.texture = 0};
-        material.alpha_mode = AlphaMode::mask;
-    }
+}
+
+/// The quads of random_faces(), each with an alpha mask, which cast shadows.
+Scene random_leaves(const std::string& name, std::uint32_t count, std::uint32_t seed) {
+    Scene scene = random_faces(name, count, seed, 4);
+    begin_leaves(scene);
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) make_leaves(scene, i, i);
     return scene;
+}
+
+/// A thousand leaves in a ball of radius 1, each of two triangles.
+Mesh crown() {
+    Mesh mesh;
+    mesh.name = "crown";
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        ObjectNumbers numbers(1, i);
+        const Vec3d in_cube = numbers.in_cube();
+        const Vec3d centre = in_cube * (max_norm(in_cube) / length(in_cube));
+        const Vec3d a = numbers.in_cube() * 0.15, b = numbers.in_cube() * 0.15;
+        for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.triangles.push_back(4 * i + k);
+        for (const Vec3d& place : {a, b, -a, -b}) mesh.positions.push_back(narrow(centre + place));
+    }
+    return mesh;
 }
 
 Scene one_icosphere(const std::string& name, int level) {
@@ -278,12 +304,12 @@ Scene one_icosphere(const std::string& name, int level) {
     return scene;
 }
 
-/// `count` instances of one mesh, in the cells of a grid: of a cube, or of its floor.
-Scene instances_of_icosphere(const std::string& name, std::uint32_t count, std::uint32_t seed, bool is_city) {
+/// `count` instances of a mesh, in the cells of a grid: of a cube, or of its floor.
+Scene instances_of(const std::string& name, std::uint32_t count, std::uint32_t seed, bool on_floor, Mesh mesh) {
     Scene scene = crowd(name);
-    scene.meshes = {icosphere(5)};
+    scene.meshes = {std::move(mesh)};
     std::uint32_t edge = 1;
-    const auto cells = [is_city](std::uint64_t n) { return is_city ? n * n : n * n * n; };
+    const auto cells = [on_floor](std::uint64_t n) { return on_floor ? n * n : n * n * n; };
     while (cells(edge) < count) ++edge;
     const double cell = 2.0 / edge;
     std::vector<Trs> instances(count);
@@ -292,17 +318,27 @@ Scene instances_of_icosphere(const std::string& name, std::uint32_t count, std::
         for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
             ObjectNumbers numbers(seed, static_cast<std::uint32_t>(i));
             const auto row = [&](std::size_t place) { return (static_cast<double>(place % edge) + 0.5) * cell - 1; };
-            const Vec3d middle = {row(i), is_city ? 0.0 : row(i / edge / edge), row(i / edge)};
+            const Vec3d middle = {row(i), on_floor ? 0.0 : row(i / edge / edge), row(i / edge)};
             instances[i].translation = middle + numbers.in_cube() * (0.2 * cell);
             instances[i].scale = (Vec3d{1, 1, 1} + numbers.in_cube() * 0.5) * (0.364 * cell);
             instances[i].rotation = numbers.rotation();
         }
     });
-    if (is_city) {
+    if (on_floor) {
         scene.nodes[0].trs.translation = {0, 5.5 * cell, 1};
         scene.nodes[0].trs.rotation = {-0.28, 0, 0, 0.96};  // the horizon is at the top
     }
     add_instances(scene, "instances", MeshShape{0}, 3, std::move(instances));
+    return scene;
+}
+
+/// Crowns of leaves side by side, above a ground.
+Scene forest(const std::string& name, std::uint32_t count, std::uint32_t seed) {
+    Scene scene = instances_of(name, count, seed, true, crown());
+    begin_leaves(scene);
+    make_leaves(scene, 0, 3);
+    const double cell = 2 / std::sqrt(static_cast<double>(count));
+    scene.nodes.push_back(shape_node("ground", {0, -2, 0}, BoxShape{{4, 4 - 1.6 * cell, 4}}, 7));
     return scene;
 }
 
@@ -319,7 +355,7 @@ std::size_t least_bytes(std::string_view kind) {
     if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
     if (kind == "quads") return 4 * 16 + 72;
     if (kind == "leaves") return 4 * 16 + 72 + 2 * 4 * 8;  // and texture coordinates
-    if (kind == "block" || kind == "city") return sizeof(Trs) + 240;
+    if (kind == "block" || kind == "city" || kind == "forest") return sizeof(Trs) + 240;
     return sizeof(Trs) + (kind == "spheres" ? 24 : kind == "mixed" ? 90 : 152);  // turned boxes have matrices
 }
 
@@ -338,7 +374,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::vector<std::string> scene_names() {
     return {"paper",           "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
             "boxes/N[/SEED]",  "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
-            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]"};
+            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]",      "forest/N[/SEED]"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -364,9 +400,9 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "triangles") return random_faces(full, *count, *seed, 3);
             if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
             if (parts[0] == "leaves") return random_leaves(full, *count, *seed);
-            if (parts[0] == "block" || parts[0] == "city") {
-                return instances_of_icosphere(full, *count, *seed, parts[0] == "city");
-            }
+            if (parts[0] == "block") return instances_of(full, *count, *seed, false, icosphere(5));
+            if (parts[0] == "city") return instances_of(full, *count, *seed, true, icosphere(5));
+            if (parts[0] == "forest") return forest(full, *count, *seed);
         }
     }
     throw InputError(

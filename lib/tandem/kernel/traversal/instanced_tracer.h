@@ -214,15 +214,19 @@ struct InstancedStructure {
     /// Whether the tracer has find_blocker().
     TANDEM_HD_INLINE static constexpr bool finds_blockers() { return true; }
 
-    /// As BvhStructure::find_blocker(). Materials of instanced meshes have no alpha masks and do not glow
-    /// (compile/place_instances.cpp).
+    /// As BvhStructure::find_blocker().
     template <class Real, class Hits>
     TANDEM_HD_INLINE bool find_blocker(const Ray<Real>& ray, const Double<Real>& t_max,
                                        const MaskedShadowSource<Real>& source, bool active, Hits& hits) const {
         if (!active) return false;
         if (others.bvh.nodes != nullptr && others.find_blocker(ray, t_max, source, true, hits)) return true;
         Closest<Real> best = closest_starting_at<Real>(t_max);
-        find_in_instances<Search::any>(ray, CulledShadowSource<Real>{{source}}, best);
+        // no instance is the light
+        const auto blocks = [&](std::uint32_t id) { return !may_let_pass<kinds>(scene, id, false); };
+        const auto decide = [&](const Ray<Real>&, std::uint32_t id) {
+            if (!(best.t < t_max) && hits.block(id, true)) best = {0.0, some_primitive};
+        };
+        visit_instances<Search::any>(ray, source, best, blocks, decide);
         return best.t < t_max;
     }
 
@@ -231,6 +235,19 @@ struct InstancedStructure {
 
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE void find_in_instances(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
+        const auto blocks = [](std::uint32_t) { return true; };
+        const auto decide = [&](const Ray<Real>& same_ray, std::uint32_t id) {
+            visit_primitive<PrimitiveKinds::instanced>(
+                scene, id, [&](const auto& primitive) { test_primitive(primitive, id, same_ray, source, true, best); });
+        };
+        visit_instances<search>(ray, source, best, blocks, decide);
+    }
+
+    /// Calls decide(ray, id), which may change `best`, for the faces that the ray may hit before best.t. A search for
+    /// any hit ends at a certain one if blocks(id).
+    template <Search search, class Real, class From, class Blocks, class Decide>
+    TANDEM_HD_INLINE void visit_instances(const Ray<Real>& ray, const From& source, Closest<Real>& best,
+                                          const Blocks& blocks, const Decide& decide) const {
         const Double<Real> t_max = best.t;
         const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
@@ -250,7 +267,7 @@ struct InstancedStructure {
                 const std::uint32_t id = instance.first_id + face.number;
                 const HitInterval interval = interval_at<Real>(instance, face, source, query.get());
                 if (!(interval.lo <= limit)) return false;
-                blocked = search == Search::any && interval.hi < enough;
+                blocked = search == Search::any && interval.hi < enough && blocks(id);
                 if constexpr (search == Search::nearest) limit = rough_lesser(limit, interval.hi);
                 candidates.add(interval.lo, id, limit);
                 return blocked || candidates.is_full(limit);
@@ -261,7 +278,7 @@ struct InstancedStructure {
                 return;
             }
             const Ray<Real> same_ray = parked.get();
-            candidates.for_each(limit, [&](std::uint32_t id) { decide(same_ray, source, id, best); });
+            candidates.for_each(limit, [&](std::uint32_t id) { decide(same_ray, id); });
             if (search == Search::any && best.t < t_max) return;
             if (!walk.is_done()) limit = rough_lesser(limit, limit_of(propose(same_ray), best));
         } while (!walk.is_done());
@@ -291,13 +308,6 @@ struct InstancedStructure {
             edges_of(place_corner(place, face.v0), place_corner(place, face.v1), place_corner(place, face.v2)), id,
             face.sides};
         return hit_interval_from<Real, Triangle>(source, id, query, placed);
-    }
-
-    template <class Real, class From>
-    TANDEM_HD_INLINE void decide(const Ray<Real>& ray, const From& source, std::uint32_t id,
-                                 Closest<Real>& best) const {
-        visit_primitive<PrimitiveKinds::instanced>(
-            scene, id, [&](const auto& primitive) { test_primitive(primitive, id, ray, source, true, best); });
     }
 };
 
