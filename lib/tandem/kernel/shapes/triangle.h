@@ -249,6 +249,10 @@ template <class Number>
 TANDEM_HD_INLINE Vec3f one_corner(const Vec3<Number>& v, int i) {
     return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
 }
+#if !TANDEM_ON_DEVICE
+// g++ would keep a copy of every corner in memory until the call
+TANDEM_HD_INLINE const Vec3f& one_corner(const Vec3f& v, int) { return v; }
+#endif
 template <class Real>
 TANDEM_HD_INLINE Ray<Scalar<Real>> one_ray(const Ray<Real>& ray, int i) {
     const Vec3<Real>&o = ray.origin, &d = ray.direction;
