@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "cpu/box_errors.h"
 #include "cpu/embree_handles.h"
 #include "cpu/group_hierarchy.h"
 #include "cpu/instruction_sets.h"
@@ -99,7 +100,8 @@ class CpuScene final : public ResidentScene {
     /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
     /// called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
-        if (!groups_pay(*scene_, tier())) return view_;
+        const bool errors_are_of_scene = view_.frame.padding.of_reach == 0.0F;  // as the groups need it
+        if (!errors_are_of_scene || !groups_pay(*scene_, tier())) return view_;
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
             const std::size_t count = primitive_count(*scene_);
@@ -126,9 +128,11 @@ class CpuScene final : public ResidentScene {
                 return box;
             },
             [](const Aabb& a, const Aabb& b) { return merge(a, b); });
-        view_.frame = make_structure_frame(bounds);
+        const BoxErrors errors = box_errors_for(view_.scene, bounds);
+        view_.frame = make_structure_frame(bounds, errors);
 
         embree_ = EmbreeScene(rtcNewScene(device));
+        if (errors == BoxErrors::of_distance) rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
         const std::uint32_t triangles = view_.scene.triangle_count, quads = view_.scene.quad_count;
         view_.first_id[embree_quads] = count - quads;
         view_.first_id[embree_triangles] = count - quads - triangles;
@@ -191,7 +195,7 @@ class CpuScene final : public ResidentScene {
 
     static void padded_bounds(const RTCBoundsFunctionArguments* args) {
         const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-        const Aabb box = pad(primitive_bounds(view.scene, args->primID), view.frame.margin);
+        const Aabb box = pad(primitive_bounds(view.scene, args->primID), view.frame.padding);
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
     }
 

@@ -12,7 +12,9 @@ class GroupHierarchy {
     /// `scene`: its arrays outlive the hierarchy. To be called in a TBB arena. Throws EnvironmentError if there
     /// is not enough memory.
     GroupHierarchy(RTCDevice device, const CpuSceneView& scene)
-        : groups_(make_groups(device, scene.scene, scene.frame.margin)), group_view_(groups_.view()), view_(scene) {
+        : groups_(make_groups(device, scene.scene, scene.frame.padding.least)),
+          group_view_(groups_.view()),
+          view_(scene) {
         view_.groups = &group_view_;
     }
     GroupHierarchy(const GroupHierarchy&) = delete;

@@ -124,22 +124,43 @@ class Builder {
     void find_bounds() {
         bounds_ = scene_bounds(scene_, device_bounds_, memory_.word, doing, stream_);
         built_.view.frame = make_structure_frame(bounds_);
-        whole_ = wide_half_area(pad(bounds_, built_.view.frame.margin));
+        whole_ = wide_half_area(pad(bounds_, built_.view.frame.padding));
     }
 
     /// The list of clusters: the leaves in the order of the curve.
     std::uint32_t* sort_leaves() {
         const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
         const double largest = greater(greater(extent.x, extent.y), extent.z);
-        const double cells = largest > 0 ? 2097152.0 / largest : 0;  // 0 for a single point
-        run_kernel(codes_kernel, count_, scene_, count_, bounds_.lower, cells, codes_, lists_);
+        const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
+        const bool in_detail = has_tiny_primitives(cells);
+        run_kernel(codes_kernel, count_, scene_, count_, cells, codes_, lists_);
         cub::DoubleBuffer<std::uint64_t> codes(codes_, codes_ + count_);
         cub::DoubleBuffer<std::uint32_t> ids(lists_, lists_ + count_);
-        check(cub::DeviceRadixSort::SortPairs(cub_memory_, cub_bytes_, codes, ids, static_cast<int>(count_), 0,
-                                              code_bits, stream_),
-              doing);
-        run_kernel(leaves_kernel, count_, scene_, ids.Current(), built_.view.frame.margin, tree_, ids.Alternate());
+        const auto sort = [&] {
+            check(cub::DeviceRadixSort::SortPairs(cub_memory_, cub_bytes_, codes, ids, static_cast<int>(count_), 0,
+                                                  code_bits, stream_),
+                  doing);
+        };
+        if (in_detail) {  // by the places within cells, then, in a sort that keeps their order, by the cells
+            for (const bool within : {true, false}) {
+                run_kernel(codes_of_list_kernel, count_, scene_, count_, cells, within, ids.Current(), codes.Current());
+                if (within) sort();
+            }
+        }
+        sort();
+        run_kernel(leaves_kernel, count_, scene_, ids.Current(), built_.view.frame.padding, tree_, ids.Alternate());
         return ids.Alternate();
+    }
+
+    /// Whether, of up to 16,384 primitives at equal steps through the list, one in 64 is smaller than a cell of the
+    /// curve. Then many share a cell, for example where a scene is far larger than what most of it consists of.
+    [[nodiscard]] bool has_tiny_primitives(const CurveCells& cells) {
+        constexpr std::uint32_t most = 16'384;
+        const std::uint32_t step = (count_ - 1) / most + 1, samples = (count_ - 1) / step + 1;
+        check(cudaMemsetAsync(sums_, 0, sizeof(std::uint32_t), stream_), doing);
+        auto* const tiny = reinterpret_cast<std::uint32_t*>(sums_);
+        run_kernel(count_tiny_kernel, samples, scene_, count_, step, cells, tiny);
+        return 64 * fetch(tiny) >= samples;
     }
 
     /// Exclusive sums of `count` + 1 elements, of which the last is the sum of all: summed().

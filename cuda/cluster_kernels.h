@@ -17,27 +17,62 @@ __device__ inline std::uint64_t spread(std::uint64_t x) {
     return x;
 }
 
-/// Cells are cubes, so that they fit boxes of any shape. `cells`: per metre.
-static __global__ void codes_kernel(SceneView scene, std::uint32_t count, Vec3f lower, double cells,
-                                    std::uint64_t* codes, std::uint32_t* ids) {
+/// Cells of the Morton curve along an axis: 2^21.
+inline constexpr std::uint32_t curve_cells = 1U << 21;
+
+/// The cells of a Morton curve: cubes, so that they fit boxes of any shape.
+struct CurveCells {
+    Vec3f lower;
+    double per_metre;
+
+    /// The number of a box's cell along the curve; or, within that cell, of the cell of a curve as fine again.
+    [[nodiscard]] __device__ std::uint64_t code(const Aabb& box, bool within) const {
+        const auto cell = [&](float a, float b, float from) {
+            const double place = ((widen(a) + widen(b)) * 0.5 - widen(from)) * per_metre;
+            const double inside = lesser(greater(place, 0.0), curve_cells - 0x1p-21);
+            const auto number = static_cast<std::uint64_t>(inside);
+            return within ? static_cast<std::uint64_t>((inside - static_cast<double>(number)) * curve_cells) : number;
+        };
+        return spread(cell(box.lower.x, box.upper.x, lower.x)) << 2 |
+               spread(cell(box.lower.y, box.upper.y, lower.y)) << 1 | spread(cell(box.lower.z, box.upper.z, lower.z));
+    }
+};
+
+static __global__ void codes_kernel(SceneView scene, std::uint32_t count, CurveCells cells, std::uint64_t* codes,
+                                    std::uint32_t* ids) {
     const std::uint32_t id = thread_number();
     if (id >= count) return;
-    const Aabb box = primitive_bounds(scene, id);
-    const auto cell = [&](float a, float b, float from) {
-        const double place = ((widen(a) + widen(b)) * 0.5 - widen(from)) * cells;
-        return static_cast<std::uint64_t>(lesser(greater(place, 0.0), 2097151.0));
-    };
-    codes[id] = spread(cell(box.lower.x, box.upper.x, lower.x)) << 2 |
-                spread(cell(box.lower.y, box.upper.y, lower.y)) << 1 | spread(cell(box.lower.z, box.upper.z, lower.z));
+    codes[id] = cells.code(primitive_bounds(scene, id), false);
     ids[id] = id;
 }
 
-static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, float margin, BuildTree tree,
+/// For a list of ids; `within`: see CurveCells::code().
+static __global__ void codes_of_list_kernel(SceneView scene, std::uint32_t count, CurveCells cells, bool within,
+                                            const std::uint32_t* ids, std::uint64_t* codes) {
+    const std::uint32_t place = thread_number();
+    if (place < count) codes[place] = cells.code(primitive_bounds(scene, ids[place]), within);
+}
+
+/// Of every `step`-th primitive, counts those that are smaller than a cell.
+static __global__ void count_tiny_kernel(SceneView scene, std::uint32_t count, std::uint32_t step, CurveCells cells,
+                                         std::uint32_t* tiny) {
+    const std::uint32_t sample = thread_number();
+    bool is_tiny = false;
+    if (sample <= (count - 1) / step) {
+        const Aabb box = primitive_bounds(scene, sample * step);
+        const Vec3d extent = widen(box.upper) - widen(box.lower);
+        is_tiny = greater(greater(extent.x, extent.y), extent.z) * cells.per_metre < 1.0;
+    }
+    const std::uint32_t found = __popc(__ballot_sync(~0U, is_tiny));
+    if (threadIdx.x % 32 == 0 && found != 0) atomicAdd(tiny, found);
+}
+
+static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, Padding padding, BuildTree tree,
                                      std::uint32_t* list) {
     const std::uint32_t place = thread_number();
     if (place >= tree.leaves) return;
     const std::uint32_t id = ids[place];
-    tree.nodes[place] = {pad(primitive_bounds(scene, id), margin), id, 0};
+    tree.nodes[place] = {pad(primitive_bounds(scene, id), padding), id, 0};
     list[place] = place;
 }
 

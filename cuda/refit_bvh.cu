@@ -16,7 +16,7 @@ struct alignas(16) RefitNode {
 };
 
 /// The nodes of one level, whose children are done.
-__global__ void refit_kernel(SceneView scene, TreeArrays to, std::uint32_t begin, std::uint32_t end, float margin,
+__global__ void refit_kernel(SceneView scene, TreeArrays to, std::uint32_t begin, std::uint32_t end, Padding padding,
                              double whole, RefitNode* done) {
     const std::uint32_t i = begin + thread_number();
     if (i >= end) return;
@@ -35,7 +35,7 @@ __global__ void refit_kernel(SceneView scene, TreeArrays to, std::uint32_t begin
         const auto entry = static_cast<std::uint32_t>(~child_of(node, children));
         const std::uint32_t id = to.ids[entry];
         write_entry(scene, to, entry, id);
-        boxes[children] = pad(primitive_bounds(scene, id), margin);
+        boxes[children] = pad(primitive_bounds(scene, id), padding);
         cost += forests_of_leaf(relative_area(boxes[children], whole)).cost[0];
         all = merge(all, boxes[children]);
     }
@@ -56,11 +56,11 @@ BuiltBvh refit_bvh(const SceneView& scene, const BuiltBvh& built, BuildMemory& m
     const Aabb bounds = scene_bounds(scene, at, memory.word, doing, stream);
     BuiltBvh result = built;
     result.view.frame = make_structure_frame(bounds);
-    result.root_area = wide_half_area(pad(bounds, result.view.frame.margin));
+    result.root_area = wide_half_area(pad(bounds, result.view.frame.padding));
     for (std::size_t level = built.levels; level-- > 0;) {
         const std::uint32_t begin = built.level_starts[level], end = built.level_starts[level + 1];
         launch(doing, refit_kernel, (end - begin + build_block - 1) / build_block, build_block, stream, scene,
-               built.arrays, begin, end, result.view.frame.margin, result.root_area, done);
+               built.arrays, begin, end, result.view.frame.padding, result.root_area, done);
     }
     write_rest(scene, built.arrays, doing, stream);
     RefitNode root;

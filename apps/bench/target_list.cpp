@@ -107,6 +107,18 @@ std::vector<Target> all_targets(int cores) {
                                              to_string(set)),
                                  0.2, 1, [set](TargetRun& run, TargetResult& r) { run.gpu_city_rays(r, set); }));
     }
+    for (const char* backend : {"cuda", "cpu"}) {
+        const bool on_gpu = backend == std::string("cuda");
+        for (const RaySet set : {RaySet::coherent, RaySet::random}) {
+            targets.push_back(target(
+                fmt::format("{}-giant-{}", on_gpu ? "gpu" : "cpu", to_string(set)),
+                fmt::format("A million spheres above one of 1000 km, {}, {} rays: at least 0.2 times the rate in the "
+                            "spheres alone",
+                            on_gpu ? "GPU" : "CPU", to_string(set)),
+                0.2, on_gpu ? 1 : 0,
+                [backend, set](TargetRun& run, TargetResult& result) { run.giant_rays(result, backend, set); }));
+        }
+    }
     targets.push_back(target("gpu-rays-shadow", "A million spheres, GPU (H200), shadow rays: at least 3 G rays/s", 3e9,
                              1, [](TargetRun& run, TargetResult& result) { run.gpu_shadow_rays(result); }));
     targets.push_back(target("gpu-whitted", "whitted.gltf, GPU (H200), strict: at least 1.4 G samples/s", 1.4e9, 1,

@@ -83,6 +83,16 @@ void TargetRun::gpu_city_rays(TargetResult& result, RaySet set) {
     finish(result, ratio_of_medians(rates.written.seconds, rates.city.seconds));
 }
 
+void TargetRun::giant_rays(TargetResult& result, const char* backend, RaySet set) {
+    BenchmarkRow rows[2];
+    for (const bool with_giant : {false, true}) {
+        const char* scene = with_giant ? "named:giant/1000000" : million_spheres;
+        rows[with_giant ? 1 : 0] = time_rays(ray_options(scene, set), {backend}, source_, report_).rows[0];
+    }
+    add_rows({rows[0], rows[1]});
+    finish(result, ratio_of_medians(rows[0].seconds, rows[1].seconds));
+}
+
 void TargetRun::gpu_shadow_rays(TargetResult& result) {
     const std::unique_ptr<Backend> gpu = make("cuda", {});
     const PreparedScene scene = prepare(load_scene(million_spheres), {0, {}, Vec3d{0, 0, 0}});

@@ -43,6 +43,9 @@ class TargetRun {
     /// Our rays per second in a city of instances, divided by those in a block of them that is written out.
     void gpu_city_rays(TargetResult& result, RaySet set);
 
+    /// Rays per second in the million spheres above a sphere of 1000 km, divided by those in the spheres alone.
+    void giant_rays(TargetResult& result, const char* backend, RaySet set);
+
     /// Rays from the points that coherent rays hit to a point light, in a million spheres: any hit ends them.
     void gpu_shadow_rays(TargetResult& result);
 

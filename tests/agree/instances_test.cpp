@@ -180,7 +180,7 @@ struct Traced {
                 bounds = merge(bounds, primitive_bounds(others, id));
             }
             frame = make_structure_frame(bounds);
-            other_bvh = build_bvh(others, frame.margin);
+            other_bvh = build_bvh(others, frame.padding);
         }
     }
     [[nodiscard]] InstancedTracer tracer() const {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/aim.h"
 #include "support/bundles.h"
 #include "support/hard_scenes.h"
 #include "support/random.h"
@@ -164,7 +165,7 @@ TEST(Bvh, HoldsScenesOfAnySize) {
         PreparedScene prepared = prepare(named_scene("icosphere/2"));
         for (Triangle& t : prepared.triangles) t.v0 = t.v0 * scale, t.v1 = t.v1 * scale, t.v2 = t.v2 * scale;
         const Structure structure(std::move(prepared));
-        ASSERT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "") << scale;
+        ASSERT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.padding), "") << scale;
         expect_same_as_loop(structure, test::make_rays(structure.scene, 1'000, 10), std::to_string(scale));
     }
 }
@@ -180,7 +181,7 @@ TEST(Bvh, NeverLosesAHit) {
     for (const test::HardScene& parameters : test::hard_scenes()) {
         const Structure structure(test::make_scene(parameters, 5));
         const SceneView scene = view(structure.scene);
-        ASSERT_EQ(find_bvh_defect(structure.bvh, scene, structure.frame.margin), "") << parameters.name;
+        ASSERT_EQ(find_bvh_defect(structure.bvh, scene, structure.frame.padding), "") << parameters.name;
         expect_same_as_loop(structure, test::make_rays(structure.scene, 20'000, 6), parameters.name);
     }
 }
@@ -206,6 +207,70 @@ TEST(Bvh, NeverLosesAGrazingHit) {
         rays.push_back({{s.centre.x, s.centre.y + s.radius, s.centre.z}, {-1e-10F, 0, 0}});
     }
     expect_same_as_loop(structure, rays, "poles");
+}
+
+/// A sphere or a triangle that is `size` times as large as the other primitives: a hundred spheres of radius 1, boxes
+/// or triangles around `middle`.
+PreparedScene beside_a_huge_one(test::Random& random, float size, const Vec3f& middle) {
+    PreparedScene scene;
+    const int kind = static_cast<int>(random.below(3));
+    const auto place = [&] {
+        return middle + Vec3f{random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F)};
+    };
+    for (int i = 0; i < 100; ++i) {
+        const Vec3f a = place();
+        if (kind == 0) scene.spheres.push_back({a, 1});
+        if (kind == 1) scene.boxes.push_back({a, a + Vec3f{1, 0.5F, 0.25F}});
+        if (kind == 2) scene.triangles.push_back({a, a + Vec3f{1, 0.5F, 0}, a + Vec3f{0, -0.5F, 1}});
+    }
+    if (random.coin()) {
+        scene.spheres.push_back({middle + Vec3f{0, -size - 10, 0}, size});
+    } else {
+        scene.triangles.push_back({middle + Vec3f{-size, -10, size}, middle + Vec3f{0, -10, -2 * size},
+                                   middle + Vec3f{size, 0.1F * size, size}});
+    }
+    scene.material_of.assign(primitive_count(scene), 0);
+    scene.materials.emplace_back();
+    return scene;
+}
+
+// Boxes are padded by a part of their own reach, since a part of the scene's would be more than their size.
+TEST(Bvh, NeverLosesAHitOfSmallPrimitivesBesideAHugeOne) {
+    test::Random random(21);
+    for (int round = 0; round < 60; ++round) {
+        const float size = static_cast<float>(std::exp2(random.uniform(10.0, 36.0)));
+        const float away = random.coin() ? 0.0F : static_cast<float>(std::exp2(random.uniform(0.0, 12.0)));
+        const Vec3f middle = Vec3f{1, -0.5F, 0.25F} * away;
+        const Structure structure(beside_a_huge_one(random, size, middle));
+        const SceneView scene = view(structure.scene);
+        ASSERT_EQ(find_bvh_defect(structure.bvh, scene, structure.frame.padding), "") << round;
+        std::vector<Ray<float>> rays;
+        for (int i = 0; i < 1'000; ++i) {
+            const Aabb box = primitive_bounds(scene, static_cast<std::uint32_t>(random.below(100)));
+            const auto within = [&](float low, float high) {
+                const double part = random.below(4) == 0 ? 1 : random.uniform(0.0, 1.0);
+                return static_cast<float>(low + part * (double{high} - low));
+            };
+            const Vec3f target = {within(box.lower.x, box.upper.x), within(box.lower.y, box.upper.y),
+                                  within(box.lower.z, box.upper.z)};
+            const double far = std::exp2(random.uniform(-2.0, 44.0));
+            Vec3f direction = narrow(test::any_unit(random));
+            if (random.below(4) == 0) direction[static_cast<int>(random.below(3))] = random.coin() ? 0.0F : 1e-25F;
+            const Vec3f origin = target - direction * static_cast<float>(far);
+            rays.push_back({origin, random.coin() ? target - origin : direction});
+        }
+        expect_same_as_loop(structure, rays, "round " + std::to_string(round));
+    }
+}
+
+TEST(Bvh, DoesNotGrowTheBoxesOfSmallPrimitivesBesideAHugeOne) {
+    test::Random random(22);
+    const Structure structure(beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));
+    const SceneView scene = view(structure.scene);
+    for (std::uint32_t id = 0; id < 100; ++id) {
+        const Aabb box = primitive_bounds(scene, id);
+        EXPECT_LT(half_area(pad(box, structure.frame.padding)), 1.01F * half_area(box)) << id;
+    }
 }
 
 TEST(Bvh, NeverLosesTheFirstThingInTheBoundsFromAfar) {
@@ -257,7 +322,7 @@ TEST(Bvh, BoundsItsDepthForCoincidentPrimitives) {
     scene.material_of.assign(5000, 0);
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
-    EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
+    EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.padding), "");
     const auto expect_first = [&](const auto& tracer) {
         const Closest<float> hit = tracer.closest(Ray<float>{{1, 2, 0}, {0, 0, 1}}, NoSource{}, true);
         EXPECT_EQ(hit.primitive, 0U);
@@ -301,7 +366,7 @@ TEST(Bvh, BoundsItsDepthForSizesThatHalve) {
     scene.material_of.assign(scene.spheres.size(), 0);
     scene.materials.emplace_back();
     const Structure structure(std::move(scene));
-    EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.margin), "");
+    EXPECT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.padding), "");
 }
 
 // A hierarchy deeper than the stack, as build_bvh() never makes one: a chain, each node a leaf and the rest.
@@ -336,7 +401,7 @@ TEST(Bvh, StaysRightAndCountsWhenTheStackIsFull) {
         bvh.entry_ids.push_back(bvh.entry_ids.back());
         bvh.entry_spheres.push_back(bvh.entry_spheres.back());
     }
-    EXPECT_NE(find_bvh_defect(bvh, view(structure.scene), 0), "") << "too deep";
+    EXPECT_NE(find_bvh_defect(bvh, view(structure.scene), {0}), "") << "too deep";
     unsigned long long overflows = 0;
     BvhTracer tracer = structure.tracer();
     auto behind_walk = structure.tracer<Decisions::behind_walk>();
@@ -398,16 +463,16 @@ TEST(ConstantMemoryTracer, GivesTheBitsOfTheLoop) {
 TEST(BvhDefects, AreFound) {
     Structure structure(prepare(named_scene("mixed/100")));
     const SceneView scene = view(structure.scene);
-    const float margin = structure.frame.margin;
+    const Padding padding = structure.frame.padding;
     Bvh twice = structure.bvh;
     twice.entry_ids[0] = twice.entry_ids[1];
-    EXPECT_NE(find_bvh_defect(twice, scene, margin), "");
+    EXPECT_NE(find_bvh_defect(twice, scene, padding), "");
     Bvh shrunk = structure.bvh;
     shrunk.nodes[0].upper_y -= 1;
-    EXPECT_NE(find_bvh_defect(shrunk, scene, margin), "");
+    EXPECT_NE(find_bvh_defect(shrunk, scene, padding), "");
     Bvh cut = structure.bvh;
     cut.nodes[0].first_inner = 1 << 20;
-    EXPECT_NE(find_bvh_defect(cut, scene, margin), "");
+    EXPECT_NE(find_bvh_defect(cut, scene, padding), "");
 }
 
 }  // namespace

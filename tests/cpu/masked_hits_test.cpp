@@ -35,7 +35,7 @@ struct EmbreeCase {
 
     static void padded(const RTCBoundsFunctionArguments* args) {
         const auto& of = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-        const Aabb box = pad(primitive_bounds(of.scene, args->primID), of.frame.margin);
+        const Aabb box = pad(primitive_bounds(of.scene, args->primID), of.frame.padding);
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
     }
 

@@ -55,7 +55,7 @@ inline PreparedScene named(const char* name) { return prepare(named_scene(name))
 /// holds.
 class Cost {
   public:
-    Cost(const Bvh& bvh, const SceneView& scene, float margin) : bvh_(bvh), scene_(scene), margin_(margin) {
+    Cost(const Bvh& bvh, const SceneView& scene, const Padding& padding) : bvh_(bvh), scene_(scene), padding_(padding) {
         const Aabb all = add_node(0);
         sum_ /= wide_half_area(all);
     }
@@ -70,7 +70,7 @@ class Cost {
             const std::int32_t code = child_of(node, child);
             const Aabb box =
                 code >= 0 ? add_node(code)
-                          : pad(primitive_bounds(scene_, bvh_.entry_ids[static_cast<std::size_t>(~code)]), margin_);
+                          : pad(primitive_bounds(scene_, bvh_.entry_ids[static_cast<std::size_t>(~code)]), padding_);
             if (code < 0) sum_ += 0.6 * wide_half_area(box);
             all = merge(all, box);
         }
@@ -80,7 +80,7 @@ class Cost {
 
     const Bvh& bvh_;
     const SceneView& scene_;
-    float margin_;
+    Padding padding_;
     double sum_ = 0;
 };
 

@@ -76,11 +76,11 @@ class RefitBvhOn : public NeedsGpu {
         const BuiltBvh moved = refit(after, build(before));
         const Bvh bvh = download(moved, after.here());
         if (moved.levels > max_bvh_depth) return "too deep";
-        const double cost = Cost(bvh, after.here(), moved.view.frame.margin).value();
+        const double cost = Cost(bvh, after.here(), moved.view.frame.padding).value();
         if (!(std::abs(moved.cost / cost - 1) < 1e-3)) {
             return "says that it costs " + std::to_string(moved.cost) + ", costs " + std::to_string(cost);
         }
-        return find_bvh_defect(bvh, after.here(), moved.view.frame.margin);
+        return find_bvh_defect(bvh, after.here(), moved.view.frame.padding);
     }
 
     std::optional<Stream> stream_;  // needs a GPU
@@ -168,7 +168,7 @@ TEST_F(RefitBvhOn, TheGpuBuildsWornTreesAgain) {
     EXPECT_FALSE(bvh.was_refitted()) << "not allowed";
     const BuiltBvh built = bvh_of(mixed_up);
     EXPECT_FALSE(bvh.was_refitted()) << "worn";
-    EXPECT_EQ(find_bvh_defect(download(built, mixed_up.here()), mixed_up.here(), built.view.frame.margin), "");
+    EXPECT_EQ(find_bvh_defect(download(built, mixed_up.here()), mixed_up.here(), built.view.frame.padding), "");
     EXPECT_LE(built.cost, 1.2 * build(start).cost);
 
     // A sphere that flies away makes the root large, and the cost relative to its area small

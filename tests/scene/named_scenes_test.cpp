@@ -25,6 +25,9 @@ TEST(NamedScenes, PaperIsTheScenarioOfThePaper) {
 
 TEST(NamedScenes, CrowdsHaveWhatTheirNamesSay) {
     EXPECT_EQ(prepare(named_scene("spheres/100")).spheres.size(), 100U);
+    const PreparedScene giant = prepare(named_scene("giant/40"));
+    ASSERT_EQ(giant.spheres.size(), 41U);
+    EXPECT_EQ(giant.spheres.back().radius, 1e6F);
     EXPECT_EQ(prepare(named_scene("boxes/100")).parallelepipeds.size(), 100U);
     const auto mixed = prepare(named_scene("mixed/103"));
     EXPECT_EQ(mixed.spheres.size(), 26U);

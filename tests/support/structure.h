@@ -18,7 +18,7 @@ struct Structure {
             bounds = merge(bounds, primitive_bounds(scene_view, id));
         }
         frame = make_structure_frame(bounds);
-        bvh = build_bvh(scene_view, frame.margin);
+        bvh = build_bvh(scene_view, frame.padding);
     }
     template <Decisions decisions = Decisions::in_leaves, std::uint32_t kinds = PrimitiveKinds::all>
     [[nodiscard]] BvhTracerFor<kinds, decisions> tracer() const {

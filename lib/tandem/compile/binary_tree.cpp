@@ -138,11 +138,11 @@ class Builder {
 
 BinaryTree build_binary_tree(std::vector<Aabb> boxes) { return Builder(std::move(boxes)).run(); }
 
-BinaryTree build_binary_tree(const SceneView& scene, float margin) {
+BinaryTree build_binary_tree(const SceneView& scene, const Padding& padding) {
     const std::uint32_t count = primitive_count(scene);
     std::vector<Aabb> boxes;
     boxes.reserve(count);
-    for (std::uint32_t id = 0; id < count; ++id) boxes.push_back(pad(primitive_bounds(scene, id), margin));
+    for (std::uint32_t id = 0; id < count; ++id) boxes.push_back(pad(primitive_bounds(scene, id), padding));
     return build_binary_tree(std::move(boxes));
 }
 

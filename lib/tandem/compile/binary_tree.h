@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tandem/kernel/traversal/bvh.h"
+#include "tandem/kernel/traversal/proposal.h"
 #include "tandem/math/aabb.h"
 
 namespace tandem {
@@ -23,9 +24,9 @@ struct BinaryTree {
     std::vector<std::uint32_t> order;  ///< ids of primitives, those of each node next to one another
 };
 
-/// Surface area heuristic over 16 bins per axis; deterministic; not deeper than max_bvh_depth. `margin`: padding of
+/// Surface area heuristic over 16 bins per axis; deterministic; not deeper than max_bvh_depth. `padding`: of
 /// every box (kernel/traversal/proposal.h). The scene must not be empty.
-[[nodiscard]] BinaryTree build_binary_tree(const SceneView& scene, float margin);
+[[nodiscard]] BinaryTree build_binary_tree(const SceneView& scene, const Padding& padding);
 
 /// The same over boxes; `order` has their indices.
 [[nodiscard]] BinaryTree build_binary_tree(std::vector<Aabb> boxes);

@@ -39,8 +39,8 @@ class WeighedTree {
 
 class BvhBuilder {
   public:
-    BvhBuilder(const SceneView& scene, float margin)
-        : scene_(scene), tree_(build_binary_tree(scene, margin)), weighed_(tree_) {}
+    BvhBuilder(const SceneView& scene, const Padding& padding)
+        : scene_(scene), tree_(build_binary_tree(scene, padding)), weighed_(tree_) {}
 
     Bvh run() {
         bvh_.entry_ids.reserve(tree_.order.size() + spare_entries);
@@ -104,9 +104,9 @@ void check_bvh_size(std::uint32_t primitives) {
         fmt::format("the scene has {} primitives; the BVH takes {} at most", primitives, max_bvh_primitives));
 }
 
-Bvh build_bvh(const SceneView& scene, float margin) {
+Bvh build_bvh(const SceneView& scene, const Padding& padding) {
     check_bvh_size(primitive_count(scene));
-    return BvhBuilder(scene, margin).run();
+    return BvhBuilder(scene, padding).run();
 }
 
 }  // namespace tandem

@@ -21,15 +21,15 @@ struct Bvh {
     std::vector<EntryTriangle> entry_triangles;  ///< if all primitives are triangles
 };
 
-/// Surface area heuristic; deterministic. `margin`: padding of every box (kernel/traversal/proposal.h). Throws
+/// Surface area heuristic; deterministic. `padding`: of every box (kernel/traversal/proposal.h). Throws
 /// InputError for more than max_bvh_primitives. The scene must not be empty.
-[[nodiscard]] Bvh build_bvh(const SceneView& scene, float margin);
+[[nodiscard]] Bvh build_bvh(const SceneView& scene, const Padding& padding);
 
 /// Throws InputError for more primitives than max_bvh_primitives.
 void check_bvh_size(std::uint32_t primitives);
 
 /// What is wrong with a BVH (a primitive missing or twice, a box that does not contain its child, too deep); empty if
 /// nothing is. For tests and debugging.
-[[nodiscard]] std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, float margin);
+[[nodiscard]] std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, const Padding& padding);
 
 }  // namespace tandem

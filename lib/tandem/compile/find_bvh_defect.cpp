@@ -14,8 +14,8 @@ bool contains(const ChildBox& outer, const Aabb& inner) {
 
 class Inspector {
   public:
-    Inspector(const Bvh& bvh, const SceneView& scene, float margin)
-        : bvh_(bvh), scene_(scene), margin_(margin), seen_(primitive_count(scene), 0) {}
+    Inspector(const Bvh& bvh, const SceneView& scene, const Padding& padding)
+        : bvh_(bvh), scene_(scene), padding_(padding), seen_(primitive_count(scene), 0) {}
 
     std::string run() {
         (void)inspect(0, 1);
@@ -55,20 +55,20 @@ class Inspector {
         }
         const std::uint32_t id = bvh_.entry_ids[i];
         if (is_there) ++seen_[id];
-        return pad(primitive_bounds(scene_, id), margin_);
+        return pad(primitive_bounds(scene_, id), padding_);
     }
 
     const Bvh& bvh_;
     const SceneView& scene_;
-    float margin_;
+    Padding padding_;
     std::vector<int> seen_;
     std::string defect_;
 };
 
 }  // namespace
 
-std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, float margin) {
-    return Inspector(bvh, scene, margin).run();
+std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, const Padding& padding) {
+    return Inspector(bvh, scene, padding).run();
 }
 
 }  // namespace tandem

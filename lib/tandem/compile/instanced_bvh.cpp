@@ -83,11 +83,11 @@ double row_norm(const EntryInstance& entry) {
 double reach_of(const Vec3d& half) { return std::max({half.x, half.y, half.z}); }
 
 /// A hierarchy over boxes. `ids`: the number of the box by entry.
-Bvh over_boxes(const std::vector<Box>& boxes, float margin) {
+Bvh over_boxes(const std::vector<Box>& boxes, const Padding& padding) {
     SceneView scene{};
     scene.boxes = boxes.data();
     scene.box_count = static_cast<std::uint32_t>(boxes.size());
-    return build_bvh(scene, margin);
+    return build_bvh(scene, padding);
 }
 
 /// The boxes of a mesh's faces relative to the centre of the mesh.
@@ -156,7 +156,7 @@ InstancedBvh build_instanced_bvh(const PreparedScene& scene) {
     for (std::size_t m = 0; m < all.meshes.size(); ++m) {
         const InstancedMesh& mesh = all.meshes[m];
         lower.push_back(
-            over_boxes(face_boxes(all, mesh, middles[m].centre), margin_of(all, mesh, middles[m], scene_reach)));
+            over_boxes(face_boxes(all, mesh, middles[m].centre), {margin_of(all, mesh, middles[m], scene_reach)}));
         extents.emplace_back(lower.back(), faces_of(all, mesh), middles[m].centre);
     }
     std::vector<Box> boxes(distinct.size());
@@ -172,7 +172,7 @@ InstancedBvh build_instanced_bvh(const PreparedScene& scene) {
 
     InstancedBvh result;
     result.frame = make_structure_frame(bounds);
-    Bvh upper = over_boxes(boxes, result.frame.margin);
+    Bvh upper = over_boxes(boxes, result.frame.padding);
     result.nodes = std::move(upper.nodes);
     const auto upper_entries = static_cast<std::int32_t>(upper.entry_ids.size());
     std::vector<std::int32_t> roots;
@@ -214,11 +214,11 @@ Bvh alone(const InstancedBvh& all, std::size_t root, std::size_t end, std::size_
     return bvh;
 }
 
-std::string defect_of(const Bvh& bvh, const std::vector<Box>& boxes, float margin) {
+std::string defect_of(const Bvh& bvh, const std::vector<Box>& boxes, const Padding& padding) {
     SceneView scene{};
     scene.boxes = boxes.data();
     scene.box_count = static_cast<std::uint32_t>(boxes.size());
-    return find_bvh_defect(bvh, scene, margin);
+    return find_bvh_defect(bvh, scene, padding);
 }
 
 bool contains(const Box& box, const Vec3f& p) {
@@ -266,7 +266,7 @@ std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedSce
             }
         }
         const float margin = margin_of(all, mesh, middle, reach(bvh.frame.bounds));
-        const std::string defect = defect_of(lower, face_boxes(all, mesh, middle.centre), margin);
+        const std::string defect = defect_of(lower, face_boxes(all, mesh, middle.centre), {margin});
         if (!defect.empty()) return fmt::format("mesh {}: {}", m, defect);
         first_entry += entries;
     }
@@ -275,7 +275,7 @@ std::string find_instanced_bvh_defect(const InstancedBvh& bvh, const PreparedSce
     for (std::size_t e = 0; e < upper.entry_ids.size(); ++e) {
         upper.entry_ids[e] = static_cast<std::uint32_t>(place_of[bvh.entry_instances[e].number]);
     }
-    const std::string defect = defect_of(upper, boxes, bvh.frame.margin);
+    const std::string defect = defect_of(upper, boxes, bvh.frame.padding);
     return defect.empty() ? defect : "the instances: " + defect;
 }
 

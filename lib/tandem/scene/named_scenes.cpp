@@ -211,6 +211,14 @@ Scene random_crowd(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
+/// The random spheres, and below them one of 1000 km.
+Scene beside_a_giant(const std::string& name, std::uint32_t count, std::uint32_t seed) {
+    constexpr double radius = 1e6;
+    Scene scene = random_crowd(name, count, seed, {true, false, false, false});
+    scene.nodes.push_back(shape_node("giant", {0, -1.5 - radius, 0}, SphereShape{radius}, 7));
+    return scene;
+}
+
 /// `count` faces of random shape, in one mesh per colour; `corners` is 3 or 4. Quads are parallelograms, except for the
 /// rounding of their corners. All are double-sided.
 Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t seed, std::uint32_t corners) {
@@ -356,7 +364,9 @@ std::size_t least_bytes(std::string_view kind) {
     if (kind == "quads") return 4 * 16 + 72;
     if (kind == "leaves") return 4 * 16 + 72 + 2 * 4 * 8;  // and texture coordinates
     if (kind == "block" || kind == "city" || kind == "forest") return sizeof(Trs) + 240;
-    return sizeof(Trs) + (kind == "spheres" ? 24 : kind == "mixed" ? 90 : 152);  // turned boxes have matrices
+    return sizeof(Trs) + (kind == "spheres" || kind == "giant" ? 24
+                          : kind == "mixed"                    ? 90
+                                                               : 152);  // turned boxes have matrices
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -374,7 +384,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::vector<std::string> scene_names() {
     return {"paper",           "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
             "boxes/N[/SEED]",  "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
-            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]",      "forest/N[/SEED]"};
+            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]",      "forest/N[/SEED]",    "giant/N[/SEED]"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -402,6 +412,7 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "leaves") return random_leaves(full, *count, *seed);
             if (parts[0] == "block") return instances_of(full, *count, *seed, false, icosphere(5));
             if (parts[0] == "city") return instances_of(full, *count, *seed, true, icosphere(5));
+            if (parts[0] == "giant") return beside_a_giant(full, *count, *seed);
             if (parts[0] == "forest") return forest(full, *count, *seed);
         }
     }

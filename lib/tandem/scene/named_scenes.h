@@ -20,6 +20,7 @@ namespace tandem {
 ///   block/N    block/N/S     N turned, unevenly scaled instances of an icosphere of 20,480 triangles, in [-1, 1]^3
 ///   city/N     city/N/S      the same instances side by side on the ground, seen from low above its edge
 ///   forest/N   forest/N/S    N instances of a crown of 1000 leaves as above, in 2000 triangles, above a ground
+///   giant/N    giant/N/S     the N spheres, above a sphere of 1000 km
 ///   hard/planet              a sphere of 6400 km, seen from 1.75 m above it
 ///   hard/telescope           the paper's scene from 100 km away, with a narrow view
 ///   hard/far-telescope       the same from 10,000 km, where the error of float is several times that of noise

@@ -1,11 +1,13 @@
-/// Tests of a ray against the boxes of a node's children, for proposals only. The padding of the boxes covers the
-/// rounding, so speed matters more than the last bit.
+/// Tests of a ray against the boxes of a node's children, for proposals only. The bound covers the rounding, so speed
+/// matters more than the last bit.
 ///
-/// Bound: with S = reach of the scene's bounds, q = the step of a node's grid and u = 2^-24, a plane is computed as
-/// (8 + b / 128) a + c with a = 128 q / d and c = (corner - o) / d - 8 a. As a length it errs by 4 u * 2 S because of
-/// the reciprocal (rough_reciprocal()), by 4 u * 2 S because of the difference, two products and the sum, and by 2^-12
-/// q, since 10 * 128 q u < 2^-13 q and the two fused multiply-adds round to that. So 16 u S, which the padding covers
-/// (proposal.h), and 2^-12 q, which is less than make_node() adds when it rounds planes outward.
+/// Bound: with q = the step of a node's grid, P = the t of a plane and u = 2^-24, P is computed as (8 + b / 128) a + c
+/// with a = 128 q / d and c = (corner - o) / d - 8 a. It errs by 4 u P because of the reciprocal (rough_reciprocal()),
+/// which a and c have in common; by 3 u |corner - o| / d because of the difference, the product and the rounding of c,
+/// where |corner - o| is at most P d + 255 q; and by u P + 1024 u q / d because of the sums. So by 8 u P and, as a
+/// length, by 2^-13 q, which is less than make_node() adds when it rounds planes outward. With the direction and the
+/// origin (proposal.h) it errs by 11 u P, so the exit may be too early by 22 u of itself: it grows by `exit_growth` units in
+/// the last place, which are at least 32 u of it.
 #pragma once
 
 #include <cstring>
@@ -23,7 +25,7 @@ struct NodeRay {
 };
 
 /// `direction` is a unit vector. A component too small to invert is replaced, which moves the ray inside the scene by
-/// less than the padding of the boxes.
+/// less than the least padding of the boxes.
 TANDEM_HD_INLINE NodeRay make_node_ray(const Vec3f& origin, const Vec3f& direction) {
     const auto invert = [](float d) {
         return rough_reciprocal(absolute(d) < 1e-18F ? (d < 0.0F ? -1e-18F : 1e-18F) : d);
@@ -49,6 +51,15 @@ TANDEM_HD_INLINE std::int32_t largest_of_0_and(std::int32_t a, std::int32_t b, s
 #else
     const std::int32_t largest = largest_of(a, b, c);
     return largest > 0 ? largest : 0;
+#endif
+}
+/// The lesser of a + b and c.
+TANDEM_HD_INLINE std::int32_t least_of_sum_and(std::int32_t a, std::int32_t b, std::int32_t c) {
+#if TANDEM_ON_DEVICE
+    return __viaddmin_s32(a, b, c);
+#else
+    const auto sum = static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+    return sum < c ? sum : c;
 #endif
 }
 TANDEM_HD_INLINE std::int32_t least_of(std::int32_t a, std::int32_t b, std::int32_t c) {
@@ -84,6 +95,9 @@ TANDEM_HD_INLINE float steps_of(std::uint32_t frame, int axis) {
 }
 
 }  // namespace node_detail
+
+/// By how much the exit from a box grows, in units in the last place.
+inline constexpr std::int32_t exit_growth = 32;
 
 /// A child that the ray does not enter, and the end of a traversal.
 inline constexpr std::int32_t no_child = 0x7FFFFFFF;
@@ -122,7 +136,7 @@ TANDEM_HD_INLINE EnteredChildren enter_children(const BvhNode& node, std::uint32
         std::int32_t entry = largest_of_0_and(at(x, x.near), at(y, y.near), at(z, z.near));
         if (starts_late) entry = entry > ordered(start) ? entry : ordered(start);
         const std::int32_t farthest = least_of(at(x, x.far), at(y, y.far), at(z, z.far));
-        const std::int32_t exit = farthest < ordered(limit) ? farthest : ordered(limit);
+        const std::int32_t exit = least_of_sum_and(farthest, exit_growth, ordered(limit));
         entered.key[i] = entry <= exit ? (entry & ~3) | static_cast<std::int32_t>(i) : no_child;
     }
     const auto order = [&](int i, int j) {
