@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
 
@@ -16,10 +15,10 @@
 #include <optional>
 #include <vector>
 
-#include "cpu/box_errors.h"
 #include "cpu/embree_handles.h"
 #include "cpu/group_hierarchy.h"
 #include "cpu/instruction_sets.h"
+#include "cpu/size_layers.h"
 #include "tandem/base/error.h"
 #include "tandem/base/memory.h"
 #include "tandem/base/seconds.h"
@@ -81,7 +80,7 @@ class CpuScene final : public ResidentScene {
           scene_(copies_.empty() ? scene : std::make_shared<PreparedScene>(without_copies(*scene))) {
         const Stopwatch watch;
         const auto count = static_cast<std::uint32_t>(primitive_count(*scene_));
-        view_ = {tandem::view(*scene_), {}, nullptr, {}, nullptr};
+        view_.scene = tandem::view(*scene_);
         if (count > loop_limit) build(device, kernels, count);
         times_.build = watch.seconds();
     }
@@ -100,8 +99,7 @@ class CpuScene final : public ResidentScene {
     /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
     /// called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
-        const bool errors_are_of_scene = view_.frame.padding.of_reach == 0.0F;  // as the groups need it
-        if (!errors_are_of_scene || !groups_pay(*scene_, tier())) return view_;
+        if (view_.smaller != nullptr || !groups_pay(*scene_, tier())) return view_;  // groups have one layer
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
             const std::size_t count = primitive_count(*scene_);
@@ -118,52 +116,55 @@ class CpuScene final : public ResidentScene {
   private:
     void build(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
         require_memory(count * bvh_bytes_per_primitive, fmt::format("the hierarchy of {} primitives", count));
-        const Aabb bounds = tbb::parallel_reduce(
-            tbb::blocked_range<std::uint32_t>(0, count, 4096), Aabb{},
-            [&](const tbb::blocked_range<std::uint32_t>& range, Aabb box) {
-                const DefaultFpEnvironment guard;
-                for (std::uint32_t id = range.begin(); id < range.end(); ++id) {
-                    box = merge(box, primitive_bounds(view_.scene, id));
-                }
-                return box;
-            },
-            [](const Aabb& a, const Aabb& b) { return merge(a, b); });
-        const BoxErrors errors = box_errors_for(view_.scene, bounds);
-        view_.frame = make_structure_frame(bounds, errors);
-
-        embree_ = EmbreeScene(rtcNewScene(device));
-        if (errors == BoxErrors::of_distance) rtcSetSceneFlags(embree_.get(), RTC_SCENE_FLAG_ROBUST);
         const std::uint32_t triangles = view_.scene.triangle_count, quads = view_.scene.quad_count;
         view_.first_id[embree_quads] = count - quads;
         view_.first_id[embree_triangles] = count - quads - triangles;
         view_.first_id[our_primitives] = 0;
-        // Embree's 32-bit indices count the floats of the faces
-        const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
-        const bool own_faces = tier() != Tier::fast || scene_->triangles.size() > most || scene_->quads.size() > most;
-        add_primitives(device, kernels, own_faces ? count : count - quads - triangles);
-        if (!own_faces) {
-            add_faces(device, kernels, embree_triangles, scene_->triangles);
-            add_faces(device, kernels, embree_quads, scene_->quads);
+        const std::vector<SizeLayer> layers = divide_by_size(view_.scene);
+        smaller_.assign(layers.size() - 1, view_);
+        CpuSceneView* view = &view_;
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            view->frame = make_structure_frame(layers[i].bounds);
+            view->sizes = layers[i].sizes;
+            build_layer(device, kernels, count, *view, layers.size() == 1);
+            if (i < smaller_.size()) view->smaller = &smaller_[i];
+            view = &smaller_[i];
         }
-        rtcCommitScene(embree_.get());
-        check_embree(device, "building the acceleration structure");
-        view_.embree = embree_.get();
     }
 
-    /// Primitives [0, count) as user geometry.
-    void add_primitives(RTCDevice device, const TierKernels& kernels, std::uint32_t count) {
+    void build_layer(RTCDevice device, const TierKernels& kernels, std::uint32_t count, CpuSceneView& view,
+                     bool is_whole_scene) {
+        const EmbreeScene& embree = embree_.emplace_back(rtcNewScene(device));
+        // Embree's 32-bit indices count the floats of the faces
+        const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
+        const bool own_faces =
+            tier() != Tier::fast || !is_whole_scene || scene_->triangles.size() > most || scene_->quads.size() > most;
+        add_primitives(device, kernels, embree.get(), view, own_faces ? count : view.first_id[embree_triangles]);
+        if (!own_faces) {
+            add_faces(device, kernels, embree.get(), view, embree_triangles, scene_->triangles);
+            add_faces(device, kernels, embree.get(), view, embree_quads, scene_->quads);
+        }
+        rtcCommitScene(embree.get());
+        check_embree(device, "building the acceleration structure");
+        view.embree = embree.get();
+    }
+
+    /// Those of the primitives [0, count) that belong to the layer, as user geometry.
+    static void add_primitives(RTCDevice device, const TierKernels& kernels, RTCScene embree, CpuSceneView& view,
+                               std::uint32_t count) {
         if (count == 0) return;
-        const EmbreeGeometry geometry = user_geometry(device, &view_, count);
+        const EmbreeGeometry geometry = user_geometry(device, &view, count);
         rtcSetGeometryBoundsFunction(geometry.get(), padded_bounds, nullptr);
         rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
         rtcSetGeometryOccludedFunction(geometry.get(), kernels.occluded);
         rtcCommitGeometry(geometry.get());
-        rtcAttachGeometryByID(embree_.get(), geometry.get(), our_primitives);
+        rtcAttachGeometryByID(embree, geometry.get(), our_primitives);
     }
 
     /// Faces as Embree's own geometry, which reads their corners in place.
     template <class Face>
-    void add_faces(RTCDevice device, const TierKernels& kernels, GeometryId id, const std::vector<Face>& faces) {
+    static void add_faces(RTCDevice device, const TierKernels& kernels, RTCScene embree, CpuSceneView& view,
+                          GeometryId id, const std::vector<Face>& faces) {
         if (faces.empty()) return;
         constexpr bool is_quad = std::is_same_v<Face, Quad>;
         const EmbreeGeometry geometry(
@@ -186,23 +187,25 @@ class CpuScene final : public ResidentScene {
                 *indices++ = static_cast<std::uint32_t>(face * floats) + corners[c] * 3U;
             }
         }
-        rtcSetGeometryUserData(geometry.get(), &view_);
+        rtcSetGeometryUserData(geometry.get(), &view);
         rtcSetGeometryIntersectFilterFunction(geometry.get(), kernels.filter_nearest);
         rtcSetGeometryOccludedFilterFunction(geometry.get(), kernels.filter_any);
         rtcCommitGeometry(geometry.get());
-        rtcAttachGeometryByID(embree_.get(), geometry.get(), id);
+        rtcAttachGeometryByID(embree, geometry.get(), id);
     }
 
     static void padded_bounds(const RTCBoundsFunctionArguments* args) {
         const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-        const Aabb box = pad(primitive_bounds(view.scene, args->primID), view.frame.padding);
+        Aabb box = primitive_bounds(view.scene, args->primID);
+        box = view.sizes.contains(box) ? pad(box, view.frame.padding) : Aabb{};  // Embree leaves empty boxes out
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
     }
 
     std::vector<PrimitiveCopy> copies_;  ///< removed from the scene
     std::shared_ptr<const PreparedScene> scene_;
-    CpuSceneView view_;
-    EmbreeScene embree_;
+    CpuSceneView view_{};
+    std::vector<CpuSceneView> smaller_;  ///< the layers after the first
+    std::vector<EmbreeScene> embree_;    ///< of each layer
     PhaseTimes times_;
 
     std::once_flag groups_made_;

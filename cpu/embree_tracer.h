@@ -191,24 +191,22 @@ void filter_callback(const RTCFilterFunctionNArguments* args) {
     std::memcpy(args->valid, &kept, sizeof(kept));
 }
 
-struct EmbreeTracer {
-    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
-    static constexpr bool has_hierarchy = true;
+namespace embree_detail {
 
+/// Traces rays through one layer of a scene. `best`: the nearest hit in other layers, and then in this one too.
+struct LayerTracer {
     const CpuSceneView& view;
 
-    /// As LoopTracer::closest().
     template <class Real>
-    [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
-                                                         bool active,
-                                                         const Double<Real>& farthest = no_hit<Real>().t) const {
+    TANDEM_HD_INLINE void closest(const Ray<Real>& ray, const QuerySource<Real>& source, bool active,
+                                  Closest<Real>& best) const {
         QueryContext<Real> query;
-        query.best = {farthest, no_primitive};
+        query.best = best;
         query.source = &source;
-        if (!start(query, ray, active, false)) return query.best;
+        if (!start(query, ray, active, false)) return;
         RTCRayHit rayhit;
         rayhit.ray = embree_detail::single_ray(query.proposal, to_plain(query.proposal.start_for(source)),
-                                               to_plain(query.proposal.limit(farthest)));
+                                               to_plain(query.proposal.limit(best.t)));
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         embree::intersect1(view.embree, query.head, rayhit);
         if constexpr (is_fast<Real>) {
@@ -219,21 +217,20 @@ struct EmbreeTracer {
                 keep_nearest<Real>(true, t, id, query.best);
             }
         }
-        return query.best;
+        best = query.best;
     }
 
     template <class T, class Isa>
-    [[nodiscard]] TANDEM_HD_INLINE Closest<Lanes<T, Isa>> closest(
-        const Ray<Lanes<T, Isa>>& ray, const QuerySource<Lanes<T, Isa>>& source, const LaneMask<Isa>& active,
-        const Double<Lanes<T, Isa>>& farthest = no_hit<Lanes<T, Isa>>().t) const {
+    TANDEM_HD_INLINE void closest(const Ray<Lanes<T, Isa>>& ray, const QuerySource<Lanes<T, Isa>>& source,
+                                  const LaneMask<Isa>& active, Closest<Lanes<T, Isa>>& best) const {
         using Real = Lanes<T, Isa>;
         QueryContext<Real> query;
-        query.best = {farthest, UInt<Real>(no_primitive)};
+        query.best = best;
         query.source = &source;
-        if (!start(query, ray, active, true)) return query.best;
+        if (!start(query, ray, active, true)) return;
         alignas(64) typename embree::Packet<Real::size>::RayHit rayhit;
-        set_packet(rayhit.ray, query, query.proposal.start_for(source), query.proposal.limit(farthest));
-        query.triangles.template start<Search::nearest>(view, query.proposal, source, farthest);
+        set_packet(rayhit.ray, query, query.proposal.start_for(source), query.proposal.limit(best.t));
+        query.triangles.template start<Search::nearest>(view, query.proposal, source, best.t);
         const UInt<Real> none(RTC_INVALID_GEOMETRY_ID);
         std::memcpy(rayhit.hit.geomID, &none, sizeof(none));
         alignas(64) typename LaneMask<Isa>::Vector valid = query.proposal.active.vector();
@@ -247,10 +244,9 @@ struct EmbreeTracer {
                 embree_detail::primitive_of<UInt<Real>>(view, geometry, load<UInt<Real>>(rayhit.hit.primID));
             keep_nearest<Real>(geometry != none, query.proposal.parameter(load<Real>(rayhit.ray.tfar)), id, query.best);
         }
-        return query.best;
+        best = query.best;
     }
 
-    /// As LoopTracer::occluded().
     template <class Real>
     [[nodiscard]] TANDEM_HD_INLINE bool occluded(const Ray<Real>& ray, const Double<Real>& t_max,
                                                  const QuerySource<Real>& source, bool active) const {
@@ -325,6 +321,40 @@ struct EmbreeTracer {
         set(ray.mask, UInt<Real>(0xFFFFFFFFU));
         set(ray.id, zero);
         set(ray.flags, zero);
+    }
+};
+
+}  // namespace embree_detail
+
+struct EmbreeTracer {
+    static constexpr std::uint32_t kinds = PrimitiveKinds::all;
+    static constexpr bool has_hierarchy = true;
+
+    const CpuSceneView& view;
+
+    /// As LoopTracer::closest().
+    template <class Real>
+    [[nodiscard]] TANDEM_HD_INLINE Closest<Real> closest(const Ray<Real>& ray, const QuerySource<Real>& source,
+                                                         const Mask<Real>& active,
+                                                         const Double<Real>& farthest = no_hit<Real>().t) const {
+        Closest<Real> best = {farthest, UInt<Real>(no_primitive)};
+        for (const CpuSceneView* layer = &view; layer != nullptr; layer = layer->smaller) {
+            embree_detail::LayerTracer{*layer}.closest(ray, source, active, best);
+        }
+        return best;
+    }
+
+    /// As LoopTracer::occluded(). `masked`: CpuMaskedHits*, for packets only.
+    template <class Real, class... Masked>
+    [[nodiscard]] TANDEM_HD_INLINE Mask<Real> occluded(const Ray<Real>& ray, const Double<Real>& t_max,
+                                                       const QuerySource<Real>& source, const Mask<Real>& active,
+                                                       Masked*... masked) const {
+        Mask<Real> found(false);
+        for (const CpuSceneView* layer = &view; layer != nullptr; layer = layer->smaller) {
+            const embree_detail::LayerTracer tracer{*layer};
+            found = found || tracer.occluded(ray, t_max, source, active && !found, masked...);
+        }
+        return found;
     }
 };
 

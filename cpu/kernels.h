@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cpu/embree_api.h"
+#include "cpu/size_layers.h"
 #include "tandem/effects/variants.h"
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
@@ -33,6 +34,8 @@ struct CpuSceneView {
     RTCScene embree;
     std::uint32_t first_id[geometry_count];  ///< of the primitives in each geometry
     const GroupView* groups;
+    SizeRange sizes;                        ///< of the primitives in `embree`
+    const CpuSceneView* smaller = nullptr;  ///< the next layer: the same scene, and a hierarchy of smaller primitives
 };
 
 /// Pixels [x0, x1) x [y0, y1).

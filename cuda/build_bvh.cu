@@ -123,7 +123,7 @@ class Builder {
 
     void find_bounds() {
         bounds_ = scene_bounds(scene_, device_bounds_, memory_.word, doing, stream_);
-        built_.view.frame = make_structure_frame(bounds_);
+        built_.view.frame = make_structure_frame(bounds_, BoxErrors::of_distance);
         whole_ = wide_half_area(pad(bounds_, built_.view.frame.padding));
     }
 

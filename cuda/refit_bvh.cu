@@ -55,7 +55,7 @@ BuiltBvh refit_bvh(const SceneView& scene, const BuiltBvh& built, BuildMemory& m
     auto* const at = reinterpret_cast<OrderedBounds*>(memory.scratch.data());
     const Aabb bounds = scene_bounds(scene, at, memory.word, doing, stream);
     BuiltBvh result = built;
-    result.view.frame = make_structure_frame(bounds);
+    result.view.frame = make_structure_frame(bounds, BoxErrors::of_distance);
     result.root_area = wide_half_area(pad(bounds, result.view.frame.padding));
     for (std::size_t level = built.levels; level-- > 0;) {
         const std::uint32_t begin = built.level_starts[level], end = built.level_starts[level + 1];

@@ -179,7 +179,7 @@ struct Traced {
             for (std::uint32_t id = 0; id < primitive_count(others); ++id) {
                 bounds = merge(bounds, primitive_bounds(others, id));
             }
-            frame = make_structure_frame(bounds);
+            frame = make_structure_frame(bounds, BoxErrors::of_distance);
             other_bvh = build_bvh(others, frame.padding);
         }
     }

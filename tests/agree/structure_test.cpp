@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "support/aim.h"
 #include "support/bundles.h"
 #include "support/hard_scenes.h"
+#include "support/huge_primitive.h"
 #include "support/random.h"
 #include "support/structure.h"
 #include "tandem/compile/prepare.h"
@@ -209,65 +209,22 @@ TEST(Bvh, NeverLosesAGrazingHit) {
     expect_same_as_loop(structure, rays, "poles");
 }
 
-/// A sphere or a triangle that is `size` times as large as the other primitives: a hundred spheres of radius 1, boxes
-/// or triangles around `middle`.
-PreparedScene beside_a_huge_one(test::Random& random, float size, const Vec3f& middle) {
-    PreparedScene scene;
-    const int kind = static_cast<int>(random.below(3));
-    const auto place = [&] {
-        return middle + Vec3f{random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F), random.uniform(-9.0F, 9.0F)};
-    };
-    for (int i = 0; i < 100; ++i) {
-        const Vec3f a = place();
-        if (kind == 0) scene.spheres.push_back({a, 1});
-        if (kind == 1) scene.boxes.push_back({a, a + Vec3f{1, 0.5F, 0.25F}});
-        if (kind == 2) scene.triangles.push_back({a, a + Vec3f{1, 0.5F, 0}, a + Vec3f{0, -0.5F, 1}});
-    }
-    if (random.coin()) {
-        scene.spheres.push_back({middle + Vec3f{0, -size - 10, 0}, size});
-    } else {
-        scene.triangles.push_back({middle + Vec3f{-size, -10, size}, middle + Vec3f{0, -10, -2 * size},
-                                   middle + Vec3f{size, 0.1F * size, size}});
-    }
-    scene.material_of.assign(primitive_count(scene), 0);
-    scene.materials.emplace_back();
-    return scene;
-}
-
 // Boxes are padded by a part of their own reach, since a part of the scene's would be more than their size.
 TEST(Bvh, NeverLosesAHitOfSmallPrimitivesBesideAHugeOne) {
     test::Random random(21);
     for (int round = 0; round < 60; ++round) {
-        const float size = static_cast<float>(std::exp2(random.uniform(10.0, 36.0)));
-        const float away = random.coin() ? 0.0F : static_cast<float>(std::exp2(random.uniform(0.0, 12.0)));
-        const Vec3f middle = Vec3f{1, -0.5F, 0.25F} * away;
-        const Structure structure(beside_a_huge_one(random, size, middle));
-        const SceneView scene = view(structure.scene);
-        ASSERT_EQ(find_bvh_defect(structure.bvh, scene, structure.frame.padding), "") << round;
-        std::vector<Ray<float>> rays;
-        for (int i = 0; i < 1'000; ++i) {
-            const Aabb box = primitive_bounds(scene, static_cast<std::uint32_t>(random.below(100)));
-            const auto within = [&](float low, float high) {
-                const double part = random.below(4) == 0 ? 1 : random.uniform(0.0, 1.0);
-                return static_cast<float>(low + part * (double{high} - low));
-            };
-            const Vec3f target = {within(box.lower.x, box.upper.x), within(box.lower.y, box.upper.y),
-                                  within(box.lower.z, box.upper.z)};
-            const double far = std::exp2(random.uniform(-2.0, 44.0));
-            Vec3f direction = narrow(test::any_unit(random));
-            if (random.below(4) == 0) direction[static_cast<int>(random.below(3))] = random.coin() ? 0.0F : 1e-25F;
-            const Vec3f origin = target - direction * static_cast<float>(far);
-            rays.push_back({origin, random.coin() ? target - origin : direction});
-        }
-        expect_same_as_loop(structure, rays, "round " + std::to_string(round));
+        const Structure structure(test::beside_a_huge_one(random));
+        ASSERT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.padding), "") << round;
+        expect_same_as_loop(structure, test::rays_at_small_ones(structure.scene, random, 1'000),
+                            "round " + std::to_string(round));
     }
 }
 
 TEST(Bvh, DoesNotGrowTheBoxesOfSmallPrimitivesBesideAHugeOne) {
     test::Random random(22);
-    const Structure structure(beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));
+    const Structure structure(test::beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));
     const SceneView scene = view(structure.scene);
-    for (std::uint32_t id = 0; id < 100; ++id) {
+    for (std::uint32_t id = 0; id < test::small_count; ++id) {
         const Aabb box = primitive_bounds(scene, id);
         EXPECT_LT(half_area(pad(box, structure.frame.padding)), 1.01F * half_area(box)) << id;
     }

@@ -28,7 +28,7 @@ CpuSceneView plain_view(const PreparedScene& prepared) {
     Aabb bounds;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) bounds = merge(bounds, primitive_bounds(scene, id));
     const std::uint32_t quads = primitive_count(scene) - scene.quad_count, triangles = quads - scene.triangle_count;
-    return {scene, make_structure_frame(bounds), nullptr, {0, triangles, quads}, nullptr};
+    return {scene, make_structure_frame(bounds), nullptr, {0, triangles, quads}, nullptr, {}, nullptr};
 }
 
 void trace_single_rays(const TierKernels& kernels, const GroupHierarchy& hierarchy, const TraceJob& job) {

@@ -17,7 +17,7 @@ struct Structure {
         for (std::uint32_t id = 0; id < primitive_count(scene_view); ++id) {
             bounds = merge(bounds, primitive_bounds(scene_view, id));
         }
-        frame = make_structure_frame(bounds);
+        frame = make_structure_frame(bounds, BoxErrors::of_distance);
         bvh = build_bvh(scene_view, frame.padding);
     }
     template <Decisions decisions = Decisions::in_leaves, std::uint32_t kinds = PrimitiveKinds::all>

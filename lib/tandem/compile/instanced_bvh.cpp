@@ -171,7 +171,7 @@ InstancedBvh build_instanced_bvh(const PreparedScene& scene) {
     for (const Box& box : boxes) bounds = merge(bounds, Aabb{box.lower, box.upper});
 
     InstancedBvh result;
-    result.frame = make_structure_frame(bounds);
+    result.frame = make_structure_frame(bounds, BoxErrors::of_distance);
     Bvh upper = over_boxes(boxes, result.frame.padding);
     result.nodes = std::move(upper.nodes);
     const auto upper_entries = static_cast<std::int32_t>(upper.entry_ids.size());

@@ -6,8 +6,8 @@
 /// which a and c have in common; by 3 u |corner - o| / d because of the difference, the product and the rounding of c,
 /// where |corner - o| is at most P d + 255 q; and by u P + 1024 u q / d because of the sums. So by 8 u P and, as a
 /// length, by 2^-13 q, which is less than make_node() adds when it rounds planes outward. With the direction and the
-/// origin (proposal.h) it errs by 11 u P, so the exit may be too early by 22 u of itself: it grows by `exit_growth` units in
-/// the last place, which are at least 32 u of it.
+/// origin (proposal.h) it errs by 11 u P, so the exit may be too early by 22 u of itself: it grows by `exit_growth`
+/// units in the last place, which are at least 32 u of it.
 #pragma once
 
 #include <cstring>

@@ -6,14 +6,12 @@
 ///   of_scene     A slab test b * rcp - o * rcp with approximate reciprocals (Embree's) moves the planes by at most
 ///                13 u S when |o| <= S. Moving the origin adds 2 u S (it may end up to 2^-6 S beyond S), rounding it
 ///                1 u S, and rounding the direction 3 u S along a path of length 2 S. Boxes are padded by 32 u S.
-///   of_distance  A slab test (b - o) * rcp errs by a part of the distance b - o along the axis: node_ray.h by 8 u, and
-///                Embree's robust one by 4 u. A component of the direction errs by 2 u of itself, up to a factor that
-///                all have in common. One of the origin is rounded by u |o| <= u |b| + u |b - o|, and before that
-///                misses by 2^-39 S if the origin was moved; a component of the direction that is too small to invert
-///                is replaced, which moves the ray by 2^-57 S. So boxes are padded by 32 u of their own reach and
-///                2^-38 S, and the test lets the exit grow by the rest: 22 u of itself in node_ray.h. In Embree the
-///                entry shrinks by 6 u and the exit grows by as much, of which its own arithmetic takes 4, so propose()
-///                rounds the direction only once.
+///   of_distance  A slab test (b - o) * rcp errs by a part of the distance b - o along the axis: node_ray.h by 8 u. A
+///                component of the direction errs by 2 u of itself, up to a factor that all have in common. One of the
+///                origin is rounded by u |o| <= u |b| + u |b - o|, and before that misses by 2^-39 S if the origin was
+///                moved; a component of the direction that is too small to invert is replaced, which moves the ray by
+///                2^-57 S. So boxes are padded by 32 u of their own reach and 2^-38 S, and the test lets the exit grow
+///                by the rest, 22 u of itself. (Embree has such a test too, but not for user geometry.)
 /// Tested by tests/agree/structure_test.cpp; the ends of a query by tests/kernel/traversal/proposal_test.cpp.
 #pragma once
 
@@ -41,8 +39,7 @@ struct StructureFrame {
 };
 
 /// `scene_bounds`: merged bounds of all primitives, not padded.
-TANDEM_HD_INLINE StructureFrame make_structure_frame(const Aabb& scene_bounds,
-                                                     BoxErrors errors = BoxErrors::of_distance) {
+TANDEM_HD_INLINE StructureFrame make_structure_frame(const Aabb& scene_bounds, BoxErrors errors = BoxErrors::of_scene) {
     constexpr float share = 32.0F * float_roundoff;
     const float size = reach(scene_bounds);
     // the term 1e-30 keeps the padding a normal number, so that flush-to-zero inside Embree does not remove it
@@ -110,40 +107,6 @@ namespace proposal_detail {
 inline constexpr float near_by = 8192;
 inline constexpr float least_length = 1e-15F;
 
-/// The power of two that brings a normal float into [1, 2), and its inverse.
-template <class Real>
-struct Scaling {
-    Real down, up;
-};
-template <class Real>
-TANDEM_HD_INLINE Scaling<Real> scaling_of(const Real& largest) {
-    const auto bits = bits_of(largest);
-    using Word = std::remove_const_t<decltype(bits)>;
-    const Word exponent = bits & Word(0x7F800000U);
-    return {float_of(Word(0x7F000000U) - exponent), float_of(exponent)};
-}
-
-/// `direction` is `up` times `vector`, whose largest component is about 1.
-template <class Real>
-struct ScaledDirection {
-    Vec3<Real> vector;
-    Real up;
-};
-/// Exact in float but for components far below the largest one. `largest`: of the direction, not zero.
-template <class Real>
-TANDEM_HD_INLINE ScaledDirection<Real> scale_down(const Vec3<Real>& direction, const Real& largest) {
-    if constexpr (is_fast<Real> || !std::is_same_v<Scalar<Real>, float>) {
-        return {{direction.x / largest, direction.y / largest, direction.z / largest}, largest};
-    } else {
-        const Mask<Real> is_short = largest < Real(least_length);  // perhaps subnormal
-        const Real lift = select(is_short, Real(0x1p100F), Real(1.0F));
-        const Scaling<Real> scaling = scaling_of(largest * lift);
-        const auto scaled = [&](const Real& component) { return component * lift * scaling.down; };
-        return {{scaled(direction.x), scaled(direction.y), scaled(direction.z)},
-                scaling.up * select(is_short, Real(0x1p-100F), Real(1.0F))};
-    }
-}
-
 /// The crossing of the bounds for rays that start outside. In float for origins `near_by`: the error of each t is below
 /// 4 u t, and the margin is 16 u t. So no ray that may hit anything is lost, and the entry is at most 2^-6 of the reach
 /// before the bounds, never behind them.
@@ -178,13 +141,13 @@ TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFra
     using D = Double<Real>;
     const Real x = absolute(ray.direction.x), y = absolute(ray.direction.y), z = absolute(ray.direction.z);
     const Real largest = select(active, greater(greater(x, y), z), Real(1.0F));
-    const auto [scaled, up] = proposal_detail::scale_down(ray.direction, largest);
+    const Vec3<Real> scaled = {ray.direction.x / largest, ray.direction.y / largest, ray.direction.z / largest};
     const Real scaled_length = square_root(dot(scaled, scaled));
     const Real inverse_length = Real(1.0F) / scaled_length;
     Proposal<Real> proposal;
     proposal.ray.direction =
         narrow(Vec3<Real>{scaled.x * inverse_length, scaled.y * inverse_length, scaled.z * inverse_length});
-    proposal.length = up * scaled_length;
+    proposal.length = largest * scaled_length;
     proposal.ray.origin = narrow(ray.origin);
     proposal.t_offset = D(0.0);
     proposal.active = active;

@@ -21,6 +21,15 @@ TANDEM_HD_CALL Proposal<float> propose_slowly(Ray<float> ray, StructureFrame fra
     return propose(ray, frame, true);
 }
 
+/// The power of two that brings a normal float into [1, 2), and its inverse.
+struct Scaling {
+    float down, up;
+};
+TANDEM_HD_INLINE Scaling scaling_of(float largest) {
+    const std::uint32_t exponent = bits_of(largest) & 0x7F800000U;
+    return {float_of(0x7F000000U - exponent), float_of(exponent)};
+}
+
 }  // namespace proposal_detail
 
 /// Needs a traceable ray. As propose().
