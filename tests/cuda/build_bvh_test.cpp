@@ -130,15 +130,14 @@ TEST_F(BuildBvhOn, TheGpuCostsLittleMoreThanTheHosts) {
         const SceneView host_view = view(scene.scene());
         const Padding padding = scene.built().view.frame.padding;
         const Bvh host = tandem::build_bvh(host_view, padding);
-        const double ratio = Cost(ours, host_view, padding).value() / Cost(host, host_view, padding).value();
+        const double ratio = Cost(ours, host_view, padding).area() / Cost(host, host_view, padding).area();
         RecordProperty(std::string("cost over the host's, ") + name, std::to_string(ratio));
         std::printf("%s: cost %.4f of the host's tree, %u levels\n", name, ratio, scene.built().levels);
         EXPECT_LT(ratio, 1.05) << name;
     }
 }
 
-/// The cost of a tree that the GPU builds, times the area of its root, without the root and leaves larger than 1000
-/// square metres.
+/// The cost of a tree that the GPU builds, without the root and leaves larger than 1000 square metres.
 double cost_of_small_nodes(const char* name) {
     OnGpu scene(named(name));
     const Bvh bvh = scene.build();
@@ -151,7 +150,7 @@ double cost_of_small_nodes(const char* name) {
         all = merge(all, box);
         if (half_area(box) > 1e3F) large += 0.6 * wide_half_area(box);
     }
-    return (Cost(bvh, host_view, padding).value() - 1) * wide_half_area(all) - large;
+    return Cost(bvh, host_view, padding).area() - wide_half_area(all) - large;
 }
 
 // On a curve through the whole scene, all small primitives would share a cell, and be neighbours in any order.

@@ -52,14 +52,13 @@ inline PreparedScene of_spheres(std::vector<Sphere> spheres) {
 inline PreparedScene named(const char* name) { return prepare(named_scene(name)); }
 
 /// The cost of a tree by the surface area heuristic, with the weights of collapse.h, from the padded bounds of what it
-/// holds.
+/// holds. Square metres: not yet relative to the area of the root.
 class Cost {
   public:
     Cost(const Bvh& bvh, const SceneView& scene, const Padding& padding) : bvh_(bvh), scene_(scene), padding_(padding) {
-        const Aabb all = add_node(0);
-        sum_ /= wide_half_area(all);
+        add_node(0);
     }
-    [[nodiscard]] double value() const { return sum_; }
+    [[nodiscard]] double area() const { return sum_; }
 
   private:
     Aabb add_node(std::int32_t index) {

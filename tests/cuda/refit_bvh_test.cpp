@@ -76,7 +76,7 @@ class RefitBvhOn : public NeedsGpu {
         const BuiltBvh moved = refit(after, build(before));
         const Bvh bvh = download(moved, after.here());
         if (moved.levels > max_bvh_depth) return "too deep";
-        const double cost = Cost(bvh, after.here(), moved.view.frame.padding).value();
+        const double cost = Cost(bvh, after.here(), moved.view.frame.padding).area() / moved.root_area;
         if (!(std::abs(moved.cost / cost - 1) < 1e-3)) {
             return "says that it costs " + std::to_string(moved.cost) + ", costs " + std::to_string(cost);
         }
