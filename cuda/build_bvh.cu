@@ -132,13 +132,14 @@ class Builder {
         const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
         const double largest = greater(greater(extent.x, extent.y), extent.z);
         const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
-        const bool in_detail = has_tiny_primitives(cells);
+        const auto [in_detail, in_fine_cells] = needed_order(cells);
         run_kernel(codes_kernel, count_, scene_, count_, cells, codes_, lists_);
         cub::DoubleBuffer<std::uint64_t> codes(codes_, codes_ + count_);
         cub::DoubleBuffer<std::uint32_t> ids(lists_, lists_ + count_);
+        const int first_bit = in_fine_cells ? 0 : 3 * fine_bits;
         const auto sort = [&] {
-            check(cub::DeviceRadixSort::SortPairs(cub_memory_, cub_bytes_, codes, ids, static_cast<int>(count_), 0,
-                                                  code_bits, stream_),
+            check(cub::DeviceRadixSort::SortPairs(cub_memory_, cub_bytes_, codes, ids, static_cast<int>(count_),
+                                                  first_bit, code_bits, stream_),
                   doing);
         };
         if (in_detail) {  // by the places within cells, then, in a sort that keeps their order, by the cells
@@ -152,15 +153,20 @@ class Builder {
         return ids.Alternate();
     }
 
-    /// Whether, of up to 16,384 primitives at equal steps through the list, one in 64 is smaller than a cell of the
-    /// curve. Then many share a cell, for example where a scene is far larger than what most of it consists of.
-    [[nodiscard]] bool has_tiny_primitives(const CurveCells& cells) {
+    struct NeededOrder {
+        bool in_detail;      ///< within cells of the curve
+        bool in_fine_cells;  ///< within its coarse cells
+    };
+    /// By whether, of up to 16,384 primitives at equal steps through the list, one in 64 is smaller than a cell. Then
+    /// many may share a cell, for example where a scene is far larger than what most of it consists of.
+    [[nodiscard]] NeededOrder needed_order(const CurveCells& cells) {
         constexpr std::uint32_t most = 16'384;
         const std::uint32_t step = (count_ - 1) / most + 1, samples = (count_ - 1) / step + 1;
-        check(cudaMemsetAsync(sums_, 0, sizeof(std::uint32_t), stream_), doing);
-        auto* const tiny = reinterpret_cast<std::uint32_t*>(sums_);
-        run_kernel(count_tiny_kernel, samples, scene_, count_, step, cells, tiny);
-        return 64 * fetch(tiny) >= samples;
+        check(cudaMemsetAsync(sums_, 0, sizeof(TinyCounts), stream_), doing);
+        auto* const counts = reinterpret_cast<TinyCounts*>(sums_);
+        run_kernel(count_tiny_kernel, samples, scene_, count_, step, cells, counts);
+        const TinyCounts tiny = fetch(counts);
+        return {64 * tiny.for_cells >= samples, 64 * tiny.for_coarse_cells >= samples};
     }
 
     /// Exclusive sums of `count` + 1 elements, of which the last is the sum of all: summed().

@@ -29,8 +29,8 @@ struct BuiltBvh {
     std::vector<std::uint32_t>
         level_starts;     ///< the first node of each level, then node_count; children are a level below
     TreeArrays arrays{};  ///< the same memory as `view`, to be written
-    /// By the surface area heuristic with the weights of kernel/traversal/collapse.h, relative to the area of the scene's
-    /// padded bounds; and half of that area, square metres.
+    /// By the surface area heuristic with the weights of kernel/traversal/collapse.h, relative to the area of the
+    /// scene's padded bounds; and half of that area, square metres.
     double cost = 0, root_area = 0;
 };
 

@@ -17,8 +17,10 @@ __device__ inline std::uint64_t spread(std::uint64_t x) {
     return x;
 }
 
-/// Cells of the Morton curve along an axis: 2^21.
+/// Cells of the Morton curve along an axis: 2^21. Most scenes need only the coarse cells, of which there are 2^13,
+/// since the order within a cell does not matter where primitives are larger than it.
 inline constexpr std::uint32_t curve_cells = 1U << 21;
+inline constexpr int fine_bits = 8;  ///< per axis, of the place of a cell in a coarse one
 
 /// The cells of a Morton curve: cubes, so that they fit boxes of any shape.
 struct CurveCells {
@@ -53,18 +55,27 @@ static __global__ void codes_of_list_kernel(SceneView scene, std::uint32_t count
     if (place < count) codes[place] = cells.code(primitive_bounds(scene, ids[place]), within);
 }
 
-/// Of every `step`-th primitive, counts those that are smaller than a cell.
+/// Numbers of primitives that are smaller than a cell, and smaller than a coarse one.
+struct TinyCounts {
+    std::uint32_t for_cells, for_coarse_cells;
+};
+
+/// Of every `step`-th primitive.
 static __global__ void count_tiny_kernel(SceneView scene, std::uint32_t count, std::uint32_t step, CurveCells cells,
-                                         std::uint32_t* tiny) {
+                                         TinyCounts* tiny) {
     const std::uint32_t sample = thread_number();
-    bool is_tiny = false;
+    double size = curve_cells;  // in cells
     if (sample <= (count - 1) / step) {
         const Aabb box = primitive_bounds(scene, sample * step);
         const Vec3d extent = widen(box.upper) - widen(box.lower);
-        is_tiny = greater(greater(extent.x, extent.y), extent.z) * cells.per_metre < 1.0;
+        size = greater(greater(extent.x, extent.y), extent.z) * cells.per_metre;
     }
-    const std::uint32_t found = __popc(__ballot_sync(~0U, is_tiny));
-    if (threadIdx.x % 32 == 0 && found != 0) atomicAdd(tiny, found);
+    const auto add = [&](double most, std::uint32_t* to) {
+        const std::uint32_t found = __popc(__ballot_sync(~0U, size < most));
+        if (threadIdx.x % 32 == 0 && found != 0) atomicAdd(to, found);
+    };
+    add(1, &tiny->for_cells);
+    add(1U << fine_bits, &tiny->for_coarse_cells);
 }
 
 static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, Padding padding, BuildTree tree,

@@ -138,8 +138,8 @@ TEST_F(BuildBvhOn, TheGpuCostsLittleMoreThanTheHosts) {
 }
 
 /// The cost of a tree that the GPU builds, without the root and leaves larger than 1000 square metres.
-double cost_of_small_nodes(const char* name) {
-    OnGpu scene(named(name));
+double cost_of_small_nodes(PreparedScene prepared) {
+    OnGpu scene(std::move(prepared));
     const Bvh bvh = scene.build();
     const SceneView host_view = view(scene.scene());
     const Padding padding = scene.built().view.frame.padding;
@@ -153,11 +153,18 @@ double cost_of_small_nodes(const char* name) {
     return Cost(bvh, host_view, padding).area() - wide_half_area(all) - large;
 }
 
-// On a curve through the whole scene, all small primitives would share a cell, and be neighbours in any order.
+// All small primitives are in one coarse cell of the curve, or even in one cell, and would be neighbours in any order.
 TEST_F(BuildBvhOn, TheGpuSortsSmallPrimitivesBesideAGiant) {
-    const double alone = cost_of_small_nodes("spheres/100000"), beside = cost_of_small_nodes("giant/100000");
-    std::printf("beside a giant: %.4f of the cost without it\n", beside / alone);
-    EXPECT_LT(beside, 1.1 * alone);
+    const double alone = cost_of_small_nodes(named("spheres/100000"));
+    for (const float radius : {1e4F, 1e6F}) {
+        PreparedScene scene = named("spheres/100000");
+        scene.spheres.push_back({{0, -1.5F - radius, 0}, radius});
+        scene.material_of.push_back(0);
+        const double beside = cost_of_small_nodes(std::move(scene));
+        std::printf("beside a giant of %g m: %.4f of the cost without it\n", static_cast<double>(radius),
+                    beside / alone);
+        EXPECT_LT(beside, 1.1 * alone);
+    }
 }
 
 }  // namespace
