@@ -220,6 +220,34 @@ TEST(Bvh, NeverLosesAHitOfSmallPrimitivesBesideAHugeOne) {
     }
 }
 
+// Rays from afar through poles of spheres that are as small as the rounding of the rays' moved origins. All coordinates
+// are multiples of 2^-11, the distance of floats there, so that the rays hit exactly what they are aimed at.
+TEST(Bvh, NeverLosesAHitOfSmallPrimitivesFarFromTheOrigin) {
+    test::Random random(24);
+    constexpr float step = 0x1p-11F, radius = 7 * step;
+    const auto multiple = [&](double range) {
+        return step * static_cast<float>(std::floor(random.uniform(-range, range) / double{step}));
+    };
+    for (int round = 0; round < 200; ++round) {
+        PreparedScene scene;
+        for (int i = 0; i < 8; ++i) {
+            scene.spheres.push_back({{4096 + multiple(0.02), -2048 + multiple(0.02), 1024 + multiple(0.02)}, radius});
+        }
+        scene.material_of.assign(8, 0);
+        scene.materials.emplace_back();
+        std::vector<Ray<float>> rays;
+        for (int i = 0; i < 200; ++i) {
+            const int axis = random.coin() ? 1 : 2;
+            Vec3f pole = scene.spheres[random.below(8)].centre, direction = {-3000 + multiple(500), 0, 0};
+            pole[axis] += random.coin() ? radius : -radius;
+            direction[axis] = multiple(40);  // nearly a tangent, but none
+            direction[3 - axis] = multiple(1000);
+            rays.push_back({pole - direction, direction});
+        }
+        expect_same_as_loop(Structure(std::move(scene)), rays, "round " + std::to_string(round));
+    }
+}
+
 TEST(Bvh, DoesNotGrowTheBoxesOfSmallPrimitivesBesideAHugeOne) {
     test::Random random(22);
     const Structure structure(test::beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));

@@ -10,8 +10,8 @@
 ///                component of the direction errs by 2 u of itself, up to a factor that all have in common. One of the
 ///                origin is rounded by u |o| <= u |b| + u |b - o|, and before that misses by 2^-39 S if the origin was
 ///                moved; a component of the direction that is too small to invert is replaced, which moves the ray by
-///                2^-57 S. So boxes are padded by 32 u of their own reach and 2^-38 S, and the test lets the exit grow
-///                by the rest, 22 u of itself. (Embree has such a test too, but not for user geometry.)
+///                2^-57 S. So boxes are padded by 2^-38 S and 32 u of their own reach, where u would do, and the test
+///                lets the exit grow by the rest, 22 u of itself. (Embree has such a test, but not for user geometry.)
 /// Tested by tests/agree/structure_test.cpp; the ends of a query by tests/kernel/traversal/proposal_test.cpp.
 #pragma once
 
