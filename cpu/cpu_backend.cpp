@@ -22,6 +22,7 @@
 #include "tandem/base/error.h"
 #include "tandem/base/memory.h"
 #include "tandem/base/seconds.h"
+#include "tandem/compile/crossed_boxes.h"
 #include "tandem/compile/derive.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
@@ -62,14 +63,16 @@ bool are_connected(const std::vector<Triangle>& triangles) {
     return 2 * connected > pairs;
 }
 
-/// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres or
-/// triangles of meshes. A guess, which affects only the speed.
-bool groups_pay(const PreparedScene& scene, Tier tier) {
+/// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres, triangles
+/// of meshes, or triangles of which a ray passes close to many (docs/performance/cpu.md). A guess, which affects only
+/// the speed.
+bool groups_pay(const PreparedScene& scene, const CpuSceneView& view, Tier tier) {
+    constexpr double many = 6;
     const std::size_t count = primitive_count(scene);
     const bool embree_decides = tier == Tier::fast && scene.triangles.size() + scene.quads.size() > 0;
     if (count < least_for_groups || embree_decides) return false;
-    const std::size_t meshes = are_connected(scene.triangles) ? scene.triangles.size() : 0;
-    return 10 * (scene.spheres.size() + meshes) > 9 * count;
+    const bool triangles_pay = are_connected(scene.triangles) || crossed_boxes(view.scene, view.frame.bounds) > many;
+    return 10 * (scene.spheres.size() + (triangles_pay ? scene.triangles.size() : 0)) > 9 * count;
 }
 
 class CpuScene final : public ResidentScene {
@@ -99,7 +102,7 @@ class CpuScene final : public ResidentScene {
     /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
     /// called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
-        if (view_.smaller != nullptr || !groups_pay(*scene_, tier())) return view_;  // groups have one layer
+        if (view_.smaller != nullptr || !groups_pay(*scene_, view_, tier())) return view_;  // groups have one layer
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
             const std::size_t count = primitive_count(*scene_);

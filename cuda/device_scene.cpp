@@ -10,8 +10,8 @@
 
 #include "tandem/base/memory.h"
 #include "tandem/base/parallel.h"
+#include "tandem/compile/crossed_boxes.h"
 #include "tandem/compile/prepared_scene.h"
-#include "tandem/kernel/traversal/collapse.h"
 
 namespace tandem::cuda {
 
@@ -76,22 +76,11 @@ class Layout {
 };
 
 /// Whether rays pass close to many triangles before they hit one, so that traversals of neighbouring rays differ in
-/// length. The criterion is how many boxes of triangles a line through the scene hits on average: the sum of the boxes'
-/// areas, estimated from some triangles, over the area of the scene's box. This number is 4 for a sphere of fine
-/// triangles, and 8.9 for a million triangles without order (named:triangles/1000000), the two scenes in which the
-/// limit was tried (docs/performance/hierarchies.md).
+/// length. The limit was tried in a sphere of fine triangles and in a million triangles without order
+/// (docs/performance/hierarchies.md).
 bool rays_diverge(const SceneView& scene, const Aabb& bounds) {
-    constexpr std::uint32_t most_inspected = 1024;
     constexpr double many = 8;
-    const std::uint32_t count = scene.triangle_count;
-    if (count == 0 || count != primitive_count(scene)) return false;
-    const std::uint32_t inspected = count < most_inspected ? count : most_inspected;
-    double area = 0;
-    for (std::uint32_t i = 0; i < inspected; ++i) {
-        const auto id = static_cast<std::uint32_t>(std::uint64_t{count} * i / inspected);
-        area += wide_half_area(tandem::bounds(scene.triangles[id]));
-    }
-    return area / inspected * count > many * wide_half_area(bounds);
+    return scene.triangle_count == primitive_count(scene) && crossed_boxes(scene, bounds) > many;
 }
 
 constexpr std::size_t much_memory = std::size_t{1} << 28;

@@ -46,8 +46,23 @@ struct GpuRays {
 constexpr std::array gpu_rays = {
     GpuRays{"", "A million spheres", million_spheres, 7.0, 2.8, 1.10},
     GpuRays{"-mesh", "A mesh of 1.3 million triangles", "named:icosphere/8", 7.2, 3.0, 1.35},
-    GpuRays{"-triangles", "A million loose triangles", "named:triangles/1000000", 2.5, 1.05, 1.10},
+    GpuRays{"-triangles", "A million loose triangles", million_triangles, 2.5, 1.05, 1.10},
     GpuRays{"-boxes", "A million turned boxes", million_boxes, 5.0, 2.1, 1.10},
+};
+
+/// Scenes that are hard for a hierarchy, and ordinary ones of the same kind of primitive.
+struct HardScene {
+    const char* name;
+    const char* what;
+    const char* scene;
+    const char* than;
+    const char* ordinary;
+};
+constexpr std::array hard_scenes = {
+    HardScene{"giant", "A million spheres above one of 1000 km", "named:giant/1000000", "the spheres alone",
+              million_spheres},
+    HardScene{"hair", "A million hair-thin triangles", "named:hair/1000000", "as many loose triangles",
+              million_triangles},
 };
 
 }  // namespace
@@ -110,13 +125,15 @@ std::vector<Target> all_targets(int cores) {
     for (const char* backend : {"cuda", "cpu"}) {
         const bool on_gpu = backend == std::string("cuda");
         for (const RaySet set : {RaySet::coherent, RaySet::random}) {
-            targets.push_back(target(
-                fmt::format("{}-giant-{}", on_gpu ? "gpu" : "cpu", to_string(set)),
-                fmt::format("A million spheres above one of 1000 km, {}, {} rays: at least 0.2 times the rate in the "
-                            "spheres alone",
-                            on_gpu ? "GPU" : "CPU", to_string(set)),
-                0.2, on_gpu ? 1 : 0,
-                [backend, set](TargetRun& run, TargetResult& result) { run.giant_rays(result, backend, set); }));
+            for (const HardScene& scene : hard_scenes) {
+                targets.push_back(target(fmt::format("{}-{}-{}", on_gpu ? "gpu" : "cpu", scene.name, to_string(set)),
+                                         fmt::format("{}, {}, {} rays: at least 0.2 times the rate in {}", scene.what,
+                                                     on_gpu ? "GPU" : "CPU", to_string(set), scene.than),
+                                         0.2, on_gpu ? 1 : 0,
+                                         [backend, set, &scene](TargetRun& run, TargetResult& result) {
+                                             run.hard_rays(result, backend, set, scene.scene, scene.ordinary);
+                                         }));
+            }
         }
     }
     targets.push_back(target("gpu-rays-shadow", "A million spheres, GPU (H200), shadow rays: at least 3 G rays/s", 3e9,

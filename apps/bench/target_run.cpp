@@ -83,14 +83,14 @@ void TargetRun::gpu_city_rays(TargetResult& result, RaySet set) {
     finish(result, ratio_of_medians(rates.written.seconds, rates.city.seconds));
 }
 
-void TargetRun::giant_rays(TargetResult& result, const char* backend, RaySet set) {
-    BenchmarkRow rows[2];
-    for (const bool with_giant : {false, true}) {
-        const char* scene = with_giant ? "named:giant/1000000" : million_spheres;
-        rows[with_giant ? 1 : 0] = time_rays(ray_options(scene, set), {backend}, source_, report_).rows[0];
-    }
-    add_rows({rows[0], rows[1]});
-    finish(result, ratio_of_medians(rows[0].seconds, rows[1].seconds));
+void TargetRun::hard_rays(TargetResult& result, const char* backend, RaySet set, const char* scene,
+                          const char* ordinary) {
+    const auto time = [&](const char* name) {
+        return time_rays(ray_options(name, set), {backend}, source_, report_).rows[0];
+    };
+    const BenchmarkRow base = time(ordinary), hard = time(scene);
+    add_rows({base, hard});
+    finish(result, ratio_of_medians(base.seconds, hard.seconds));
 }
 
 void TargetRun::gpu_shadow_rays(TargetResult& result) {
@@ -133,7 +133,7 @@ void TargetRun::frame_price(TargetResult& result, const std::string& backend) {
         result.why_not = fmt::format("not run: there are no scenes in {} here", options_.scenes);
         return;
     }
-    scenes.insert(scenes.end(), {million_spheres, "named:icosphere/8", "named:triangles/1000000", million_boxes});
+    scenes.insert(scenes.end(), {million_spheres, "named:icosphere/8", million_triangles, million_boxes});
     const std::unique_ptr<Backend> renderer = make(backend, {});
     Ratio worst;
     std::string where;

@@ -19,6 +19,7 @@
 namespace tandem::bench {
 
 inline constexpr const char* million_spheres = "named:spheres/1000000";
+inline constexpr const char* million_triangles = "named:triangles/1000000";
 inline constexpr const char* million_boxes = "named:boxes/1000000";
 inline constexpr int mitsuba_threads = 2;
 
@@ -43,8 +44,8 @@ class TargetRun {
     /// Our rays per second in a city of instances, divided by those in a block of them that is written out.
     void gpu_city_rays(TargetResult& result, RaySet set);
 
-    /// Rays per second in the million spheres above a sphere of 1000 km, divided by those in the spheres alone.
-    void giant_rays(TargetResult& result, const char* backend, RaySet set);
+    /// Rays per second in a scene that is hard for a hierarchy, divided by those in an ordinary one.
+    void hard_rays(TargetResult& result, const char* backend, RaySet set, const char* scene, const char* ordinary);
 
     /// Rays from the points that coherent rays hit to a point light, in a million spheres: any hit ends them.
     void gpu_shadow_rays(TargetResult& result);

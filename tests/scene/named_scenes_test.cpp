@@ -5,6 +5,7 @@
 #include "support/scenes.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/gltf/load_scene.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 namespace {
@@ -42,6 +43,10 @@ TEST(NamedScenes, FacesAreWhatTheirNamesSay) {
     EXPECT_EQ(triangles.triangles.size(), 100U);
     EXPECT_EQ(triangles.triangles[0].attributes.sides, FaceSides::double_sided);
     EXPECT_EQ(prepare(named_scene("quads/3")).quads.size(), 3U);
+    const PreparedScene hair = prepare(named_scene("hair/1000"));
+    EXPECT_EQ(hair.triangles.size(), 1000U);
+    EXPECT_NEAR(length(widen(hair.triangles[7].v1 - hair.triangles[7].v0)), 0.48, 1e-6);
+    EXPECT_NEAR(length(widen(hair.triangles[7].v2 - hair.triangles[7].v0)), 0.48e-3, 1e-6);
     const PreparedScene leaves = prepare(named_scene("leaves/40"));
     EXPECT_EQ(leaves.quads.size(), 40U);
     EXPECT_EQ(leaves.masked_kinds, PrimitiveKinds::quad);

@@ -251,6 +251,26 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
+/// Thin triangles, on average four times as long as the others.
+Scene random_hair(const std::string& name, std::uint32_t count, std::uint32_t seed) {
+    Scene scene = crowd(name);
+    const double half_length = 2.4 / accurate_cbrt(static_cast<double>(count)), width = 2e-3 * half_length;
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.name = "hair";
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ObjectNumbers numbers(seed, i);
+        const Vec3d centre = numbers.in_cube(), towards = numbers.in_cube(), aside = numbers.in_cube();
+        const Vec3d along = towards * (half_length / length(towards)), across = aside * (width / length(aside));
+        for (const Vec3d& corner : {centre - along, centre + along, centre - along + across}) {
+            mesh.triangles.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+            mesh.positions.push_back(narrow(corner));
+        }
+    }
+    scene.materials[0].sides = FaceSides::double_sided;
+    scene.nodes.push_back(shape_node(mesh.name, {0, 0, 0}, MeshShape{0}, 0));
+    return scene;
+}
+
 /// A leaf: an ellipse of 32 x 32 texels, of one colour, with nothing around it.
 Image leaf() {
     constexpr std::uint32_t edge = 32;
@@ -360,7 +380,8 @@ std::optional<std::uint32_t> parse_count(std::string_view text, std::uint32_t mo
 
 /// The least memory that a primitive of such a scene takes, here and in prepare().
 std::size_t least_bytes(std::string_view kind) {
-    if (kind == "triangles") return 3 * 16 + 56;  // corners and their indices, then the face with material and node
+    if (kind == "triangles" || kind == "hair")
+        return 3 * 16 + 56;  // corners and their indices, then the face with material and node
     if (kind == "quads") return 4 * 16 + 72;
     if (kind == "leaves") return 4 * 16 + 72 + 2 * 4 * 8;  // and texture coordinates
     if (kind == "block" || kind == "city" || kind == "forest") return sizeof(Trs) + 240;
@@ -384,7 +405,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::vector<std::string> scene_names() {
     return {"paper",           "hard/planet",    "hard/telescope",     "hard/far-telescope", "spheres/N[/SEED]",
             "boxes/N[/SEED]",  "mixed/N[/SEED]", "triangles/N[/SEED]", "quads/N[/SEED]",     "icosphere/LEVEL",
-            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]",      "forest/N[/SEED]",    "giant/N[/SEED]"};
+            "leaves/N[/SEED]", "block/N[/SEED]", "city/N[/SEED]",      "forest/N[/SEED]",    "giant/N[/SEED]",
+            "hair/N[/SEED]"};
 }
 
 Scene named_scene(std::string_view name) {
@@ -409,6 +431,7 @@ Scene named_scene(std::string_view name) {
             if (parts[0] == "mixed") return random_crowd(full, *count, *seed, {true, true, true, true});
             if (parts[0] == "triangles") return random_faces(full, *count, *seed, 3);
             if (parts[0] == "quads") return random_faces(full, *count, *seed, 4);
+            if (parts[0] == "hair") return random_hair(full, *count, *seed);
             if (parts[0] == "leaves") return random_leaves(full, *count, *seed);
             if (parts[0] == "block") return instances_of(full, *count, *seed, false, icosphere(5));
             if (parts[0] == "city") return instances_of(full, *count, *seed, true, icosphere(5));

@@ -15,6 +15,7 @@ namespace tandem {
 ///   boxes/N    boxes/N/S     N boxes of random size and orientation
 ///   mixed/N    mixed/N/S     spheres, boxes, ellipsoids and parallelepipeds in turn
 ///   triangles/N  quads/N     N single, double-sided faces of random size and orientation; also with /S
+///   hair/N     hair/N/S      N such triangles, each 4.8 / cbrt(N) long and a thousandth of that wide
 ///   leaves/N   leaves/N/S    the quads, each with an alpha mask in the shape of a leaf, and with shadows
 ///   icosphere/LEVEL          a sphere of 20 * 4^LEVEL triangles, LEVEL from 0 to 10, with smooth normals
 ///   block/N    block/N/S     N turned, unevenly scaled instances of an icosphere of 20,480 triangles, in [-1, 1]^3

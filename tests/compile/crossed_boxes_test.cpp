@@ -1,0 +1,38 @@
+#include "tandem/compile/crossed_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include "tandem/compile/prepare.h"
+#include "tandem/compile/prepared_scene.h"
+#include "tandem/scene/named_scenes.h"
+
+namespace tandem {
+namespace {
+
+double crossed(const char* name) {
+    const PreparedScene prepared = prepare(named_scene(name));
+    const SceneView scene = view(prepared);
+    Aabb all;
+    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) all = merge(all, primitive_bounds(scene, id));
+    return crossed_boxes(scene, all);
+}
+
+TEST(CrossedBoxes, AreManyAmongLooseTrianglesAndMoreAmongHair) {
+    EXPECT_EQ(crossed("spheres/1000"), 0);
+    EXPECT_NEAR(crossed("icosphere/6"), 4, 1);
+    const double loose = crossed("triangles/20000"), more = crossed("triangles/160000");
+    EXPECT_NEAR(more / loose, 2, 0.2);  // with the cube root of their number
+    EXPECT_GT(crossed("hair/20000"), 10 * loose);
+}
+
+TEST(CrossedBoxes, OfOneBoxIsItsShare) {
+    // rays of all directions that hit the larger box: a quarter of them hit one of half the size
+    const Triangle triangle{{0, 0, 0}, {1, 0, 1}, {0, 1, 1}};
+    SceneView scene{};
+    scene.triangles = &triangle;
+    scene.triangle_count = 1;
+    EXPECT_DOUBLE_EQ(crossed_boxes(scene, {{0, 0, 0}, {2, 2, 2}}), 0.25);
+}
+
+}  // namespace
+}  // namespace tandem
