@@ -63,15 +63,17 @@ bool are_connected(const std::vector<Triangle>& triangles) {
     return 2 * connected > pairs;
 }
 
+/// Numbers of boxes that a ray crosses (crossed_boxes.h) from which on single rays among loose triangles go through
+/// groups, and coherent rays one by one (docs/performance/cpu.md).
+constexpr double many_boxes = 6, very_many_boxes = 100;
+
 /// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres, triangles
-/// of meshes, or triangles of which a ray passes close to many (docs/performance/cpu.md). A guess, which affects only
-/// the speed.
-bool groups_pay(const PreparedScene& scene, const CpuSceneView& view, Tier tier) {
-    constexpr double many = 6;
+/// of meshes, or triangles of which a ray passes close to many. A guess, which affects only the speed.
+bool groups_pay(const PreparedScene& scene, double crossed, Tier tier) {
     const std::size_t count = primitive_count(scene);
     const bool embree_decides = tier == Tier::fast && scene.triangles.size() + scene.quads.size() > 0;
     if (count < least_for_groups || embree_decides) return false;
-    const bool triangles_pay = are_connected(scene.triangles) || crossed_boxes(view.scene, view.frame.bounds) > many;
+    const bool triangles_pay = crossed > many_boxes || are_connected(scene.triangles);
     return 10 * (scene.spheres.size() + (triangles_pay ? scene.triangles.size() : 0)) > 9 * count;
 }
 
@@ -95,6 +97,8 @@ class CpuScene final : public ResidentScene {
         return times;
     }
     [[nodiscard]] const PreparedScene& prepared() const { return *scene_; }
+    /// Whether trace() is faster if coherent rays are traced one by one too.
+    [[nodiscard]] bool splits_packets() const { return splits_packets_; }
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
@@ -102,13 +106,15 @@ class CpuScene final : public ResidentScene {
     /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
     /// called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
-        if (view_.smaller != nullptr || !groups_pay(*scene_, view_, tier())) return view_;  // groups have one layer
+        if (!groups_pay_) return view_;
         std::call_once(groups_made_, [&] {
             const Stopwatch watch;
             const std::size_t count = primitive_count(*scene_);
             try {
                 require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
-                arena.execute([&] { groups_.emplace(device, view_); });
+                CpuSceneView view = view_;
+                view.splits_packets = splits_packets_;
+                arena.execute([&] { groups_.emplace(device, view); });
             } catch (const EnvironmentError&) {  // the scene has another hierarchy
             }
             group_seconds_ = watch.seconds();
@@ -125,14 +131,16 @@ class CpuScene final : public ResidentScene {
         view_.first_id[our_primitives] = 0;
         const std::vector<SizeLayer> layers = divide_by_size(view_.scene);
         smaller_.assign(layers.size() - 1, view_);
-        CpuSceneView* view = &view_;
         for (std::size_t i = 0; i < layers.size(); ++i) {
-            view->frame = make_structure_frame(layers[i].bounds);
-            view->sizes = layers[i].sizes;
-            build_layer(device, kernels, count, *view, layers.size() == 1);
-            if (i < smaller_.size()) view->smaller = &smaller_[i];
-            view = &smaller_[i];
+            CpuSceneView& view = i == 0 ? view_ : smaller_[i - 1];
+            view.frame = make_structure_frame(layers[i].bounds);
+            view.sizes = layers[i].sizes;
+            if (i < smaller_.size()) view.smaller = &smaller_[i];
+            build_layer(device, kernels, count, view, smaller_.empty());
         }
+        const double crossed = crossed_boxes(view_.scene, view_.frame.bounds);
+        groups_pay_ = smaller_.empty() && groups_pay(*scene_, crossed, tier());  // groups have one layer
+        splits_packets_ = groups_pay_ && crossed > very_many_boxes;
     }
 
     void build_layer(RTCDevice device, const TierKernels& kernels, std::uint32_t count, CpuSceneView& view,
@@ -211,6 +219,7 @@ class CpuScene final : public ResidentScene {
     std::vector<EmbreeScene> embree_;    ///< of each layer
     PhaseTimes times_;
 
+    bool groups_pay_ = false, splits_packets_ = false;
     std::once_flag groups_made_;
     std::optional<GroupHierarchy> groups_;
     std::atomic<double> group_seconds_ = 0;
@@ -269,7 +278,7 @@ class CpuBackend final : public Backend {
         check(job);
         auto& resident = dynamic_cast<CpuScene&>(scene);
         const TierKernels& kernels = set_.kernels(scene.tier());
-        const CpuSceneView& view = are_scattered(job, resident.view())
+        const CpuSceneView& view = resident.splits_packets() || are_scattered(job, resident.view())
                                        ? resident.view_for_single_rays(device_.get(), arena_)
                                        : resident.view();
         return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {

@@ -36,6 +36,7 @@ struct CpuSceneView {
     const GroupView* groups;
     SizeRange sizes;                        ///< of the primitives in `embree`
     const CpuSceneView* smaller = nullptr;  ///< the next layer: the same scene, and a hierarchy of smaller primitives
+    bool splits_packets = false;            ///< whether trace() traces coherent rays one by one too
 };
 
 /// Pixels [x0, x1) x [y0, y1).

@@ -162,7 +162,7 @@ std::uint64_t trace_rays(const Tracer& tracer, const TraceJob& job) {
         const Ray<Packet> packet = gather_rays<Packet>(job, first, used);
         const Mask<Packet> traceable = is_traceable(packet);
         for (std::size_t i = 0; i < used; ++i) rejected += traceable[static_cast<int>(i)] ? 0U : 1U;
-        if (always_packets || is_coherent(packet)) {
+        if (always_packets || (!tracer.view.splits_packets && is_coherent(packet))) {
             Ask::packet(tracer, job, packet, first, used, traceable);
             continue;
         }

@@ -210,6 +210,33 @@ TEST(GroupTracerInFast, FindsNearlyAllHits) {
     }
 }
 
+// The groups are of half of the spheres, so that the hits say whether rays went through them.
+TEST_P(GroupTracer, TracesCoherentRaysOneByOneWhereItShall) {
+    const PreparedScene all = prepare(named_scene("spheres/2000"));
+    PreparedScene half = all;
+    half.spheres.resize(1000);
+    half.material_of.resize(1000);
+    const EmbreeDevice device(rtcNewDevice(nullptr));
+    const GroupHierarchy groups(device.get(), plain_view(half));
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < 64 * 64; ++i) {
+        const double x = i % 64 / 64.0 - 0.5, y = i / 64 / 64.0 - 0.5;
+        rays.push_back({{0, 0, 3.2F}, narrow(Vec3d{0.6 * x, 0.6 * y, -1})});
+    }
+    CpuSceneView scene = plain_view(all);
+    scene.groups = groups.view().groups;
+    const auto& [set, tier] = GetParam();
+    for (const bool splits : {false, true}) {
+        scene.splits_packets = splits;
+        std::vector<Hit> hits(rays.size());
+        set.kernels(tier).trace(scene, {.rays = rays, .hits = hits});
+        const LoopTracer loop = {view(splits ? half : all)};
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(hits[i].primitive, loop.closest(rays[i], NoSource{}, true).primitive) << splits << " " << i;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(InstructionSets, GroupTracer,
                          ::testing::Combine(::testing::ValuesIn(instruction_sets().begin(), instruction_sets().end()),
                                             ::testing::Values(Tier::strict, Tier::precise)),
