@@ -102,9 +102,9 @@ class CpuScene final : public ResidentScene {
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
-    /// The scene for rays that are not coherent, which kernels trace one by one. The first call makes the groups, in
-    /// scenes where they pay and if there is memory: frames do not need them, since they trace packets. Not to be
-    /// called in a TBB task.
+    /// The scene for rays that kernels trace one by one: those that are not coherent, or all if packets are split. The
+    /// first call makes the groups, in scenes where they pay and if there is memory: frames do not need them, since
+    /// they trace packets. Not to be called in a TBB task.
     [[nodiscard]] const CpuSceneView& view_for_single_rays(RTCDevice device, tbb::task_arena& arena) {
         if (!groups_pay_) return view_;
         std::call_once(groups_made_, [&] {

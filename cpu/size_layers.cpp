@@ -48,7 +48,7 @@ std::vector<SizeLayer> divide_by_size(const SceneView& scene) {
     std::vector<SizeLayer> layers = {{{}, bounds_of(scene, {})}};
     while (layers.size() < most_layers) {
         SizeLayer& last = layers.back();
-        // a primitive of this size has a box of twice the area
+        // the padded box of a primitive of this size has 2.25 times the area
         const SizeRange tiny = {0, 4 * make_structure_frame(last.bounds, BoxErrors::of_scene).padding.least};
         if (!are_many(scene, tiny, last.sizes)) break;
         const Aabb bounds = bounds_of(scene, tiny);

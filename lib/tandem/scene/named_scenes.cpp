@@ -251,7 +251,7 @@ Scene random_faces(const std::string& name, std::uint32_t count, std::uint32_t s
     return scene;
 }
 
-/// Thin triangles, on average four times as long as the others.
+/// Thin triangles, four times as long as the edge of the cube that holds one of random_faces().
 Scene random_hair(const std::string& name, std::uint32_t count, std::uint32_t seed) {
     Scene scene = crowd(name);
     const double half_length = 2.4 / accurate_cbrt(static_cast<double>(count)), width = 2e-3 * half_length;
