@@ -221,6 +221,25 @@ std::vector<Ray<float>> rays_through(const Aabb& box, int count) {
     return rays;
 }
 
+/// Lines through the origin of space, from so far away that one step in double does not reach it.
+std::vector<Ray<float>> rays_from_very_far(int count) {
+    Random random(37);
+    std::vector<Ray<float>> rays;
+    for (int i = 0; i < count; ++i) {
+        const auto u = [&] { return random.uniform(-1.0F, 1.0F); };
+        const Vec3f direction = {u(), u(), u()};
+        rays.push_back({direction * -std::exp2(static_cast<float>(20 + i % 40)), direction});
+    }
+    return rays;
+}
+
+std::vector<Ray<float>> rays_in_space(const Aabb& box, int count) {
+    std::vector<Ray<float>> rays = rays_through(box, count);
+    const std::vector<Ray<float>> from_very_far = rays_from_very_far(count / 8);
+    rays.insert(rays.end(), from_very_far.begin(), from_very_far.end());
+    return rays;
+}
+
 /// As an intersection with every face written out, for rays in space, from surfaces, past masks and to lights.
 template <class Real>
 void expect_same(const InstancedTracer& tracer, const BvhTracer& reference, const Ray<Real>& ray,
@@ -265,7 +284,7 @@ TEST_P(Instances, AreHitAsIfTheyWereWrittenOut) {
     const test::Structure written(written_out(traced.scene, "this is a test"));
     const BvhTracer reference = written.tracer();
     const InstancedTracer tracer = traced.tracer();
-    const std::vector<Ray<float>> rays = rays_through(written.bounds, 1500);
+    const std::vector<Ray<float>> rays = rays_in_space(written.bounds, 1500);
     const bool has_copies = GetParam().twice && !GetParam().leaves;  // those with alpha masks are traced
     std::size_t hits = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -292,7 +311,7 @@ struct MovedPoint {
         const Proposal<float> proposal = propose_quickly(ray, tracer.bvh.frame);
         EXPECT_TRUE(proposal.active);
         const QueryRay query = make_query_ray(proposal, tracer.bvh.frame, NoSource{});
-        const auto exact_query = instanced_detail::exact_query(ray, proposal);
+        const auto exact_query = instanced_detail::exact_query(ray, tracer.bvh.frame, proposal);
         const instanced_detail::MovedRay moved = instanced_detail::move_to_object(entry, query, exact_query);
         const Vec3d o = widen(ray.origin), d = widen(ray.direction), c = widen(entry.centre);
         local =
@@ -391,7 +410,7 @@ TEST_P(InstancedPictures, AreOfRaysThatHitTheSame) {
         const PreparedScene kept = kept_once(crowd);
         const auto instanced = load(kept), written = load(written_out(kept, "this is a test"));
         Traced traced(crowd);
-        const std::vector<Ray<float>> rays = rays_through(traced.bvh.frame.bounds, 20'000);
+        const std::vector<Ray<float>> rays = rays_in_space(traced.bvh.frame.bounds, 20'000);
         std::vector<Hit> a(rays.size()), b(rays.size());
         (void)backend_->trace(*instanced, rays, a);
         (void)backend_->trace(*written, rays, b);

@@ -248,6 +248,31 @@ TEST(Bvh, NeverLosesAHitOfSmallPrimitivesFarFromTheOrigin) {
     }
 }
 
+// Lines through a pole of a sphere, the origin of space: numbers of 12 bits make the far origins of the rays exact.
+// Here the t of all spheres may be the same, and one step in double does not reach the scene.
+TEST(Bvh, NeverLosesAHitOfRaysFromVeryFar) {
+    test::Random random(25);
+    for (const float scale : {1.0F, 0x1p-30F, 0x1p-80F}) {
+        PreparedScene scene;
+        for (int i = 0; i < 30; ++i) {
+            const Vec3f centre = {static_cast<float>(3 * (i % 6)), 1, static_cast<float>(i / 6)};
+            scene.spheres.push_back({centre * scale, scale});
+        }
+        scene.material_of.assign(30, 0);
+        scene.materials.emplace_back();
+        const auto of_12_bits = [&](unsigned least) { return static_cast<float>(least + random.below(2048)); };
+        std::vector<Ray<float>> rays;
+        for (int i = 0; i < 4'000; ++i) {
+            const Vec3f direction = {of_12_bits(2048), 0.0625F * of_12_bits(1),
+                                     random.coin() ? 1024.0F : -of_12_bits(1)};
+            const float far = of_12_bits(2048) * std::exp2(static_cast<float>(random.below(37)));
+            const Vec3f towards = random.coin() ? direction : direction * -1.0F;
+            rays.push_back({towards * -far, towards});
+        }
+        expect_same_as_loop(Structure(std::move(scene)), rays, "from very far, scale " + std::to_string(scale));
+    }
+}
+
 TEST(Bvh, DoesNotGrowTheBoxesOfSmallPrimitivesBesideAHugeOne) {
     test::Random random(22);
     const Structure structure(test::beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));

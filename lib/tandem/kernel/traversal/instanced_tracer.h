@@ -61,14 +61,14 @@ struct ExactQuery {
 };
 
 template <class Real>
-TANDEM_HD_INLINE ExactQuery exact_query(const Ray<Real>& ray, const Proposal<Real>& proposal) {
+TANDEM_HD_INLINE ExactQuery exact_query(const Ray<Real>& ray, const StructureFrame& frame,
+                                        const Proposal<Real>& proposal) {
     Vec3d direction = widen(ray.direction);
-    const Vec3d origin = widen(ray.origin) + direction * proposal.t_offset;
     if constexpr (std::is_same_v<Real, double>) {  // whose squares may be subnormal
         const double largest = greater(greater(absolute(direction.x), absolute(direction.y)), absolute(direction.z));
         direction = {direction.x / largest, direction.y / largest, direction.z / largest};
     }
-    return {origin, normalize(direction)};
+    return {unrounded_origin(ray, frame, proposal), normalize(direction)};
 }
 
 /// A ray in the frame of a mesh, relative to the centre of its box. Its parameter is that of the query ray less `from`.
@@ -252,7 +252,7 @@ struct InstancedStructure {
         const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
         const Parked<QueryRay> query(make_query_ray(proposal, bvh.frame, source));
-        const Parked<instanced_detail::ExactQuery> exact(instanced_detail::exact_query(ray, proposal));
+        const Parked<instanced_detail::ExactQuery> exact(instanced_detail::exact_query(ray, bvh.frame, proposal));
         const Parked<Ray<Real>> parked(ray);
         float limit = limit_of(proposal, best);
         const float enough = search == Search::any ? to_plain(proposal.start(t_max)) : 0.0F;

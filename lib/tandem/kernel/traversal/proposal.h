@@ -12,7 +12,9 @@
 ///                moved; a component of the direction that is too small to invert is replaced, which moves the ray by
 ///                2^-57 S. So boxes are padded by 2^-38 S and 32 u of their own reach, where u would do, and the test
 ///                lets the exit grow by the rest, 22 u of itself. (Embree has such a test, but not for user geometry.)
-/// Tested by tests/agree/structure_test.cpp; the ends of a query by tests/kernel/traversal/proposal_test.cpp.
+/// Decisions give a t that errs by 2^-26 of itself at most, which is many times S for a ray from far enough away. So
+/// the ends of a query allow for 2^-25 of t. Tested by tests/agree/structure_test.cpp; the ends of a query by
+/// tests/kernel/traversal/proposal_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
@@ -58,8 +60,10 @@ struct Proposal {
 
     /// A float not below the query parameter of t: traversal may stop there.
     TANDEM_HD_INLINE Float<Real> limit(const Double<Real>& t) const {
-        const Double<Real> s = (t - t_offset) * length_within(1.0) * Double<Real>(1.0 + 0x1p-18);
-        const auto most = constant<Double<Real>>(3e38);
+        using D = Double<Real>;
+        const D after = t * constant<D>(1.0 + error_of_t);
+        const D s = (after - t_offset) * length_within(1.0) * constant<D>(1.0 + 0x1p-18);
+        const D most = constant<D>(3e38);
         return narrow(select(s < most, s, most));
     }
 
@@ -68,9 +72,9 @@ struct Proposal {
     TANDEM_HD_INLINE Float<Real> start(const Double<Real>& t) const {
         using D = Double<Real>;
         const D zero(0.0);
-        const D before = t * constant<D>(is_fast<Real> ? 1.0 - 0x1p-20 : 1.0 - 0x1p-50);
+        const D before = t * constant<D>(1.0 - error_of_t);
         const D s = (before - t_offset) * length_within(-1.0) * constant<D>(1.0 - 0x1p-18);
-        const auto most = constant<D>(3e38);
+        const D most = constant<D>(3e38);
         return narrow(select(s > zero, select(s < most, s, most), zero));
     }
     template <class From>
@@ -86,6 +90,8 @@ struct Proposal {
     TANDEM_HD_INLINE Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 
   private:
+    static constexpr double error_of_t = is_fast<Real> ? 0x1p-20 : 0x1p-25;
+
     /// `length` plus `sign` times the largest error of a subnormal length in float. A normal one errs by a few 2^-24 of
     /// itself, which the callers allow for.
     TANDEM_HD_INLINE Double<Real> length_within(double sign) const {
@@ -133,14 +139,56 @@ TANDEM_HD_INLINE Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>
     return {t_near <= t_far * (one + rounding), widen(t_near * (one - rounding)), widen(t_far)};
 }
 
+template <class Real>
+TANDEM_HD_INLINE Real largest_component(const Vec3<Real>& v) {
+    return greater(greater(absolute(v.x), absolute(v.y)), absolute(v.z));
+}
+/// Whether a ray starts too far away, or is too short, to be moved to the bounds in one step.
+template <class Real>
+TANDEM_HD_INLINE Mask<Real> is_remote(const Ray<Real>& ray, const Aabb& bounds) {
+    return largest_component(ray.origin) > Real(near_by * reach(bounds)) ||
+           largest_component(ray.direction) < Real(least_length);
+}
+
+/// A point of a ray, and its rounded parameter.
+template <class Real>
+struct Entry {
+    Vec3<Double<Real>> point;
+    Double<Real> t;
+};
+
+/// Moves a ray to the bounds, in the lanes of `active`, from so far away that one step in double would miss them: at
+/// most 2^-6 of the reach before the bounds, and never behind them.
+/// A step has 24 bits and ends before the bounds, by 2^-22 of the way. For a ray in float its products are then exact,
+/// and so is the sum if it cancels: it is a multiple of the unit of both terms, and below 2^-22 of them.
+template <class Real>
+TANDEM_HD_CALL Entry<Real> approach(Aabb bounds, Vec3<Double<Real>> origin, Vec3<Double<Real>> direction,
+                                    Mask<Real> active) {
+    using D = Double<Real>;
+    constexpr int most_steps = 9;  // from 1e18 to a scene of 1e-30, the least padding, and one to spare
+    const Vec3<D> lower = broadcast<D>(bounds.lower), upper = broadcast<D>(bounds.upper);
+    Entry<Real> entry = {origin, D(0.0)};
+    TANDEM_KEEP_LOOP
+    for (int i = 0; i < most_steps; ++i) {
+        const D ahead = cross_box<Real>(lower, upper, entry.point, direction).t_near * D(1.0 - 0x1p-22);
+        const D split = ahead * D(0x1p29 + 1.0);
+        const D step = select(active && ahead > D(0.0), split - (split - ahead), D(0.0));
+        // a ray in double has more bits: with these sums it still starts within 2^-39 of the reach if it comes from
+        // within 2^34 times the reach
+        entry.point = {multiply_add(step, direction.x, entry.point.x), multiply_add(step, direction.y, entry.point.y),
+                       multiply_add(step, direction.z, entry.point.z)};
+        entry.t = entry.t + step;
+    }
+    return entry;
+}
+
 }  // namespace proposal_detail
 
 /// Needs traceable rays in the lanes of `active` (is_traceable()).
 template <class Real>
 TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
     using D = Double<Real>;
-    const Real x = absolute(ray.direction.x), y = absolute(ray.direction.y), z = absolute(ray.direction.z);
-    const Real largest = select(active, greater(greater(x, y), z), Real(1.0F));
+    const Real largest = select(active, proposal_detail::largest_component(ray.direction), Real(1.0F));
     const Vec3<Real> scaled = {ray.direction.x / largest, ray.direction.y / largest, ray.direction.z / largest};
     const Real scaled_length = square_root(dot(scaled, scaled));
     const Real inverse_length = Real(1.0F) / scaled_length;
@@ -151,36 +199,36 @@ TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFra
     proposal.ray.origin = narrow(ray.origin);
     proposal.t_offset = D(0.0);
     proposal.active = active;
-    const Real limit(reach(frame.bounds));
-    const auto beyond = [&](const Real& distance) {
-        return active && (absolute(ray.origin.x) > distance || absolute(ray.origin.y) > distance ||
-                          absolute(ray.origin.z) > distance);
-    };
-    const Mask<Real> outside = beyond(limit);
+    const Mask<Real> outside = active && proposal_detail::largest_component(ray.origin) > Real(reach(frame.bounds));
     if (any(outside)) {
-        const Mask<Real> is_short = active && largest < Real(proposal_detail::least_length);
-        const bool is_near_by = !any(beyond(limit * Real(proposal_detail::near_by)) || is_short);
+        const bool is_near_by = !any(active && proposal_detail::is_remote(ray, frame.bounds));
         const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
         const D zero(0.0);
         // in the tier fast t may overflow to infinity: the bounds are too far away
         const Mask<Real> in_reach = c.t_near < D(__builtin_huge_val());
         proposal.active = active && (!outside || (c.crosses && c.t_far > zero && in_reach));
         const Mask<Real> move = outside && proposal.active && c.t_near > zero;
-        proposal.t_offset = select(move, c.t_near, zero);
-        const Vec3<D> o = widen(ray.origin);
-        const Vec3<D> d = widen(ray.direction);
-        const D& t = proposal.t_offset;
-        // from far away the product must not be rounded before it cancels; not every processor has an instruction
-        const auto at_t = [&](const D& a, const D& b) {
-            if constexpr (!is_fast<Real>) {
-                if (!is_near_by) return multiply_add(t, b, a);
-            }
-            return a + t * b;
-        };
-        const Vec3<Float<Real>> moved = narrow(Vec3<D>{at_t(o.x, d.x), at_t(o.y, d.y), at_t(o.z, d.z)});
-        proposal.ray.origin = select(move, moved, proposal.ray.origin);
+        const Vec3<D> origin = widen(ray.origin), direction = widen(ray.direction);
+        proposal_detail::Entry<Real> entry = {origin + direction * c.t_near, c.t_near};
+        if constexpr (!is_fast<Real>) {
+            if (!is_near_by) entry = proposal_detail::approach<Real>(frame.bounds, origin, direction, move);
+        }
+        proposal.t_offset = select(move, entry.t, zero);
+        proposal.ray.origin = select(move, narrow(entry.point), proposal.ray.origin);
     }
     return proposal;
+}
+
+/// The origin of a proposal's ray before it was rounded to float: within 2^-39 S of the true ray.
+template <class Real>
+TANDEM_HD_INLINE Vec3<Double<Real>> unrounded_origin(const Ray<Real>& ray, const StructureFrame& frame,
+                                                     const Proposal<Real>& proposal) {
+    const Vec3<Double<Real>> origin = widen(ray.origin), direction = widen(ray.direction);
+    const Mask<Real> is_moved = proposal.t_offset > Double<Real>(0.0);
+    if (any(is_moved && proposal_detail::is_remote(ray, frame.bounds))) {
+        return proposal_detail::approach<Real>(frame.bounds, origin, direction, is_moved).point;
+    }
+    return origin + direction * proposal.t_offset;
 }
 
 }  // namespace tandem
