@@ -45,7 +45,13 @@ class Builder {
 
     BuiltBvh run() {
         find_bounds();
-        merge_clusters(sort_leaves());
+        const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
+        const double largest = greater(greater(extent.x, extent.y), extent.z);
+        const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
+        CurveOrder order = sort_along(cells);
+        if (effort_.cuts && may_have_pieces(scene_) && cut(order, cells)) order = sort_along(cells);
+        run_kernel(leaves_kernel, count_, items(), order.list, built_.view.frame.padding, tree_, order.spare);
+        merge_clusters(order.spare);
         for (int i = 0; i < effort_.passes; ++i) improve();
         plan_nodes();
         write_tree();
@@ -61,8 +67,10 @@ class Builder {
                                                MergeCounts{nearest_, state});
     }
 
+    [[nodiscard]] LeafItems items() const { return {scene_, reinterpret_cast<const Piece*>(pieces_.data())}; }
+
     /// Reserves one block of scratch memory for all arrays. There are `count_` + 1 sums, and the plan has at most one
-    /// node per primitive.
+    /// node per leaf.
     void reserve() {
         Arena arena;
         const std::size_t n = count_;
@@ -127,13 +135,16 @@ class Builder {
         whole_ = wide_half_area(pad(bounds_, built_.view.frame.padding));
     }
 
-    /// The list of clusters: the leaves in the order of the curve.
-    std::uint32_t* sort_leaves() {
-        const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
-        const double largest = greater(greater(extent.x, extent.y), extent.z);
-        const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
+    /// The items of the leaves in the order of the curve.
+    struct CurveOrder {
+        const std::uint32_t* list;
+        std::uint32_t* spare;  ///< memory for as many numbers
+        const std::uint64_t* codes;
+        int first_bit;  ///< of those of a code that they are sorted by
+    };
+    CurveOrder sort_along(const CurveCells& cells) {
         const auto [in_detail, in_fine_cells] = needed_order(cells);
-        run_kernel(codes_kernel, count_, scene_, count_, cells, codes_, lists_);
+        run_kernel(codes_kernel, count_, items(), count_, cells, codes_, lists_);
         cub::DoubleBuffer<std::uint64_t> codes(codes_, codes_ + count_);
         cub::DoubleBuffer<std::uint32_t> ids(lists_, lists_ + count_);
         const int first_bit = in_fine_cells ? 0 : 3 * fine_bits;
@@ -144,27 +155,50 @@ class Builder {
         };
         if (in_detail) {  // by the places within cells, then, in a sort that keeps their order, by the cells
             for (const bool within : {true, false}) {
-                run_kernel(codes_of_list_kernel, count_, scene_, count_, cells, within, ids.Current(), codes.Current());
+                run_kernel(codes_of_list_kernel, count_, items(), count_, cells, within, ids.Current(),
+                           codes.Current());
                 if (within) sort();
             }
         }
         sort();
-        run_kernel(leaves_kernel, count_, scene_, ids.Current(), built_.view.frame.padding, tree_, ids.Alternate());
-        return ids.Alternate();
+        return {ids.Current(), ids.Alternate(), codes.Current(), first_bit};
+    }
+
+    /// Cuts long, thin triangles: from now on the leaves are pieces. Whether there are any.
+    bool cut(const CurveOrder& order, const CurveCells& cells) {
+        const SortedPrimitives sorted = {order.codes, order.list, count_, order.first_bit};
+        run_kernel(count_pieces_kernel, count_ + 1, scene_, sorted, cells.per_metre, sums_);
+        scan(sums_, count_);
+        const std::uint32_t pieces = low_of(fetch(summed() + count_));
+        if (pieces == count_ || pieces > most_leaves()) return false;
+        pieces_.reserve(pieces * sizeof(Piece));
+        run_kernel(pieces_kernel, count_, order.list, count_, summed(), reinterpret_cast<Piece*>(pieces_.data()));
+        count_ = pieces;
+        reserve();
+        return true;
     }
 
     struct NeededOrder {
         bool in_detail;      ///< within cells of the curve
         bool in_fine_cells;  ///< within its coarse cells
     };
-    /// By whether, of up to 16,384 primitives at equal steps through the list, one in 64 is smaller than a cell. Then
+    /// How many leaves a tree with pieces may have; with more, it has none.
+    [[nodiscard]] std::uint32_t most_leaves() const {
+        if (effort_.most_leaves != 0) return effort_.most_leaves;
+        std::size_t free = 0, all = 0;
+        check(cudaMemGetInfo(&free, &all), doing);
+        constexpr std::size_t bytes = 2 * build_bytes_per_primitive;  // a tree takes half as much as its build
+        return static_cast<std::uint32_t>(std::min<std::size_t>(free / bytes, max_bvh_primitives));
+    }
+
+    /// By whether, of up to 16,384 items at equal steps through the list, one in 64 is smaller than a cell. Then
     /// many may share a cell, for example where a scene is far larger than what most of it consists of.
     [[nodiscard]] NeededOrder needed_order(const CurveCells& cells) {
         constexpr std::uint32_t most = 16'384;
         const std::uint32_t step = (count_ - 1) / most + 1, samples = (count_ - 1) / step + 1;
         check(cudaMemsetAsync(sums_, 0, sizeof(TinyCounts), stream_), doing);
         auto* const counts = reinterpret_cast<TinyCounts*>(sums_);
-        run_kernel(count_tiny_kernel, samples, scene_, count_, step, cells, counts);
+        run_kernel(count_tiny_kernel, samples, items(), count_, step, cells, counts);
         const TinyCounts tiny = fetch(counts);
         return {64 * tiny.for_cells >= samples, 64 * tiny.for_coarse_cells >= samples};
     }
@@ -315,12 +349,14 @@ class Builder {
         const bool by_entry = placed_by_entry(scene_);
         const std::size_t placements =
             by_entry ? entries : std::size_t{scene_.ellipsoid_count} + scene_.parallelepiped_count;
-        const bool only_triangles = scene_.triangle_count == count_;
+        const bool only_triangles = scene_.triangle_count == primitive_count(scene_);
         const auto nodes = arena.add<BvhNode>(built_.node_count);
         const auto spheres = arena.add<Sphere>(entries);
         const auto ids = arena.add<std::uint32_t>(entries);
         const auto triangles = arena.add<EntryTriangle>(only_triangles ? entries : 0);
         const auto rough = arena.add<RoughPlacement>(placements);
+        const bool has_pieces = pieces_.data() != nullptr;
+        const auto pieces = arena.add<Piece>(has_pieces ? entries : 0);
         memory_.tree.reserve(arena.bytes());
         std::byte* base = memory_.tree.data();
         const TreeArrays to = {reinterpret_cast<BvhNode*>(base + nodes),
@@ -328,10 +364,12 @@ class Builder {
                                reinterpret_cast<std::uint32_t*>(base + ids),
                                only_triangles ? reinterpret_cast<EntryTriangle*>(base + triangles) : nullptr,
                                reinterpret_cast<RoughPlacement*>(base + rough),
-                               by_entry};
-        run_kernel(nodes_kernel, built_.node_count, scene_, tree_, plans_, built_.node_count, to);
-        write_rest(scene_, to, doing, stream_);
+                               by_entry,
+                               has_pieces ? reinterpret_cast<Piece*>(base + pieces) : nullptr};
+        run_kernel(nodes_kernel, built_.node_count, items(), tree_, plans_, built_.node_count, to);
+        write_rest(scene_, to, count_, doing, stream_);
         built_.arrays = to;
+        built_.entry_count = count_;
         built_.view.nodes = to.nodes;
         built_.view.entry_spheres = to.spheres;
         built_.view.entry_ids = to.ids;
@@ -346,11 +384,12 @@ class Builder {
     static constexpr int rounds_per_look = 4;
 
     SceneView scene_;
-    std::uint32_t count_;
+    std::uint32_t count_;  ///< leaves
     BuildEffort effort_;
     BuildMemory& memory_;
     cudaStream_t stream_;
     BuiltBvh built_{};
+    Buffer<DeviceMemory> pieces_;  ///< empty: the leaves are the primitives
     Aabb bounds_;
     double whole_ = 0;
     std::uint32_t root_ = 0;

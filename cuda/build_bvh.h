@@ -11,6 +11,12 @@
 
 namespace tandem::cuda {
 
+/// Piece `number` of the `count` of a triangle; of other primitives there is one.
+struct alignas(8) Piece {
+    std::uint32_t primitive;
+    std::uint16_t number, count;
+};
+
 /// The parts of a tree in GPU memory.
 struct TreeArrays {
     BvhNode* nodes;
@@ -19,13 +25,15 @@ struct TreeArrays {
     EntryTriangle* triangles;  ///< null unless all primitives are triangles
     RoughPlacement* placements;
     bool placed_by_entry;
+    Piece* pieces;  ///< by entry; null where every entry is a whole primitive
 };
 
 /// A BVH in GPU memory, as kernels read it.
 struct BuiltBvh {
     BvhView view;
     std::uint32_t node_count = 0;
-    std::uint32_t levels = 0;  ///< of nodes; at most max_bvh_depth
+    std::uint32_t entry_count = 0;  ///< without the spare ones; more than the primitives if some are in pieces
+    std::uint32_t levels = 0;       ///< of nodes; at most max_bvh_depth
     std::vector<std::uint32_t>
         level_starts;     ///< the first node of each level, then node_count; children are a level below
     TreeArrays arrays{};  ///< the same memory as `view`, to be written
@@ -44,6 +52,9 @@ struct BuildEffort {
     std::uint32_t top_clusters;  ///< how many clusters are joined from the top down, on the host; 1: none
     int passes;                  ///< how often subtrees move to better places
     bool far;                    ///< clusters look for the nearest within 12 places of the curve, else within 8
+    bool cuts = true;            ///< long, thin triangles are cut into pieces, each with a box of its own
+    std::uint32_t most_leaves =
+        0;  ///< with more pieces than that, nothing is cut; 0: that the free memory is enough for
 };
 
 /// For a scene of that many primitives. Chosen by measurement (docs/performance/hierarchies.md).
@@ -63,7 +74,8 @@ struct BuildMemory {
 
 /// Builds the BVH of a scene whose arrays are in GPU memory. Waits for the stream.
 ///
-/// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Then neighbours on the curve merge,
+/// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Long, thin triangles are then cut, and
+///         their pieces sorted again (cut_kernels.h). Then neighbours on the curve merge,
 ///         pair by pair and in parallel, if each is the other's nearest within a radius; nearest means the smallest
 ///         area of the common box. Ties go to the pair whose places differ least in their high bits, which is the same
 ///         for both, so that something merges in every round. If the number of rounds could exceed the depth limit,

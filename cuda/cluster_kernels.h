@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cuda/build_tree.h"
+#include "cuda/cut_kernels.h"
 #include "cuda/scene_bounds.h"
 
 namespace tandem::cuda {
@@ -40,33 +41,33 @@ struct CurveCells {
     }
 };
 
-static __global__ void codes_kernel(SceneView scene, std::uint32_t count, CurveCells cells, std::uint64_t* codes,
-                                    std::uint32_t* ids) {
-    const std::uint32_t id = thread_number();
-    if (id >= count) return;
-    codes[id] = cells.code(primitive_bounds(scene, id), false);
-    ids[id] = id;
+static __global__ void codes_kernel(LeafItems items, std::uint32_t count, CurveCells cells, std::uint64_t* codes,
+                                    std::uint32_t* list) {
+    const std::uint32_t item = thread_number();
+    if (item >= count) return;
+    codes[item] = cells.code(items.bounds(item), false);
+    list[item] = item;
 }
 
-/// For a list of ids; `within`: see CurveCells::code().
-static __global__ void codes_of_list_kernel(SceneView scene, std::uint32_t count, CurveCells cells, bool within,
-                                            const std::uint32_t* ids, std::uint64_t* codes) {
+/// For a list of items; `within`: see CurveCells::code().
+static __global__ void codes_of_list_kernel(LeafItems items, std::uint32_t count, CurveCells cells, bool within,
+                                            const std::uint32_t* list, std::uint64_t* codes) {
     const std::uint32_t place = thread_number();
-    if (place < count) codes[place] = cells.code(primitive_bounds(scene, ids[place]), within);
+    if (place < count) codes[place] = cells.code(items.bounds(list[place]), within);
 }
 
-/// Numbers of primitives that are smaller than a cell, and smaller than a coarse one.
+/// Numbers of items that are smaller than a cell, and smaller than a coarse one.
 struct TinyCounts {
     std::uint32_t for_cells, for_coarse_cells;
 };
 
-/// Of every `step`-th primitive.
-static __global__ void count_tiny_kernel(SceneView scene, std::uint32_t count, std::uint32_t step, CurveCells cells,
+/// Of every `step`-th item.
+static __global__ void count_tiny_kernel(LeafItems items, std::uint32_t count, std::uint32_t step, CurveCells cells,
                                          TinyCounts* tiny) {
     const std::uint32_t sample = thread_number();
     double size = curve_cells;  // in cells
     if (sample <= (count - 1) / step) {
-        const Aabb box = primitive_bounds(scene, sample * step);
+        const Aabb box = items.bounds(sample * step);
         const Vec3d extent = widen(box.upper) - widen(box.lower);
         size = greater(greater(extent.x, extent.y), extent.z) * cells.per_metre;
     }
@@ -78,12 +79,13 @@ static __global__ void count_tiny_kernel(SceneView scene, std::uint32_t count, s
     add(1U << fine_bits, &tiny->for_coarse_cells);
 }
 
-static __global__ void leaves_kernel(SceneView scene, const std::uint32_t* ids, Padding padding, BuildTree tree,
+/// `order`: the items along the curve.
+static __global__ void leaves_kernel(LeafItems items, const std::uint32_t* order, Padding padding, BuildTree tree,
                                      std::uint32_t* list) {
     const std::uint32_t place = thread_number();
     if (place >= tree.leaves) return;
-    const std::uint32_t id = ids[place];
-    tree.nodes[place] = {pad(primitive_bounds(scene, id), padding), id, 0};
+    const std::uint32_t item = order[place];
+    tree.nodes[place] = {pad(items.bounds(item), padding), items.primitive(item), item};
     list[place] = place;
 }
 

@@ -17,7 +17,7 @@ __device__ inline void write_entry(const SceneView& scene, const TreeArrays& to,
     visit_primitive(scene, id, [&](const auto& primitive) { to.spheres[entry] = sphere_around(primitive); });
 }
 
-/// Spare entries, which absent children may refer to: copies of the last primitive's entry.
+/// Spare entries, which absent children may refer to: copies of the last one.
 static __global__ void spare_entries_kernel(TreeArrays to, std::uint32_t count) {
     const std::uint32_t entry = count + threadIdx.x;
     to.ids[entry] = to.ids[count - 1];
@@ -35,11 +35,12 @@ static __global__ void placements_kernel(SceneView scene, RoughPlacement* placem
     }
 }
 
-/// Writes the parts that no node of the tree writes: spare entries, and the placements that are not in the order of
-/// entries.
-inline void write_rest(const SceneView& scene, const TreeArrays& to, const char* doing, cudaStream_t stream) {
+/// Writes the parts that no node of the tree writes: the spare entries behind `entries`, and the placements that are
+/// not in the order of entries.
+inline void write_rest(const SceneView& scene, const TreeArrays& to, std::uint32_t entries, const char* doing,
+                       cudaStream_t stream) {
     const std::uint32_t placements = to.placed_by_entry ? 0 : scene.ellipsoid_count + scene.parallelepiped_count;
-    launch(doing, spare_entries_kernel, 1, spare_entries, stream, to, primitive_count(scene));
+    launch(doing, spare_entries_kernel, 1, spare_entries, stream, to, entries);
     if (placements == 0) return;
     launch(doing, placements_kernel, (placements + build_block - 1) / build_block, build_block, stream, scene,
            to.placements);

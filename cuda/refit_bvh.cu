@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cuda/cut_kernels.h"
 #include "cuda/entry_kernels.h"
 #include "tandem/kernel/traversal/collapse.h"
 
@@ -35,7 +36,7 @@ __global__ void refit_kernel(SceneView scene, TreeArrays to, std::uint32_t begin
         const auto entry = static_cast<std::uint32_t>(~child_of(node, children));
         const std::uint32_t id = to.ids[entry];
         write_entry(scene, to, entry, id);
-        boxes[children] = pad(primitive_bounds(scene, id), padding);
+        boxes[children] = pad(LeafItems{scene, to.pieces}.bounds(to.pieces != nullptr ? entry : id), padding);
         cost += forests_of_leaf(relative_area(boxes[children], whole)).cost[0];
         all = merge(all, boxes[children]);
     }
@@ -62,7 +63,7 @@ BuiltBvh refit_bvh(const SceneView& scene, const BuiltBvh& built, BuildMemory& m
         launch(doing, refit_kernel, (end - begin + build_block - 1) / build_block, build_block, stream, scene,
                built.arrays, begin, end, result.view.frame.padding, result.root_area, done);
     }
-    write_rest(scene, built.arrays, doing, stream);
+    write_rest(scene, built.arrays, built.entry_count, doing, stream);
     RefitNode root;
     fetch_bytes(&root.cost, &done->cost, sizeof(root.cost), memory.word, doing, stream);
     result.cost = widen(root.cost);
@@ -74,7 +75,8 @@ BuiltBvh LastingBvh::of(const SceneView& scene, BuildMemory& memory, cudaStream_
     // if this throws, there is no hierarchy to refit next time
     const BuiltBvh before = std::exchange(built_, {});
     was_refitted_ = false;
-    if (allowed && before.view.nodes != nullptr && counts == counts_) {
+    const bool fits = counts == counts_ && (before.arrays.pieces == nullptr || may_have_pieces(scene));
+    if (allowed && before.view.nodes != nullptr && fits) {
         BuiltBvh moved = refit_bvh(scene, before, memory, stream);
         if (!is_worn(moved, before)) {
             built_ = before;

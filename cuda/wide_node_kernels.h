@@ -3,6 +3,7 @@
 
 #include <cub/block/block_scan.cuh>
 
+#include "cuda/cut_kernels.h"
 #include "cuda/entry_kernels.h"
 #include "cuda/scene_bounds.h"
 
@@ -87,7 +88,7 @@ static __global__ void small_levels_kernel(BuildTree tree, WidePlan* nodes, Plan
     if (threadIdx.x == 0) planned->count = count;
 }
 
-static __global__ void nodes_kernel(SceneView scene, BuildTree tree, const WidePlan* plans, std::uint32_t count,
+static __global__ void nodes_kernel(LeafItems items, BuildTree tree, const WidePlan* plans, std::uint32_t count,
                                     TreeArrays to) {
     const std::uint32_t i = thread_number();
     if (i >= count) return;
@@ -101,7 +102,9 @@ static __global__ void nodes_kernel(SceneView scene, BuildTree tree, const WideP
     for (const std::uint32_t child : plan.child) {
         if (child == no_binary_node || !tree.is_leaf(child)) continue;
         const BuildNode& leaf = tree.nodes[child];
-        write_entry(scene, to, static_cast<std::uint32_t>(plan.first_entry + all - inner), leaf.first);
+        const auto entry = static_cast<std::uint32_t>(plan.first_entry + all - inner);
+        write_entry(items.scene, to, entry, leaf.first);
+        if (to.pieces != nullptr) to.pieces[entry] = items.pieces[leaf.second];
         boxes[all++] = leaf.box;
     }
     to.nodes[i] = make_node(boxes, all, inner, plan.first_inner, plan.first_entry);

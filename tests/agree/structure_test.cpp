@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "support/bundles.h"
+#include "support/hair.h"
 #include "support/hard_scenes.h"
 #include "support/huge_primitive.h"
 #include "support/random.h"
 #include "support/structure.h"
 #include "tandem/compile/prepare.h"
+#include "tandem/kernel/shapes/triangle_pieces.h"
 #include "tandem/kernel/spawn_ray.h"
 #include "tandem/kernel/traversal/constant_memory_tracer.h"
 #include "tandem/kernel/traversal/make_node.h"
@@ -273,6 +275,38 @@ TEST(Bvh, NeverLosesAHitOfRaysFromVeryFar) {
     }
 }
 
+/// A structure whose hierarchy holds every triangle in `count` pieces, as the GPU's may.
+Structure in_pieces(PreparedScene scene, std::uint32_t count) {
+    Structure structure(std::move(scene));
+    PreparedScene pieces;
+    for (const Triangle& triangle : structure.scene.triangles) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Aabb box = bounds_within(triangle, slab_of_piece(bounds(triangle), i, count));
+            pieces.boxes.push_back({box.lower, box.upper});
+        }
+    }
+    Bvh bvh = build_bvh(view(pieces), structure.frame.padding);
+    for (std::size_t i = 0; i < bvh.entry_ids.size(); ++i) {
+        std::uint32_t& id = bvh.entry_ids[i];
+        id /= count;
+        const Triangle& triangle = structure.scene.triangles[id];
+        bvh.entry_spheres[i] = sphere_around(triangle);
+        bvh.entry_triangles.push_back(entry_triangle(triangle, id));
+    }
+    structure.bvh = std::move(bvh);
+    return structure;
+}
+
+TEST(Bvh, NeverLosesAHitOfTrianglesInPieces) {
+    test::Random random(26);
+    for (const std::uint32_t count : {2U, 5U, 16U}) {
+        const Structure structure = in_pieces(test::hair(random, 500), count);
+        ASSERT_EQ(find_bvh_defect(structure.bvh, view(structure.scene), structure.frame.padding), "") << count;
+        expect_same_as_loop(structure, test::rays_at_hair(structure.scene, random, 3'000),
+                            std::to_string(count) + " pieces");
+    }
+}
+
 TEST(Bvh, DoesNotGrowTheBoxesOfSmallPrimitivesBesideAHugeOne) {
     test::Random random(22);
     const Structure structure(test::beside_a_huge_one(random, 0x1p28F, {0, 0, 0}));
@@ -483,6 +517,15 @@ TEST(BvhDefects, AreFound) {
     Bvh cut = structure.bvh;
     cut.nodes[0].first_inner = 1 << 20;
     EXPECT_NE(find_bvh_defect(cut, scene, padding), "");
+    test::Random random(27);
+    Structure pieces = in_pieces(test::hair(random, 50), 4);
+    const std::uint32_t first = pieces.bvh.entry_ids[0];
+    for (std::size_t i = 1; i < pieces.bvh.entry_ids.size(); ++i) {
+        if (pieces.bvh.entry_ids[i] == first) continue;
+        pieces.bvh.entry_ids[0] = pieces.bvh.entry_ids[i];  // a piece less of one, and one more of another
+        break;
+    }
+    EXPECT_NE(find_bvh_defect(pieces.bvh, view(pieces.scene), pieces.frame.padding), "");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "cuda/bvh_on_gpu.h"
+#include "support/hair.h"
 #include "support/random.h"
 
 namespace tandem::cuda {
@@ -32,7 +33,8 @@ class OnGpu {
     [[nodiscard]] const BuiltBvh& built() const { return built_; }
     /// With any effort; empty if there is none.
     [[nodiscard]] std::string defect() {
-        for (const BuildEffort& effort : {BuildEffort{1, 0, false}, {1, 6, true}, {16, 1, false}, {4096, 4, true}}) {
+        for (const BuildEffort& effort :
+             {BuildEffort{1, 0, false}, {1, 6, true}, {16, 1, false, false}, {4096, 4, true}}) {
             const Bvh bvh = build(effort);
             std::string found = find_bvh_defect(bvh, view(scene_), built_.view.frame.padding);
             if (built_.levels > max_bvh_depth) found = "too deep";
@@ -68,7 +70,7 @@ TEST_F(BuildBvhOn, TheGpuHoldsScenesOfAnySize) {
 
 TEST_F(BuildBvhOn, TheGpuHoldsEveryKind) {
     for (const char* name : {"spheres/20000", "boxes/20000", "mixed/20000", "triangles/20000", "quads/20000",
-                             "icosphere/5", "hard/planet", "giant/20000"}) {
+                             "icosphere/5", "hard/planet", "giant/20000", "hair/20000"}) {
         EXPECT_EQ(OnGpu(named(name)).defect(), "") << name;
     }
 }
@@ -113,14 +115,41 @@ TEST_F(BuildBvhOn, TheGpuHoldsWhatIsHardToSort) {
 }
 
 TEST_F(BuildBvhOn, TheGpuGivesTheSameBytesEveryTime) {
-    OnGpu scene(named("mixed/100000"));
-    const Bvh first = scene.build();
-    for (int round = 0; round < 5; ++round) {
-        const Bvh again = scene.build();
-        ASSERT_EQ(first.nodes.size(), again.nodes.size());
-        ASSERT_EQ(std::memcmp(first.nodes.data(), again.nodes.data(), first.nodes.size() * sizeof(BvhNode)), 0);
-        ASSERT_EQ(first.entry_ids, again.entry_ids);
+    for (const char* name : {"mixed/100000", "hair/20000"}) {
+        OnGpu scene(named(name));
+        const Bvh first = scene.build();
+        for (int round = 0; round < 5; ++round) {
+            const Bvh again = scene.build();
+            ASSERT_EQ(first.nodes.size(), again.nodes.size()) << name;
+            ASSERT_EQ(std::memcmp(first.nodes.data(), again.nodes.data(), first.nodes.size() * sizeof(BvhNode)), 0);
+            ASSERT_EQ(first.entry_ids, again.entry_ids) << name;
+        }
     }
+}
+
+TEST_F(BuildBvhOn, TheGpuCutsLongThinTriangles) {
+    const auto entries_of = [](PreparedScene prepared) {
+        OnGpu scene(std::move(prepared));
+        EXPECT_EQ(scene.defect(), "");
+        (void)scene.build();
+        return scene.built().entry_count;
+    };
+    EXPECT_GT(entries_of(named("hair/20000")), 40'000U);
+    Random random(3);
+    EXPECT_GT(entries_of(test::hair(random, 2'000, 500)), 6'000U) << "among spheres";
+    EXPECT_EQ(entries_of(named("icosphere/5")), 20'480U) << "thick triangles";
+
+    PreparedScene alone = test::hair(random, 100), aligned = test::hair(random, 2'000),
+                  masked = test::hair(random, 2'000);
+    for (Triangle& t : alone.triangles) t.v1 = t.v0 + (t.v1 - t.v0) * 0.01F, t.v2 = t.v0 + (t.v2 - t.v0) * 0.01F;
+    EXPECT_EQ(entries_of(std::move(alone)), 100U) << "nothing is near";
+    for (Triangle& t : aligned.triangles) t.v1 = t.v0 + Vec3f{1, 0, 0}, t.v2 = t.v0 + Vec3f{0, 0, 1e-3F};
+    EXPECT_EQ(entries_of(std::move(aligned)), 2'000U) << "along an axis";
+    OnGpu limited(named("hair/20000"));
+    (void)limited.build({4096, 8, true, true, 40'000});
+    EXPECT_EQ(limited.built().entry_count, 20'000U) << "more leaves than allowed";
+    masked.masked_kinds = masked.cutout_kinds = PrimitiveKinds::triangle;
+    EXPECT_EQ(entries_of(std::move(masked)), 2'000U) << "which rays count";
 }
 
 TEST_F(BuildBvhOn, TheGpuCostsLittleMoreThanTheHosts) {

@@ -27,7 +27,7 @@ std::vector<T> download(const T* from, std::size_t count) {
 }
 
 inline Bvh download(const BuiltBvh& built, const SceneView& scene) {
-    const std::size_t entries = primitive_count(scene) + spare_entries;
+    const std::size_t entries = built.entry_count + spare_entries;
     return {download(built.view.nodes, built.node_count), download(built.view.entry_spheres, entries),
             download(built.view.entry_ids, entries),
             download(built.view.placements,

@@ -28,7 +28,7 @@ struct Bvh {
 /// Throws InputError for more primitives than max_bvh_primitives.
 void check_bvh_size(std::uint32_t primitives);
 
-/// What is wrong with a BVH (a primitive missing or twice, a box that does not contain its child, too deep); empty if
+/// What is wrong with a BVH (a primitive missing or twice, or not in the boxes on the way to it, too deep); empty if
 /// nothing is. For tests and debugging.
 [[nodiscard]] std::string find_bvh_defect(const Bvh& bvh, const SceneView& scene, const Padding& padding);
 

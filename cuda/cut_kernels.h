@@ -1,0 +1,119 @@
+/// The kernels that cut long, thin triangles before a BVH is built. Included by build_bvh.cu.
+///
+/// Method: a triangle is cut into two pieces for each primitive that fits along it at the distances that primitives
+/// have
+///         there. They are counted in the cell of the Morton curve around its centre that is as large as its box, so
+///         that the result depends on what is near, not on the whole scene. Thick triangles and those along an axis are
+///         left alone: pieces do not make their boxes much smaller. Chosen by measurement
+///         (docs/performance/hierarchies.md).
+/// Source: the idea is that of M. Ernst, G. Greiner, "Early Split Clipping for Bounding Volume Hierarchies", IEEE
+///         Symposium on Interactive Ray Tracing, 2007.
+#pragma once
+
+#include "cuda/build_bvh.h"
+#include "cuda/build_tree.h"
+#include "tandem/kernel/shapes/triangle_pieces.h"
+#include "tandem/kernel/view/scene_view.h"
+
+namespace tandem::cuda {
+
+/// What the leaves of a tree hold: the primitives of a scene, or pieces of them.
+struct LeafItems {
+    SceneView scene;
+    const Piece* pieces;  ///< null: item i is primitive i
+
+    [[nodiscard]] __device__ std::uint32_t primitive(std::uint32_t item) const {
+        return pieces == nullptr ? item : pieces[item].primitive;
+    }
+    /// Not padded.
+    [[nodiscard]] __device__ Aabb bounds(std::uint32_t item) const {
+        if (pieces == nullptr) return primitive_bounds(scene, item);
+        const Piece piece = pieces[item];
+        Aabb result;
+        visit_primitive(scene, piece.primitive, [&]<class Primitive>(const Primitive& primitive) {
+            result = tandem::bounds(primitive);
+            if constexpr (std::is_same_v<Primitive, Triangle>) {
+                if (piece.count > 1) {
+                    result = bounds_within(primitive, slab_of_piece(result, piece.number, piece.count));
+                }
+            }
+        });
+        return result;
+    }
+};
+
+/// The primitives in the order of the curve.
+struct SortedPrimitives {
+    const std::uint64_t* codes;
+    const std::uint32_t* ids;
+    std::uint32_t count;
+    int first_bit;  ///< of those of a code that they are sorted by
+
+    /// The place of the first one with that code or a higher one.
+    [[nodiscard]] __device__ std::uint32_t first_from(std::uint64_t code) const {
+        std::uint32_t begin = 0, end = count;
+        while (begin < end) {
+            const std::uint32_t middle = begin + (end - begin) / 2;
+            if (codes[middle] >> first_bit < code >> first_bit) {
+                begin = middle + 1;
+            } else {
+                end = middle;
+            }
+        }
+        return begin;
+    }
+};
+
+/// Rays that pass alpha masks count each entry that they hit as a primitive (kernel/masked_hits.h).
+[[nodiscard]] inline bool may_have_pieces(const SceneView& scene) {
+    return scene.triangle_count > 0 && has_no_masks(scene);
+}
+
+inline constexpr std::uint32_t most_pieces = 16;  ///< of a triangle
+
+__device__ inline std::uint32_t pieces_of(const Triangle& triangle, const SortedPrimitives& sorted, std::uint32_t place,
+                                          double cells_per_metre) {
+    constexpr double thick = 8;  // the largest area of the box, seen along an axis, over that of the triangle
+    constexpr int levels = 21;   // of the curve
+    const Aabb box = bounds(triangle);
+    const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
+    if (!(wide_half_area(box) > thick * 0.5 * sqrt(dot(normal, normal)))) return 1;
+    const int axis = longest_axis(box);
+    const double size = (widen(box.upper[axis]) - widen(box.lower[axis])) * cells_per_metre;
+    int level = 0;
+    (void)frexp(size, &level);  // a cell of 2^level is as large as the box, but not twice as large
+    level = min(max(level, (sorted.first_bit + 2) / 3), levels);
+    const std::uint64_t code = sorted.codes[place] >> (3 * level) << (3 * level);
+    const std::uint32_t there = sorted.first_from(code + (std::uint64_t{1} << (3 * level))) - sorted.first_from(code);
+    const double along = 2 * ldexp(size, -level) * cbrt(static_cast<double>(there));
+    return along < 1 ? 1 : along > most_pieces ? most_pieces : static_cast<std::uint32_t>(along);
+}
+
+/// Low: the pieces of each primitive, in the order of the curve; one more element, for the total.
+static __global__ void count_pieces_kernel(SceneView scene, SortedPrimitives sorted, double cells_per_metre,
+                                           Counts* sums) {
+    const std::uint32_t place = thread_number();
+    if (place > sorted.count) return;
+    std::uint32_t pieces = 0;
+    if (place < sorted.count) {
+        pieces = 1;
+        visit_primitive(scene, sorted.ids[place], [&]<class Primitive>(const Primitive& primitive) {
+            if constexpr (std::is_same_v<Primitive, Triangle>) {
+                pieces = pieces_of(primitive, sorted, place, cells_per_metre);
+            }
+        });
+    }
+    sums[place] = counts(0, pieces);
+}
+
+/// `sums`: of the pieces before.
+static __global__ void pieces_kernel(const std::uint32_t* ids, std::uint32_t count, const Counts* sums, Piece* pieces) {
+    const std::uint32_t place = thread_number();
+    if (place >= count) return;
+    const std::uint32_t begin = low_of(sums[place]), end = low_of(sums[place + 1]);
+    for (std::uint32_t i = begin; i < end; ++i) {
+        pieces[i] = {ids[place], static_cast<std::uint16_t>(i - begin), static_cast<std::uint16_t>(end - begin)};
+    }
+}
+
+}  // namespace tandem::cuda

@@ -1,0 +1,55 @@
+/// Triangles in pieces, for acceleration structures: most of the box around a long, thin triangle that lies along no
+/// axis is empty. The boxes of its pieces hold the same points, and far less else.
+///
+/// Bound: the corners of a piece are computed in double and rounded to float, so that a coordinate c of its bounds errs
+/// by 2^-25 |c| + 2^-51 S, with S = the largest coordinate of the triangle. The padding of every box is larger
+/// (kernel/traversal/proposal.h). Tested by tests/kernel/shapes/triangle_pieces_test.cpp.
+#pragma once
+
+#include "tandem/kernel/shapes/triangle.h"
+
+namespace tandem {
+
+/// What lies between two planes across an axis, in metres; both belong to it.
+struct Slab {
+    int axis;
+    double lower, upper;
+};
+
+TANDEM_HD_INLINE int longest_axis(const Aabb& box) {
+    const Vec3d extent = widen(box.upper) - widen(box.lower);
+    if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+    return extent.y >= extent.z ? 1 : 2;
+}
+
+/// The slab of piece `number` of `count` of what is in `box`: they are equally thick, and neighbours share a plane.
+TANDEM_HD_INLINE Slab slab_of_piece(const Aabb& box, std::uint32_t number, std::uint32_t count) {
+    const int axis = longest_axis(box);
+    const double lower = widen(box.lower[axis]), upper = widen(box.upper[axis]);
+    const auto plane = [&](std::uint32_t i) {
+        return i == count ? upper : lower + (upper - lower) * (static_cast<double>(i) / static_cast<double>(count));
+    };
+    return {axis, plane(number), plane(number + 1)};
+}
+
+/// The bounds of the part of a triangle in a slab; empty if there is none.
+TANDEM_HD_INLINE Aabb bounds_within(const Triangle& triangle, const Slab& slab) {
+    Aabb box;
+    const auto add = [&](const Vec3d& point) { box = merge(box, Aabb{narrow(point), narrow(point)}); };
+    const auto add_edge = [&](const Vec3f& from, const Vec3f& to) {
+        const Vec3d p = widen(from), q = widen(to);
+        const double start = p[slab.axis], end = q[slab.axis];
+        if (slab.lower <= start && start <= slab.upper) add(p);
+        const auto cross = [&](double plane) {
+            if ((start < plane) != (end < plane)) add(p + (q - p) * ((plane - start) / (end - start)));
+        };
+        cross(slab.lower);
+        cross(slab.upper);
+    };
+    add_edge(triangle.v0, triangle.v1);
+    add_edge(triangle.v1, triangle.v2);
+    add_edge(triangle.v2, triangle.v0);
+    return box;
+}
+
+}  // namespace tandem
