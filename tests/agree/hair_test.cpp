@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "support/hits_of_the_loop.h"
 
@@ -15,17 +17,16 @@ namespace {
 class Hair : public test::BackendBesideTheLoop {};
 
 TEST_P(Hair, IsHitWhereItIs) {
-    test::Random random(41);
-    int hits = 0;
     for (const std::uint32_t spheres : {0U, 100U}) {
+        test::Random random(41);
         const PreparedScene scene = test::hair(random, 700, spheres);
-        const std::vector<Ray<float>> rays = test::rays_at_hair(scene, random, 4'000);
-        for (const Hit& hit : expect_hits_of_the_loop(scene, rays, std::to_string(spheres) + " spheres")) {
-            if (hit.primitive != no_primitive && hit.primitive >= spheres) ++hits;
-        }
-        if (HasFailure()) return;
+        const std::vector<Hit> hits = expect_hits_of_the_loop(scene, test::rays_at_hair(scene, random, 4'000),
+                                                              std::to_string(spheres) + " spheres");
+        const auto is_of_hair = [&](const Hit& hit) {
+            return hit.primitive != no_primitive && hit.primitive >= spheres;
+        };
+        EXPECT_GT(std::count_if(hits.begin(), hits.end(), is_of_hair), 1'000);
     }
-    EXPECT_GT(hits, 2'000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Hair, testing::ValuesIn(test::exact_renderers()), test::test_name);
