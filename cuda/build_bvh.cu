@@ -11,6 +11,7 @@
 #include <cub/device/device_scan.cuh>
 
 #include "cuda/cluster_kernels.h"
+#include "cuda/cut_kernels.h"
 #include "cuda/launch.h"
 #include "cuda/reinsertion_kernels.h"
 #include "cuda/wide_node_kernels.h"

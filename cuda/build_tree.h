@@ -9,7 +9,7 @@ namespace tandem::cuda {
 /// A node. Leaves come first, in the order of the curve.
 struct alignas(16) BuildNode {
     Aabb box;                     ///< padded
-    std::uint32_t first, second;  ///< children; of a leaf, the id of the primitive, and the item (cut_kernels.h)
+    std::uint32_t first, second;  ///< children; of a leaf, the id of the primitive, and the item (leaf_items.h)
 };
 static_assert(sizeof(BuildNode) == 32);
 

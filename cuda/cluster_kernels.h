@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cuda/build_tree.h"
-#include "cuda/cut_kernels.h"
+#include "cuda/leaf_items.h"
 #include "cuda/scene_bounds.h"
 
 namespace tandem::cuda {

@@ -10,37 +10,10 @@
 ///         Symposium on Interactive Ray Tracing, 2007.
 #pragma once
 
-#include "cuda/build_bvh.h"
 #include "cuda/build_tree.h"
-#include "tandem/kernel/shapes/triangle_pieces.h"
-#include "tandem/kernel/view/scene_view.h"
+#include "cuda/leaf_items.h"
 
 namespace tandem::cuda {
-
-/// What the leaves of a tree hold: the primitives of a scene, or pieces of them.
-struct LeafItems {
-    SceneView scene;
-    const Piece* pieces;  ///< null: item i is primitive i
-
-    [[nodiscard]] __device__ std::uint32_t primitive(std::uint32_t item) const {
-        return pieces == nullptr ? item : pieces[item].primitive;
-    }
-    /// Not padded.
-    [[nodiscard]] __device__ Aabb bounds(std::uint32_t item) const {
-        if (pieces == nullptr) return primitive_bounds(scene, item);
-        const Piece piece = pieces[item];
-        Aabb result;
-        visit_primitive(scene, piece.primitive, [&]<class Primitive>(const Primitive& primitive) {
-            result = tandem::bounds(primitive);
-            if constexpr (std::is_same_v<Primitive, Triangle>) {
-                if (piece.count > 1) {
-                    result = bounds_within(primitive, slab_of_piece(result, piece.number, piece.count));
-                }
-            }
-        });
-        return result;
-    }
-};
 
 /// The primitives in the order of the curve.
 struct SortedPrimitives {
@@ -64,13 +37,6 @@ struct SortedPrimitives {
     }
 };
 
-/// Rays that pass alpha masks count each entry that they hit as a primitive (kernel/masked_hits.h).
-[[nodiscard]] inline bool may_have_pieces(const SceneView& scene) {
-    return scene.triangle_count > 0 && has_no_masks(scene);
-}
-
-inline constexpr std::uint32_t most_pieces = 16;  ///< of a triangle
-
 __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const SortedPrimitives& sorted, std::uint32_t place,
                                           double cells_per_metre) {
     constexpr double thick = 8;  // the largest area of the box, seen along an axis, over that of the triangle
@@ -85,8 +51,7 @@ __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const Sorted
     level = min(max(level, (sorted.first_bit + 2) / 3), levels);
     const std::uint64_t code = sorted.codes[place] >> (3 * level) << (3 * level);
     const std::uint32_t there = sorted.first_from(code + (std::uint64_t{1} << (3 * level))) - sorted.first_from(code);
-    const double along = 2 * ldexp(size, -level) * cbrt(static_cast<double>(there));
-    return along < 1 ? 1 : along > most_pieces ? most_pieces : static_cast<std::uint32_t>(along);
+    return pieces_along(ldexp(size, -level), there);
 }
 
 /// Low: the pieces of each primitive, in the order of the curve; one more element, for the total.

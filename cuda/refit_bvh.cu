@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "cuda/cut_kernels.h"
 #include "cuda/entry_kernels.h"
+#include "cuda/leaf_items.h"
 #include "tandem/kernel/traversal/collapse.h"
 
 namespace tandem::cuda {

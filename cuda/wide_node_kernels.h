@@ -3,8 +3,8 @@
 
 #include <cub/block/block_scan.cuh>
 
-#include "cuda/cut_kernels.h"
 #include "cuda/entry_kernels.h"
+#include "cuda/leaf_items.h"
 #include "cuda/scene_bounds.h"
 
 namespace tandem::cuda {

@@ -22,6 +22,15 @@ Aabb piece(const Triangle& triangle, std::uint32_t number, std::uint32_t count) 
     return bounds_within(triangle, slab_of_piece(bounds(triangle), number, count));
 }
 
+TEST(TrianglePieces, AreTwoForEachPrimitiveAlongTheTriangle) {
+    EXPECT_EQ(pieces_along(1, 0), 1U);
+    EXPECT_EQ(pieces_along(1, 1), 2U);
+    EXPECT_EQ(pieces_along(1, 26), 5U);
+    EXPECT_EQ(pieces_along(1, 27), 6U);
+    EXPECT_EQ(pieces_along(0.5, 27), 3U);
+    EXPECT_EQ(pieces_along(0.5, 4'000'000'000U), most_pieces);
+}
+
 TEST(TrianglePieces, HoldEveryPoint) {
     Random random(1);
     for (int i = 0; i < 20'000; ++i) {

@@ -10,6 +10,18 @@
 
 namespace tandem {
 
+inline constexpr std::uint32_t most_pieces = 16;  ///< of a triangle
+
+/// How many pieces a triangle gets: two for each primitive that fits along it, if a cube around it has `primitives`,
+/// and its box is `share` times as long as the cube. The largest whole number up to 2 share cbrt(primitives), without a
+/// root.
+TANDEM_HD_INLINE std::uint32_t pieces_along(double share, std::uint32_t primitives) {
+    const double cube = 8 * (share * share * share) * primitives;
+    std::uint32_t pieces = 1;
+    while (pieces < most_pieces && static_cast<double>((pieces + 1) * (pieces + 1) * (pieces + 1)) <= cube) ++pieces;
+    return pieces;
+}
+
 /// What lies between two planes across an axis, in metres; both belong to it.
 struct Slab {
     int axis;
