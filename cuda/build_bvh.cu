@@ -46,13 +46,7 @@ class Builder {
 
     BuiltBvh run() {
         find_bounds();
-        const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
-        const double largest = greater(greater(extent.x, extent.y), extent.z);
-        const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
-        CurveOrder order = sort_along(cells);
-        if (effort_.cuts && may_have_pieces(scene_) && cut(order, cells)) order = sort_along(cells);
-        run_kernel(leaves_kernel, count_, items(), order.list, built_.view.frame.padding, tree_, order.spare);
-        merge_clusters(order.spare);
+        merge_clusters(sort_leaves());
         for (int i = 0; i < effort_.passes; ++i) improve();
         plan_nodes();
         write_tree();
@@ -134,6 +128,17 @@ class Builder {
         bounds_ = scene_bounds(scene_, device_bounds_, memory_.word, doing, stream_);
         built_.view.frame = make_structure_frame(bounds_, BoxErrors::of_distance);
         whole_ = wide_half_area(pad(bounds_, built_.view.frame.padding));
+    }
+
+    /// The list of clusters: the leaves in the order of the curve.
+    std::uint32_t* sort_leaves() {
+        const Vec3d extent = widen(bounds_.upper) - widen(bounds_.lower);
+        const double largest = greater(greater(extent.x, extent.y), extent.z);
+        const CurveCells cells = {bounds_.lower, largest > 0 ? curve_cells / largest : 0};  // 0 for a single point
+        CurveOrder order = sort_along(cells);
+        if (effort_.cuts && may_have_pieces(scene_) && cut(order, cells)) order = sort_along(cells);
+        run_kernel(leaves_kernel, count_, items(), order.list, built_.view.frame.padding, tree_, order.spare);
+        return order.spare;
     }
 
     /// The items of the leaves in the order of the curve.

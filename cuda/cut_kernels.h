@@ -12,6 +12,7 @@
 
 #include "cuda/build_tree.h"
 #include "cuda/leaf_items.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem::cuda {
 
@@ -43,7 +44,7 @@ __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const Sorted
     constexpr int levels = 21;   // of the curve
     const Aabb box = bounds(triangle);
     const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
-    if (!(wide_half_area(box) > thick * 0.5 * sqrt(dot(normal, normal)))) return 1;
+    if (!(wide_half_area(box) > thick * 0.5 * length(normal))) return 1;
     const int axis = longest_axis(box);
     const double size = (widen(box.upper[axis]) - widen(box.lower[axis])) * cells_per_metre;
     int level = 0;

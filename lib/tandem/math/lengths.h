@@ -1,4 +1,4 @@
-/// Norms of vectors, for the preparation of a scene.
+/// Norms of vectors.
 #pragma once
 
 #include "tandem/math/vec.h"
@@ -6,9 +6,12 @@
 namespace tandem {
 
 /// The Euclidean norm; the squares of the components must neither overflow nor underflow.
-inline double length(const Vec3d& v) { return square_root(dot(v, v)); }
+TANDEM_HD_INLINE double length(const Vec3d& v) { return square_root(dot(v, v)); }
 
 /// The largest magnitude of a component.
-inline double max_norm(const Vec3d& v) { return greater(greater(absolute(v.x), absolute(v.y)), absolute(v.z)); }
+template <class Real>
+TANDEM_HD_INLINE Real max_norm(const Vec3<Real>& v) {
+    return greater(greater(absolute(v.x), absolute(v.y)), absolute(v.z));
+}
 
 }  // namespace tandem

@@ -65,7 +65,7 @@ TANDEM_HD_INLINE ExactQuery exact_query(const Ray<Real>& ray, const StructureFra
                                         const Proposal<Real>& proposal) {
     Vec3d direction = widen(ray.direction);
     if constexpr (std::is_same_v<Real, double>) {  // whose squares may be subnormal
-        const double largest = greater(greater(absolute(direction.x), absolute(direction.y)), absolute(direction.z));
+        const double largest = max_norm(direction);
         direction = {direction.x / largest, direction.y / largest, direction.z / largest};
     }
     return {unrounded_origin(ray, frame, proposal), normalize(direction)};

@@ -13,11 +13,12 @@
 ///                2^-57 S. So boxes are padded by 2^-38 S and 32 u of their own reach, where u would do, and the test
 ///                lets the exit grow by the rest, 22 u of itself. (Embree has such a test, but not for user geometry.)
 /// Decisions give a t that errs by 2^-26 of itself at most, which is many times S for a ray from far enough away. So
-/// the ends of a query allow for 2^-25 of t. Tested by tests/agree/structure_test.cpp; the ends of a query by
-/// tests/kernel/traversal/proposal_test.cpp.
+/// the ends of a query allow for 2^-25 of t. Tested by tests/agree/structure_test.cpp; where a query starts, and its
+/// ends, by tests/kernel/traversal/proposal_test.cpp.
 #pragma once
 
 #include "tandem/kernel/shapes/ray_source.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 
@@ -90,6 +91,7 @@ struct Proposal {
     TANDEM_HD_INLINE Double<Real> parameter(const Float<Real>& s) const { return widen(s) / widen(length) + t_offset; }
 
   private:
+    /// Relative; twice that of decisions. In the tier fast not a bound.
     static constexpr double error_of_t = is_fast<Real> ? 0x1p-20 : 0x1p-25;
 
     /// `length` plus `sign` times the largest error of a subnormal length in float. A normal one errs by a few 2^-24 of
@@ -139,20 +141,15 @@ TANDEM_HD_INLINE Crossing<Real> cross_bounds(const Aabb& bounds, const Ray<Real>
     return {t_near <= t_far * (one + rounding), widen(t_near * (one - rounding)), widen(t_far)};
 }
 
-template <class Real>
-TANDEM_HD_INLINE Real largest_component(const Vec3<Real>& v) {
-    return greater(greater(absolute(v.x), absolute(v.y)), absolute(v.z));
-}
 /// Whether a ray starts too far away, or is too short, to be moved to the bounds in one step.
 template <class Real>
 TANDEM_HD_INLINE Mask<Real> is_remote(const Ray<Real>& ray, const Aabb& bounds) {
-    return largest_component(ray.origin) > Real(near_by * reach(bounds)) ||
-           largest_component(ray.direction) < Real(least_length);
+    return max_norm(ray.origin) > Real(near_by * reach(bounds)) || max_norm(ray.direction) < Real(least_length);
 }
 
 /// A point of a ray, and its rounded parameter.
 template <class Real>
-struct Entry {
+struct RayPoint {
     Vec3<Double<Real>> point;
     Double<Real> t;
 };
@@ -162,12 +159,12 @@ struct Entry {
 /// A step has 24 bits and ends before the bounds, by 2^-22 of the way. For a ray in float its products are then exact,
 /// and so is the sum if it cancels: it is a multiple of the unit of both terms, and below 2^-22 of them.
 template <class Real>
-TANDEM_HD_CALL Entry<Real> approach(Aabb bounds, Vec3<Double<Real>> origin, Vec3<Double<Real>> direction,
-                                    Mask<Real> active) {
+TANDEM_HD_CALL RayPoint<Real> approach(Aabb bounds, Vec3<Double<Real>> origin, Vec3<Double<Real>> direction,
+                                       Mask<Real> active) {
     using D = Double<Real>;
     constexpr int most_steps = 9;  // from 1e18 to a scene of 1e-30, the least padding, and one to spare
     const Vec3<D> lower = broadcast<D>(bounds.lower), upper = broadcast<D>(bounds.upper);
-    Entry<Real> entry = {origin, D(0.0)};
+    RayPoint<Real> entry = {origin, D(0.0)};
     TANDEM_KEEP_LOOP
     for (int i = 0; i < most_steps; ++i) {
         const D ahead = cross_box<Real>(lower, upper, entry.point, direction).t_near * D(1.0 - 0x1p-22);
@@ -188,7 +185,7 @@ TANDEM_HD_CALL Entry<Real> approach(Aabb bounds, Vec3<Double<Real>> origin, Vec3
 template <class Real>
 TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFrame& frame, const Mask<Real>& active) {
     using D = Double<Real>;
-    const Real largest = select(active, proposal_detail::largest_component(ray.direction), Real(1.0F));
+    const Real largest = select(active, max_norm(ray.direction), Real(1.0F));
     const Vec3<Real> scaled = {ray.direction.x / largest, ray.direction.y / largest, ray.direction.z / largest};
     const Real scaled_length = square_root(dot(scaled, scaled));
     const Real inverse_length = Real(1.0F) / scaled_length;
@@ -199,7 +196,7 @@ TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFra
     proposal.ray.origin = narrow(ray.origin);
     proposal.t_offset = D(0.0);
     proposal.active = active;
-    const Mask<Real> outside = active && proposal_detail::largest_component(ray.origin) > Real(reach(frame.bounds));
+    const Mask<Real> outside = active && max_norm(ray.origin) > Real(reach(frame.bounds));
     if (any(outside)) {
         const bool is_near_by = !any(active && proposal_detail::is_remote(ray, frame.bounds));
         const Crossing<Real> c = proposal_detail::cross_bounds(frame.bounds, ray, is_near_by);
@@ -209,7 +206,7 @@ TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFra
         proposal.active = active && (!outside || (c.crosses && c.t_far > zero && in_reach));
         const Mask<Real> move = outside && proposal.active && c.t_near > zero;
         const Vec3<D> origin = widen(ray.origin), direction = widen(ray.direction);
-        proposal_detail::Entry<Real> entry = {origin + direction * c.t_near, c.t_near};
+        proposal_detail::RayPoint<Real> entry = {origin + direction * c.t_near, c.t_near};
         if constexpr (!is_fast<Real>) {
             if (!is_near_by) entry = proposal_detail::approach<Real>(frame.bounds, origin, direction, move);
         }
@@ -221,8 +218,9 @@ TANDEM_HD_INLINE Proposal<Real> propose(const Ray<Real>& ray, const StructureFra
 
 /// The origin of a proposal's ray before it was rounded to float: within 2^-39 S of the true ray.
 template <class Real>
-TANDEM_HD_INLINE Vec3<Double<Real>> unrounded_origin(const Ray<Real>& ray, const StructureFrame& frame,
-                                                     const Proposal<Real>& proposal) {
+requires(!is_fast<Real>) TANDEM_HD_INLINE Vec3<Double<Real>> unrounded_origin(const Ray<Real>& ray,
+                                                                              const StructureFrame& frame,
+                                                                              const Proposal<Real>& proposal) {
     const Vec3<Double<Real>> origin = widen(ray.origin), direction = widen(ray.direction);
     const Mask<Real> is_moved = proposal.t_offset > Double<Real>(0.0);
     if (any(is_moved && proposal_detail::is_remote(ray, frame.bounds))) {
