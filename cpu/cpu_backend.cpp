@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -27,7 +29,9 @@
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/kernel/first_hit.h"
 #include "tandem/kernel/moments.h"
+#include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
+#include "tandem/math/lengths.h"
 #include "tandem/render/complete_planes.h"
 #include "tandem/render/pixel_job.h"
 #include "tandem/render/ray_coherence.h"
@@ -64,8 +68,10 @@ bool are_connected(const std::vector<Triangle>& triangles) {
 }
 
 /// Numbers of boxes that a ray crosses (crossed_boxes.h) from which on single rays among loose triangles go through
-/// groups, and coherent rays one by one (docs/performance/cpu.md).
+/// groups, and the rays of wide packets one by one (docs/performance/cpu.md).
 constexpr double many_boxes = 6, very_many_boxes = 100;
+/// A packet is wide if it is wider than this many primitives are apart.
+constexpr double wide_packet = 6;
 
 /// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres, triangles
 /// of meshes, or triangles of which a ray passes close to many. A guess, which affects only the speed.
@@ -97,8 +103,10 @@ class CpuScene final : public ResidentScene {
         return times;
     }
     [[nodiscard]] const PreparedScene& prepared() const { return *scene_; }
-    /// Whether trace() is faster if coherent rays are traced one by one too.
-    [[nodiscard]] bool splits_packets() const { return splits_packets_; }
+    /// Whether trace() is faster if coherent rays are traced one by one too. A guess, which affects only the speed.
+    [[nodiscard]] bool splits_packets(const TraceJob& job) const {
+        return std::isfinite(widest_packet_) && packet_width(job.rays, view_.frame.bounds) > widest_packet_;
+    }
     [[nodiscard]] const std::vector<PrimitiveCopy>& copies() const { return copies_; }
     [[nodiscard]] const CpuSceneView& view() const { return view_; }
 
@@ -112,9 +120,7 @@ class CpuScene final : public ResidentScene {
             const std::size_t count = primitive_count(*scene_);
             try {
                 require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
-                CpuSceneView view = view_;
-                view.splits_packets = splits_packets_;
-                arena.execute([&] { groups_.emplace(device, view); });
+                arena.execute([&] { groups_.emplace(device, view_); });
             } catch (const EnvironmentError&) {  // the scene has another hierarchy
             }
             group_seconds_ = watch.seconds();
@@ -140,7 +146,10 @@ class CpuScene final : public ResidentScene {
         }
         const double crossed = crossed_boxes(view_.scene, view_.frame.bounds);
         groups_pay_ = smaller_.empty() && groups_pay(*scene_, crossed, tier());  // groups have one layer
-        splits_packets_ = groups_pay_ && crossed > very_many_boxes;
+        if (groups_pay_ && crossed > very_many_boxes) {
+            const Vec3f extent = view_.frame.bounds.upper - view_.frame.bounds.lower;
+            widest_packet_ = wide_packet * max_norm(widen(extent)) / accurate_cbrt(count);
+        }
     }
 
     void build_layer(RTCDevice device, const TierKernels& kernels, std::uint32_t count, CpuSceneView& view,
@@ -219,7 +228,8 @@ class CpuScene final : public ResidentScene {
     std::vector<EmbreeScene> embree_;    ///< of each layer
     PhaseTimes times_;
 
-    bool groups_pay_ = false, splits_packets_ = false;
+    bool groups_pay_ = false;
+    double widest_packet_ = std::numeric_limits<double>::infinity();  ///< that is faster than single rays, metres
     std::once_flag groups_made_;
     std::optional<GroupHierarchy> groups_;
     std::atomic<double> group_seconds_ = 0;
@@ -278,9 +288,11 @@ class CpuBackend final : public Backend {
         check(job);
         auto& resident = dynamic_cast<CpuScene&>(scene);
         const TierKernels& kernels = set_.kernels(scene.tier());
-        const CpuSceneView& view = resident.splits_packets() || are_scattered(job, resident.view())
-                                       ? resident.view_for_single_rays(device_.get(), arena_)
-                                       : resident.view();
+        const bool splits_packets = resident.splits_packets(job);
+        CpuSceneView view = splits_packets || are_scattered(job, resident.view())
+                                ? resident.view_for_single_rays(device_.get(), arena_)
+                                : resident.view();
+        view.splits_packets = splits_packets;
         return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {
             std::atomic<std::uint64_t> rejected = 0;
             const Stopwatch watch;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "support/random.h"
@@ -50,6 +51,37 @@ TEST(AreCoherent, DoesNotHoldForRaysInAllDirectionsOrFromEverywhere) {
     std::vector<Ray<float>> mostly = camera_rays();
     std::copy(scattered.begin(), scattered.begin() + 1024, mostly.begin());
     EXPECT_TRUE(are_coherent(mostly, scene_size));
+}
+
+TEST(PacketWidth, IsThatOfSixteenRays) {
+    const Aabb bounds = {{-3, -4, -12}, {3, 4, 12}};  // half its size: 13
+    std::vector<Ray<float>> parallel;
+    for (int i = 0; i < 4096; ++i) parallel.push_back({{static_cast<float>(i) * 0.25F, 0, 50}, {0, 0, -1}});
+    EXPECT_DOUBLE_EQ(packet_width(parallel, bounds), 15 * 0.25);
+
+    const auto turning = [](const Vec3f& origin) {
+        std::vector<Ray<float>> rays;
+        for (int i = 0; i < 160; ++i) rays.push_back({origin, i % 16 < 8 ? Vec3f{3, 0, 0} : Vec3f{0, 0, 5}});
+        return rays;
+    };
+    EXPECT_DOUBLE_EQ(packet_width(turning({0, 0, 20}), bounds), 20 * std::sqrt(2.0));
+    EXPECT_DOUBLE_EQ(packet_width(turning({0, 1, 0}), bounds), 13 * std::sqrt(2.0)) << "from within";
+}
+
+TEST(PacketWidth, IsThatOfMostPackets) {
+    const Aabb bounds = {{-1, -1, -1}, {1, 1, 1}};
+    std::vector<Ray<float>> rays(64, {{0, 0, 9}, {0, 0, -1}});
+    rays[15].origin.x = 5;
+    EXPECT_EQ(packet_width(rays, bounds), 0);
+    rays[31].origin.x = rays[47].origin.x = 7;
+    EXPECT_DOUBLE_EQ(packet_width(rays, bounds), 7);
+}
+
+TEST(PacketWidth, IsNoneForRaysThatCannotBeTracedOrTooFew) {
+    const Aabb bounds = {{-1, -1, -1}, {1, 1, 1}};
+    EXPECT_EQ(packet_width(std::vector<Ray<float>>(64), bounds), 0);
+    EXPECT_EQ(packet_width(std::vector<Ray<float>>(15, {{1, 2, 3}, {1, 0, 0}}), bounds), 0);
+    EXPECT_EQ(packet_width({}, bounds), 0);
 }
 
 TEST(RowLength, IsThatOfImages) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 
@@ -9,6 +12,21 @@ namespace {
 
 constexpr std::size_t group_size = 32;  ///< a warp
 constexpr std::size_t most_groups = 64;
+constexpr std::size_t packet_size = 16;
+
+/// Calls visit(group) for up to `most_groups` groups of `size` consecutive rays, at equal steps through the batch.
+/// Returns their number.
+template <class Visit>
+std::size_t for_some_groups(std::span<const Ray<float>> rays, std::size_t size, const Visit& visit) {
+    const std::size_t groups = rays.size() / size, tried = std::min(groups, most_groups);
+    for (std::size_t i = 0; i < tried; ++i) visit(rays.subspan(groups * i / tried * size, size));
+    return tried;
+}
+
+Vec3d unit(const Vec3f& v) {
+    const Vec3d d = widen(v);
+    return d * (1 / square_root(dot(d, d)));
+}
 
 bool is_coherent_group(std::span<const Ray<float>> rays, float reach) {
     const Vec3d origin = widen(rays.front().origin), direction = widen(rays.front().direction);
@@ -27,10 +45,6 @@ constexpr std::size_t row_samples = 32;
 
 /// Of origins, relative to the size of the scene, and of unit directions.
 double distance(const Ray<float>& a, const Ray<float>& b, float reach) {
-    const auto unit = [](const Vec3f& v) {
-        const Vec3d d = widen(v);
-        return d * (1 / square_root(dot(d, d)));
-    };
     const Vec3d turn = unit(a.direction) - unit(b.direction);
     return (norm1(widen(a.origin) - widen(b.origin)) / widen(reach)) + norm1(turn);
 }
@@ -54,15 +68,28 @@ double unlikeness(std::span<const Ray<float>> rays, float reach, std::size_t ste
 }  // namespace
 
 bool are_coherent(std::span<const Ray<float>> rays, float reach) {
-    const std::size_t groups = rays.size() / group_size;
-    if (groups == 0) return true;
-    const std::size_t tried = std::min(groups, most_groups);
     std::size_t coherent = 0;
-    for (std::size_t i = 0; i < tried; ++i) {
-        const std::size_t first = groups * i / tried * group_size;
-        if (is_coherent_group(rays.subspan(first, group_size), reach)) ++coherent;
-    }
-    return 2 * coherent > tried;
+    const std::size_t tried = for_some_groups(rays, group_size, [&](std::span<const Ray<float>> group) {
+        if (is_coherent_group(group, reach)) ++coherent;
+    });
+    return tried == 0 || 2 * coherent > tried;
+}
+
+double packet_width(std::span<const Ray<float>> rays, const Aabb& bounds) {
+    const Vec3d lower = widen(bounds.lower), upper = widen(bounds.upper);
+    const Vec3d middle = (lower + upper) * 0.5, half = (upper - lower) * 0.5;
+    std::vector<double> widths;
+    for_some_groups(rays, packet_size, [&](std::span<const Ray<float>> packet) {
+        const Vec3d first = widen(packet.front().origin), last = widen(packet.back().origin);
+        const double away = greater(length(middle - first), length(half));
+        const double width =
+            length(last - first) + away * length(unit(packet.back().direction) - unit(packet.front().direction));
+        widths.push_back(width >= 0 ? width : 0);  // NaN: rays that cannot be traced
+    });
+    if (widths.empty()) return 0;
+    const auto median = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), median, widths.end());
+    return *median;
 }
 
 std::uint32_t row_length(std::span<const Ray<float>> rays, float reach) {
