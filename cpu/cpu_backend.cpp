@@ -292,7 +292,7 @@ class CpuBackend final : public Backend {
         CpuSceneView view = splits_packets || are_scattered(job, resident.view())
                                 ? resident.view_for_single_rays(device_.get(), arena_)
                                 : resident.view();
-        view.splits_packets = splits_packets;
+        view.splits_packets = splits_packets && view.groups != nullptr;
         return trace_without_copies(resident.copies(), job, [&](const TraceJob& traced) {
             std::atomic<std::uint64_t> rejected = 0;
             const Stopwatch watch;
