@@ -70,7 +70,7 @@ bool are_connected(const std::vector<Triangle>& triangles) {
 /// Numbers of boxes that a ray crosses (crossed_boxes.h) from which on single rays among loose triangles go through
 /// groups, and the rays of wide packets one by one (docs/performance/cpu.md).
 constexpr double many_boxes = 6, very_many_boxes = 100;
-/// A packet is wide if it is wider than this many primitives are apart.
+/// A packet is wide if packet_width() is more than this many times the distance between neighbouring primitives.
 constexpr double wide_packet = 6;
 
 /// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres, triangles
@@ -229,7 +229,8 @@ class CpuScene final : public ResidentScene {
     PhaseTimes times_;
 
     bool groups_pay_ = false;
-    double widest_packet_ = std::numeric_limits<double>::infinity();  ///< that is faster than single rays, metres
+    double widest_packet_ =
+        std::numeric_limits<double>::infinity();  ///< wider ones are slower than single rays; metres
     std::once_flag groups_made_;
     std::optional<GroupHierarchy> groups_;
     std::atomic<double> group_seconds_ = 0;

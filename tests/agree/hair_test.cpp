@@ -29,6 +29,34 @@ TEST_P(Hair, IsHitWhereItIs) {
     }
 }
 
+// On the CPU: the first packet that is split makes the groups, which count as a build.
+TEST(HairInPackets, IsTracedOneByOneOnlyIfPacketsAreWide) {
+    test::Random random(42);
+    const PreparedScene scene = test::hair(random, 20'000);
+    const LoopTracer loop{view(scene)};
+    const auto backend = make_backend("cpu");
+    const auto resident = backend->load(scene);
+    const auto build_seconds = [&] { return resident->load_times().build; };
+    const double at_first = build_seconds();
+    for (const float step : {1e-4F, 0.01F}) {
+        std::vector<Ray<float>> rays;
+        for (int i = 0; i < 512; ++i) {
+            const auto x = static_cast<float>(i % 16), y = static_cast<float>(i) / 16;
+            rays.push_back({{0, 0, 4}, {step * (x + 1), step * y * 0.1F, -1}});
+        }
+        std::vector<Hit> hits(rays.size());
+        backend->trace(*resident, rays, hits);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(hits[i].primitive, loop.closest(rays[i], NoSource{}, true).primitive) << step << ", ray " << i;
+        }
+        if (step < 0.001F) {
+            EXPECT_EQ(build_seconds(), at_first);
+        } else {
+            EXPECT_GT(build_seconds(), at_first);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, Hair, testing::ValuesIn(test::exact_renderers()), test::test_name);
 
 }  // namespace

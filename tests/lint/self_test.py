@@ -110,6 +110,12 @@ class Patterns(unittest.TestCase):
         for line in ("\tfma.rn.f64 %fd1, %fd2, %fd3, %fd4;", "\tdiv.rn.f32 %f1, %f2, %f3;", "\tsqrt.rn.f64 %fd1, %fd2;"):
             self.assertFalse(forbidden.search(line), line)
 
+    def test_baseline_may_fuse_only_in_functions_that_ask_the_processor(self):
+        count = self.modules["objects"].fused_operations
+        code = "\n0000 <_Z5plaind>:\n  0:\tvfmadd213sd %xmm0\n\n0010 <_Z17for_each_with_fmaIZ>:\n 10:\tvfmadd213sd %xmm0\n"
+        self.assertEqual(count(code, is_newer=False), 1)
+        self.assertEqual(count(code, is_newer=True), 2)
+
 
 class Rooms(unittest.TestCase):
     """Small trees with a table of their own."""
