@@ -31,11 +31,12 @@ struct LinkedFacts {
 /// The facts that hold for all scenes with no other effects and no other PrimitiveKinds.
 constexpr LinkedFacts facts_of_any_scene(EffectMask effects, std::uint32_t kinds) {
     constexpr std::uint32_t any = LinkedFacts::any;
+    const std::uint32_t cutout_kinds = effects.has(Effect::cutouts) ? kinds : 0;
     return {.effects = effects.bits(),
             .kinds = kinds,
             .light_kinds = kinds,
-            .cutout_kinds = kinds,
-            .masked_kinds = kinds,
+            .cutout_kinds = cutout_kinds,
+            .masked_kinds = cutout_kinds,
             .several_slots = 1,
             .lights = any,
             .reflection = any,

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "support/backend_list.h"
@@ -73,6 +74,35 @@ TEST_P(EffectBits, AreThoseOfTheLeastProcessor) {
     }
 }
 
+// Among few primitives and in a hierarchy, in kernels for any scene and for this one. These have one shadow search, for
+// scenes with and without the effect.
+TEST_P(EffectBits, OfCulledFacesAreThoseOfTheLeastProcessor) {
+    BackendOptions least;
+    least.instruction_set = "x86-64-v2";
+    const auto reference = make_backend("cpu", least);
+    BackendOptions options = GetParam().options;
+    options.specialise = Specialise::always;
+    const auto linked = make_backend(GetParam().backend, options);
+    for (const char* name : {"triangles/20", "quads/20", "triangles/500", "quads/500"}) {
+        Scene scene = named_scene(name);
+        for (Material& material : scene.materials) material.sides = FaceSides::culled;
+        std::set<std::string> films;
+        for (const bool culls : {false, true}) {
+            const PreparedScene prepared =
+                prepare_forced(scene, Effect::shadows, culls ? EffectMask{} : Effect::cutouts);
+            ASSERT_EQ(prepared.effects.has(Effect::cutouts), culls) << name;
+            const RenderJob job = small_job(GetParam().tier);
+            const RenderResult result = reference->render(reference->load(prepared, GetParam().tier), job);
+            const std::string expected = film_hash(result.film);
+            EXPECT_EQ(film_hash(backend_->render(load(prepared), job).film), expected) << name << ", culls: " << culls;
+            const auto resident = linked->load(prepared, GetParam().tier);
+            EXPECT_EQ(film_hash(linked->render(resident, job).film), expected) << name << ", linked, culls: " << culls;
+            films.insert(expected);
+        }
+        EXPECT_EQ(films.size(), 2U) << name;
+    }
+}
+
 // More pixels than a GPU has threads, so that these take one pixel after the other; rays through a hierarchy, and
 // shadow rays through faces that are culled, with and without alpha masks: that once ended in an illegal instruction.
 TEST_P(EffectBits, OfCutoutsInAHierarchyAreThoseOfTheLeastProcessor) {
@@ -102,6 +132,10 @@ TEST_P(EffectBits, OfCutoutsInAHierarchyAreThoseOfTheLeastProcessor) {
         const std::string expected = film_hash(reference->render(reference->load(scene, GetParam().tier), job).film);
         EXPECT_EQ(film_hash(backend_->render(load(scene), job).film), expected) << "masks: " << has_masks;
     }
+    const PreparedScene closed = prepare_forced(open, {}, Effect::cutouts);
+    ASSERT_TRUE(closed.effects.has(Effect::shadows));
+    const std::string from_behind = film_hash(reference->render(reference->load(closed, GetParam().tier), job).film);
+    EXPECT_EQ(film_hash(backend_->render(load(closed), job).film), from_behind) << "without the effect";
     const PreparedScene leaves = prepare(named_scene("leaves/3000"));
     ASSERT_TRUE(leaves.effects.covers(Effect::shadows | Effect::cutouts));
     const std::string expected = film_hash(reference->render(reference->load(leaves, GetParam().tier), job).film);

@@ -220,6 +220,11 @@ TEST(LinkedFactsOf, LeaveOutWhatAKernelDoesNotAskFor) {
     scene.masked_kinds = PrimitiveKinds::triangle;
     EXPECT_EQ(linked_facts(scene, Effect::cutouts, limits).masked_kinds, PrimitiveKinds::triangle);
     EXPECT_EQ(linked_facts(scene, Effect::shadows, limits).masked_kinds, 0U);
+    for (const EffectMask effects : {EffectMask(Effect::cutouts), EffectMask(Effect::shadows)}) {
+        const LinkedFacts any = facts_of_any_scene(effects, PrimitiveKinds::all);
+        EXPECT_EQ(any.cutout_kinds, effects.has(Effect::cutouts) ? any.kinds : 0U);
+        EXPECT_EQ(any.masked_kinds, any.cutout_kinds);
+    }
     EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::sobol_blue).sampler,
               static_cast<std::uint32_t>(Sampler::sobol_blue));
     EXPECT_EQ(linked_facts(scene, {}, limits, Sampler::random, PixelFilter::tent).filter,

@@ -80,10 +80,12 @@ template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene, const ShadowRay<Real>& shadow,
                                           UInt<Real>& rays) {
     count_rays<Effects, Real>(shadow.active, rays);
-    if (!Effects::has(Effect::cutouts) || has_no_cutouts(scene)) {
+    // Linked kernels have one search for scenes with and without culled faces, because the link knows which kinds can
+    // be culled. So they compile in less time.
+    if (!is_linked && (!Effects::has(Effect::cutouts) || has_no_cutouts(scene))) {
         return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
     }
-    if (has_no_masks(scene)) {
+    if (!Effects::has(Effect::cutouts) || has_no_masks(scene)) {
         return tracer.occluded(shadow.ray, shadow.t_max, CulledShadowSource<Real>{shadow.source}, shadow.active);
     }
     if constexpr (requires { tracer.finds_blockers(); }) {

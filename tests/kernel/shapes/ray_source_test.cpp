@@ -173,12 +173,13 @@ TEST(CulledShadowSource, PassesTheBackOfACulledFace) {
         Triangle back = {a, c, b};
         front.attributes.sides = back.attributes.sides = sides;
         CulledShadowSource<float> source;
-        const auto is_hit = [&](const auto& face) {
+        const auto is_hit = [&](const auto& face, bool culls = true) {
             double t = 0;
-            return first_hit_from(source, face, 3, ray, true, HUGE_VAL, t);
+            return first_hit_from(source, face, 3, ray, true, HUGE_VAL, t, culls);
         };
         EXPECT_TRUE(is_hit(front));
         EXPECT_EQ(is_hit(back), sides != FaceSides::culled);
+        EXPECT_TRUE(is_hit(back, false));
         EXPECT_TRUE(is_hit(Sphere{{0, 0, 0}, 1}));
         source.light = 3;
         EXPECT_FALSE(is_hit(front)) << "the light itself";

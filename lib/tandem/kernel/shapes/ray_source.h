@@ -257,14 +257,15 @@ TANDEM_HD_INLINE Mask<Real> first_hit_from(const ShadowSource<Real>& source, con
     return first_hit_from(surface, primitive, id, ray, active && source.light != UInt<Real>(id), farthest, t);
 }
 
+// `culls`: whether faces of this kind can be culled.
 template <class Real, class Primitive>
 TANDEM_HD_INLINE Mask<Real> first_hit_from(const CulledShadowSource<Real>& source, const Primitive& primitive,
                                            std::uint32_t id, const Ray<Real>& ray, const Mask<Real>& active,
-                                           const Double<Real>& farthest, Double<Real>& t) {
+                                           const Double<Real>& farthest, Double<Real>& t, bool culls = true) {
     if constexpr (is_face<Primitive>) {
         const PathSource<Real> path = {source};
         const Mask<Real> counts = active && source.light != UInt<Real>(id);
-        return first_hit_from(path, primitive, id, ray, counts, farthest, t, true);
+        return first_hit_from(path, primitive, id, ray, counts, farthest, t, culls);
     } else {
         const ShadowSource<Real>& shadow = source;
         return first_hit_from(shadow, primitive, id, ray, active, farthest, t);

@@ -24,14 +24,16 @@ TANDEM_HD_INLINE void test_primitive(const Primitive& primitive, std::uint32_t i
                                      const From& source, const Mask<Real>& candidate, Closest<Real>& best) {
     Double<Real> t(0.0);
     Mask<Real> hit;
+    const bool culls = may_be_cut_out(kind_of<Primitive>);
     if constexpr (std::is_same_v<From, PathSource<Real>>) {
         // rays pass only masked primitives and the light of a shadow ray; any other solid in front of the last masked
         // hit would have stopped the ray
-        const bool culls = may_be_cut_out(kind_of<Primitive>);
         const bool is_passed = is_face<Primitive> || culls || may_emit_light(kind_of<Primitive>);
         const Source<Real>& surface = source;
         hit = is_passed ? first_hit_from(source, primitive, id, ray, candidate, best.t, t, culls)
                         : first_hit_from(surface, primitive, id, ray, candidate, best.t, t);
+    } else if constexpr (std::is_same_v<From, CulledShadowSource<Real>>) {
+        hit = first_hit_from(source, primitive, id, ray, candidate, best.t, t, culls);
     } else {
         hit = first_hit_from(source, primitive, id, ray, candidate, best.t, t);
     }

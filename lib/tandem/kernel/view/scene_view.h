@@ -147,14 +147,8 @@ TANDEM_HD_INLINE bool may_be_cut_out(std::uint32_t kinds) {
 #endif
 }
 
-/// Whether the scene has neither alpha masks nor culled faces. False in kernels that are compiled for all scenes.
-TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) {
-#if defined(TANDEM_LINKED_CUTOUT_KINDS) && TANDEM_ON_DEVICE
-    return TANDEM_LINKED_CUTOUT_KINDS == 0;
-#else
-    return scene.cutout_kinds == 0;
-#endif
-}
+/// Whether the scene has neither alpha masks nor culled faces. Not for linked kernels: see may_be_cut_out().
+TANDEM_HD_INLINE bool has_no_cutouts(const SceneView& scene) { return scene.cutout_kinds == 0; }
 
 /// Whether the scene has no alpha masks.
 TANDEM_HD_INLINE bool has_no_masks(const SceneView& scene) {
