@@ -17,8 +17,8 @@ struct LinkedFacts {
     std::uint32_t kinds = 0;                                    ///< PrimitiveKinds that the scene has
     std::uint32_t light_kinds = 0;                              ///< PrimitiveKinds of the area lights
     std::uint32_t area_lights = 0;                              ///< KnownAreaLights
-    std::uint32_t cutout_kinds = 0;                             ///< PrimitiveKinds with alpha masks or culled faces
-    std::uint32_t masked_kinds = 0;                             ///< PrimitiveKinds with alpha masks
+    std::uint32_t cutout_kinds = 0;                             ///< kinds with masks or culled faces; 0 without cutouts
+    std::uint32_t masked_kinds = 0;                             ///< kinds with alpha masks, likewise
     std::uint32_t several_slots = 0;                            ///< SceneView::several_slots
     std::uint32_t lights = 0;                                   ///< punctual lights
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits

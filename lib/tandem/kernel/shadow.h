@@ -80,8 +80,8 @@ template <class Effects, class Real, class Tracer>
 TANDEM_HD Mask<Real> is_blocked_by_opaque(const Tracer& tracer, const SceneView& scene, const ShadowRay<Real>& shadow,
                                           UInt<Real>& rays) {
     count_rays<Effects, Real>(shadow.active, rays);
-    // Linked kernels have one search for scenes with and without culled faces, because the link knows which kinds can
-    // be culled. So they compile in less time.
+    // Linked kernels have one search with and without culled faces, and so compile in less time: the link knows which
+    // kinds can be culled, none of them without the effect.
     if (!is_linked && (!Effects::has(Effect::cutouts) || has_no_cutouts(scene))) {
         return tracer.occluded(shadow.ray, shadow.t_max, shadow.source, shadow.active);
     }
