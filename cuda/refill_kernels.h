@@ -207,16 +207,16 @@ __global__ void __launch_bounds__(block_threads, resident_blocks<Real, Tracer>)
         closest = closest_starting_at<Real>(constant<Double<Real>>(job.ends[i].t));
     }
     const Double<Real> start = closest.t;
-    const Ray<Real> ray = to_real<Real>(load_ray(job, i));
-    const auto source = source_of<Real, ask>(job, i);
+    const auto ray = [&] { return to_real<Real>(load_ray(job, i)); };
     if (first == crowded) [[unlikely]] {
-        closest = tracer.template decide_crowd<search>(tracer, ray, source, closest, 3e38F);
+        closest = tracer.template decide_crowd<search>(tracer, ray(), source_of<Real, ask>(job, i), closest, 3e38F);
     } else {
-        // each is read from memory, because indexing registers would move them to memory anyway
+        // Each is read from memory, because indexing registers would move them to memory anyway, and so is the ray for
+        // each: in registers it would be spilled, since the rare cases of a decision are calls.
         TANDEM_KEEP_LOOP
         for (int k = 0; k < Tracer::most_candidates; ++k) {
             const std::uint32_t kept = static_cast<const Found*>(job.candidates)[i].id[k];
-            if (kept != no_primitive) tracer.decide_kept(ray, source, kept, closest);
+            if (kept != no_primitive) tracer.decide_kept(ray(), source_of<Real, ask>(job, i), kept, closest);
         }
     }
     if constexpr (search == Search::any) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/backend_list.h"
+#include "support/bundles.h"
 #include "support/hard_scenes.h"
 #include "tandem/backends/make_backend.h"
 #include "tandem/base/error.h"
@@ -158,6 +159,36 @@ TEST_P(ClosestHit, HasTheSameBitsForRaysOfImages) {
                 }
             }
             EXPECT_GT(found, rays.size() / 50) << name;
+        }
+    }
+}
+
+// More primitives that may be hit than a tracer keeps, by rays of either coherence.
+TEST_P(ClosestHit, DecidesAboutCrowds) {
+    const test::Bundles bundles = test::make_bundles(11);
+    const auto oracle = make_backend("oracle");
+    for (const PreparedScene* prepared : {&bundles.solids, &bundles.faces}) {
+        const std::string name = prepared == &bundles.solids ? "solids" : "faces";
+        const std::vector<Ray<float>> rays = test::rays_at_bundles(*prepared, 5'000, 12);
+        std::vector<Hit> expected(rays.size()), hits(rays.size());
+        oracle->trace(*oracle->load(*prepared), rays, expected);
+        std::vector<RayEnd> ends(rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) ends[i].t = expected[i].t * (i % 2 == 0 ? 2 : 0.5);
+        const auto scene = load(*prepared);
+        for (const Coherence coherence : {Coherence::coherent, Coherence::incoherent}) {
+            backend_->trace(*scene, {.rays = rays, .hits = hits, .coherence = coherence});
+            std::size_t found = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                ASSERT_EQ(hits[i].primitive, expected[i].primitive) << name << " (seeds 11, 12), ray " << i;
+                ASSERT_LE(ulps_between(hits[i].t, expected[i].t), 1) << name << " (seeds 11, 12), ray " << i;
+                found += hits[i].primitive == no_primitive ? 0 : 1;
+            }
+            EXPECT_GT(found, rays.size() / 4) << name;
+            backend_->trace(*scene, {.rays = rays, .hits = hits, .ends = ends, .coherence = coherence});
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const bool blocked = expected[i].primitive != no_primitive && i % 2 == 0;
+                ASSERT_EQ(hits[i].primitive != no_primitive, blocked) << name << " (seeds 11, 12), shadow ray " << i;
+            }
         }
     }
 }

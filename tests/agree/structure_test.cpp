@@ -392,6 +392,20 @@ std::size_t crowded_rays(const Structure& structure, const std::vector<Ray<float
     return crowded;
 }
 
+TEST(Candidates, AreTakenUpToALimit) {
+    Candidates<3> candidates;
+    candidates.add(1, 7, 9);
+    candidates.add(5, 8, 9);
+    candidates.add(2, 9, 9);
+    EXPECT_EQ(candidates.take(4), 7U);
+    EXPECT_EQ(candidates.take(4), 9U);
+    EXPECT_EQ(candidates.take(4), no_primitive) << "the other begins at 5";
+    candidates.add(3, 6, 5);
+    EXPECT_EQ(candidates.take(5), 8U);
+    EXPECT_EQ(candidates.take(5), 6U);
+    EXPECT_EQ(candidates.take(5), no_primitive);
+}
+
 TEST(Bvh, DecidesAboutCrowds) {
     const test::Bundles bundles = test::make_bundles(11);
     for (const PreparedScene* scene : {&bundles.solids, &bundles.faces}) {

@@ -49,14 +49,11 @@ struct BvhStructure {
     TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
         const Proposal<Real> proposal = propose(ray);
         if (!proposal.active) return;
-        bvh_detail::WalkEnd end{};
         if constexpr (decides_behind<Real>) {
-            end = find_behind_walk<search>(ray, source, proposal, best);
+            find_behind_walk<search>(ray, source, proposal, best);
         } else {
-            end = find_in_leaves<search>(ray, source, proposal, best);
+            find_in_leaves<search>(ray, source, proposal, best);
         }
-        if (end.stack_was_full) [[unlikely]]
-            try_what_was_missed(ray, source, best);
     }
 
     /// Whether the tracer has find_blocker().
@@ -149,41 +146,57 @@ struct BvhStructure {
                                [&](const auto& primitive) { test_primitive(primitive, id, ray, source, true, best); });
     }
 
-    /// For the few rays with too many candidates: traverses the hierarchy once more, with the limit that is known by
-    /// now. Unsure hits are decided at once, and certain ones if there is no place for them. Out of line, so that other
-    /// rays need no registers for it.
+    /// For the few rays with too many candidates or with a full stack: traverses the hierarchy once more, with the
+    /// limit that is known by now. Unsure hits are decided at once, and certain ones if there is no place for them;
+    /// after another full stack, all primitives. Out of line, so that other rays need no registers for it. The decision
+    /// is in one place of the code: inlined in three, it was two thirds of the code of a kernel.
     template <Search search, class Real, class From>
     TANDEM_HD_CALL Closest<Real> decide_crowd(const BvhStructure& self, Ray<Real> ray, From source, Closest<Real> best,
                                               float limit) {
+        constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
         const Proposal<Real> proposal = self.propose(ray);
         const QueryRay query = make_query_ray(proposal, self.bvh.frame, source);
+        const NodeRay node_ray = make_node_ray(query.origin, query.direction);
         const Double<Real> t_max = best.t;
         if (search == Search::any) limit = lesser(limit, to_plain(proposal.limit(t_max)));
+        bvh_detail::LocalStack stack;
+        bvh_detail::Walk at = bvh_detail::Walk::from_root(stack);
         Candidates<2> certain;
-        const auto keep_or_decide = [&](std::uint32_t entry) {
-            std::uint32_t id = no_primitive;
-            const HitInterval interval = self.template interval_at<Real>(entry, source, query, id);
-            if (!(interval.lo <= limit)) return false;
-            const std::uint32_t kept = keeps_entries<From> ? entry : id;
-            if (search == Search::nearest && interval.hi < interval_detail::infinity) {
-                limit = lesser(limit, interval.hi);
-                certain.add(interval.lo, kept, limit);
-                if (certain.overflow == 0) return false;
-                certain.overflow = 0;
+        std::uint32_t tried = 0;  // of all primitives, after a full stack
+        while (true) {
+            std::uint32_t next = no_primitive;
+            if (!at.is_done()) {
+                if (!at.is_at_entry()) {
+                    at.template descend<may_start_late>(stack, self.bvh, node_ray, query.start, limit);
+                }
+                if (!at.is_at_entry()) continue;
+                const std::uint32_t entry = at.entry();
+                std::uint32_t id = no_primitive;
+                const HitInterval interval = self.template interval_at<Real>(entry, source, query, id);
+                at.pop(stack);
+                if (!(interval.lo <= limit)) continue;
+                next = keeps_entries<From> ? entry : id;
+                if (search == Search::nearest && interval.hi < interval_detail::infinity) {
+                    limit = lesser(limit, interval.hi);
+                    certain.add(interval.lo, next, limit);
+                    if (certain.overflow == 0) continue;
+                    certain.overflow = 0;
+                }
+            } else {
+                next = certain.take(limit);
+                if (next == no_primitive) {
+                    if (at.depth <= 0) return best;
+                    if (tried == 0) bvh_detail::count(self.bvh.stack_overflows);
+                    if (is_linked || tried == primitive_count(self.scene)) return best;
+                    next = tried++;
+                }
             }
             const Double<Real> t_before = best.t;
-            self.decide_kept(ray, source, kept, best);
+            self.decide_kept(ray, source, next, best);
+            if (search == Search::any && best.t < t_max) return best;
             // no interval starts before 0
             if (best.t < t_before) limit = lesser(limit, greater(to_plain(proposal.limit(best.t)), 0.0F));
-            return search == Search::any && best.t < t_max;
-        };
-        constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
-        const NodeRay node_ray = make_node_ray(query.origin, query.direction);
-        const bvh_detail::WalkEnd end =
-            bvh_detail::walk<may_start_late>(self.bvh, node_ray, query.start, limit, keep_or_decide);
-        if (end.stack_was_full) self.try_what_was_missed(ray, source, best);
-        certain.for_each(limit, [&](std::uint32_t kept) { self.decide_kept(ray, source, kept, best); });
-        return best;
+        }
     }
 
   private:
@@ -192,16 +205,9 @@ struct BvhStructure {
         return (kinds & kind) != 0 && ((kinds & ~kind) == 0 || !may_have(kinds & ~kind));
     }
 
-    /// After a traversal whose stack was full.
-    template <class Real, class From>
-    TANDEM_HD_INLINE void try_what_was_missed(const Ray<Real>& ray, const From& source, Closest<Real>& best) const {
-        bvh_detail::count(bvh.stack_overflows);
-        if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
-    }
-
     template <Search search, class Real, class From>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_in_leaves(const Ray<Real>& ray, const From& source,
-                                                        const Proposal<Real>& proposal, Closest<Real>& best) const {
+    TANDEM_HD_INLINE void find_in_leaves(const Ray<Real>& ray, const From& source, const Proposal<Real>& proposal,
+                                         Closest<Real>& best) const {
         const FilterRay<Real> filter = make_filter_ray(ray);
         const NodeRay node_ray = make_node_ray(to_plain(proposal.ray.origin), to_plain(proposal.ray.direction));
         const Double<Real> t_max = best.t;
@@ -209,10 +215,15 @@ struct BvhStructure {
         constexpr bool may_start_late = std::is_same_v<From, PathSource<Real>>;
         const float start = may_start_late ? to_plain(proposal.start_for(source)) : 0.0F;
         float limit = first_limit(proposal, t_max);
-        return bvh_detail::walk<may_start_late>(bvh, node_ray, start, limit, [&](std::uint32_t entry) {
-            try_entry(entry, filter, source, proposal, best, limit);
-            return search == Search::any && best.t < t_max;
-        });
+        const bvh_detail::WalkEnd end =
+            bvh_detail::walk<may_start_late>(bvh, node_ray, start, limit, [&](std::uint32_t entry) {
+                try_entry(entry, filter, source, proposal, best, limit);
+                return search == Search::any && best.t < t_max;
+            });
+        if (end.stack_was_full) [[unlikely]] {
+            bvh_detail::count(bvh.stack_overflows);
+            if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
+        }
     }
 
     template <class Real, class From>
@@ -235,8 +246,8 @@ struct BvhStructure {
     }
 
     template <Search search, class Real, class From>
-    TANDEM_HD_INLINE bvh_detail::WalkEnd find_behind_walk(const Ray<Real>& ray, const From& source,
-                                                          const Proposal<Real>& proposal, Closest<Real>& best) const {
+    TANDEM_HD_INLINE void find_behind_walk(const Ray<Real>& ray, const From& source, const Proposal<Real>& proposal,
+                                           Closest<Real>& best) const {
         float limit = first_limit(proposal, best.t);
         const float enough = search == Search::any ? to_plain(proposal.start(best.t)) : 0.0F;
         Candidates<most_candidates> candidates;
@@ -248,13 +259,11 @@ struct BvhStructure {
         const float reached = Parked<float>(limit).get();
         if (search == Search::any && end.stopped) {
             best = {0.0, some_primitive};
-        } else if (candidates.overflow != 0) [[unlikely]] {
+        } else if (candidates.overflow != 0 || end.stack_was_full) [[unlikely]] {
             best = decide_crowd<search>(*this, same_ray, source, best, reached);
-            return {};
         } else {
             found.get().for_each(reached, [&](std::uint32_t kept) { decide_kept(same_ray, source, kept, best); });
         }
-        return end;
     }
 
     /// Decides about candidates whenever there is no place for more.

@@ -32,6 +32,18 @@ struct Candidates {
         overflow = placed ? overflow : 1U;
     }
 
+    /// Removes and returns the first one that may be hit at or before the limit; no_primitive if there is none.
+    TANDEM_HD_INLINE std::uint32_t take(float limit) {
+        std::uint32_t taken = no_primitive;
+        for (int k = 0; k < most; ++k) {
+            if (taken == no_primitive && lo[k] <= limit) taken = id[k];
+            if (taken == no_primitive) continue;
+            lo[k] = k + 1 < most ? lo[k + 1] : interval_detail::infinity;
+            id[k] = k + 1 < most ? id[k + 1] : 0;
+        }
+        return taken;
+    }
+
     /// Whether there is no place for another one.
     [[nodiscard]] TANDEM_HD_INLINE bool is_full(float limit) const {
         bool full = true;
