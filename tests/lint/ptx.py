@@ -30,15 +30,13 @@ def instructions(pattern):
 # Exact operations; the compiler's own integer arithmetic uses .approx nowhere.
 FORBIDDEN = instructions(rf"{APPROXIMATE}|fma\.r[nzmp]\.f32")
 FORBIDDEN_IN_BUILD = instructions(rf"(?!{ROUGH}\b){APPROXIMATE}")
-
-
 def units_of(source):
     """The ways to compile a source: with which macros. The linked kernel in strict alone, for long paths in a hierarchy and
     short ones among few primitives."""
     if source.name in ("compiled_facts.cu", "first_hits.cu", "trace_instanced.cu"):
         return []  # numbers; in exact_kernels()
     if source.name == "trace.cu":
-        return [(source, ["-DTANDEM_SHORT_PATHS=1", "-DTANDEM_TRACE_ASK=nearest", "-DTANDEM_TRACE_TIER=fast"])]
+        return [(source, ["-DTANDEM_SHORT_PATHS=1", "-DTANDEM_TRACE_TIER=fast"])]
     if source.name != "linked_kernel.cu":
         return [(source, ["-DTANDEM_SHORT_PATHS=1"])]
     linked = [("DeferringBvhTracer", []), ("ConstantMemoryTracer", ["-DTANDEM_SHORT_PATHS=1"])]
@@ -48,15 +46,9 @@ def units_of(source):
 def exact_kernels(tier):
     """The kernels of a tier that trace rays and find first hits, as one source: compiled one by one, as the build does, they
     take twice as long."""
-    def included(source, **macros):
-        defined = "".join(f"#define TANDEM_{name} {value}\n" for name, value in macros.items())
-        return defined + f'#include "cuda/{source}"\n' + "".join(f"#undef TANDEM_{name}\n" for name in macros)
-
-    traced = [included("trace.cu", TRACE_ASK=ask, TRACE_TIER=tier) for ask in ("nearest", "nearest_from_surface", "occluded")]
-    traced.append("#undef TANDEM_TRACE_JOINED\n#undef TANDEM_TRACE_NAME\n" + included("trace_instanced.cu", TRACE_TIER=tier))
-    found = [included("first_hits.cu", FIRST_HITS_TIER=tier, FIRST_HITS_NAME=f"first_hits_{tracers}", FIRST_HITS_TRACERS=tracers)
-             for tracers in ("with_tracer", "with_instanced_tracer")]
-    return "#define TANDEM_SHORT_PATHS 1\n" + "".join(traced + found)
+    macros = {"SHORT_PATHS": 1, "TRACE_TIER": tier, "FIRST_HITS_TIER": tier, "FIRST_HITS_INSTANCED": 1}
+    defined = "".join(f"#define TANDEM_{name} {value}\n" for name, value in macros.items())
+    return defined + "".join(f'#include "cuda/{source}"\n' for source in ("trace.cu", "trace_instanced.cu", "first_hits.cu"))
 
 
 def main():
