@@ -5,6 +5,7 @@ Fails on .approx, .full and .ftz in the kernels of the exact tiers, and on any s
 in double, and in single precision only in loose_multiply_add(), which is switched off here with the rough reciprocals; with
 --fmad=false the compiler adds none. tests/lint/device_probe.cu shows that it adds none; the kernels are compiled without the
 optimiser, to save time. In the render kernels that the build has linked these functions are at work, and nothing else.
+Fails on the test of all primitives after a full stack, which is for hosts.
 The tier fast is compiled with the flags of its own, and must have them. Needs nvcc, no GPU.
 
 usage: ptx.py ROOT BUILD NVCC
@@ -30,6 +31,10 @@ def instructions(pattern):
 # Exact operations; the compiler's own integer arithmetic uses .approx nowhere.
 FORBIDDEN = instructions(rf"{APPROXIMATE}|fma\.r[nzmp]\.f32")
 FORBIDDEN_IN_BUILD = instructions(rf"(?!{ROUGH}\b){APPROXIMATE}")
+# The test of all primitives after a full stack, which is for hosts alone (lib/tandem/kernel/traversal/bvh_tracer.h).
+TRIES_ALL = re.compile(r"^(?:\.weak )?\.func.*(bvh_detail7try_all)", re.M)
+
+
 def units_of(source):
     """The ways to compile a source: with which macros. The linked kernel in strict alone, for long paths in a hierarchy and
     short ones among few primitives."""
@@ -81,6 +86,7 @@ def main():
             print(f"{shown}: {len(re.findall(r'[.]approx', text))} approximations")
             return
         forbid(FORBIDDEN, text, shown)
+        forbid(TRIES_ALL, text, shown)
         entries = len(re.findall(r"^\s*(?:\.visible |\.weak )?\.entry", text, re.M))
         print(f"{shown}: {entries} kernels, {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
 
@@ -97,6 +103,7 @@ def main():
     linked = [path for tier in ("strict", "precise") for path in sorted((build / "cuda").glob(f"compiled_*_{tier}.ptx"))]
     for path in linked:
         forbid(FORBIDDEN_IN_BUILD, path.read_text(), path.name)
+        forbid(TRIES_ALL, path.read_text(), path.name)
     report.finish(f"{len(units)} compilations, {len(linked)} linked kernels")
 
 

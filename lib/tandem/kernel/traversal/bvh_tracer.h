@@ -11,9 +11,12 @@ namespace tandem {
 
 namespace bvh_detail {
 
-/// Tests every primitive, for a ray whose stack overflowed: slow but correct. That cannot happen with a BVH from
-/// build_bvh(). A separate function, so that other rays need no registers for it. Kernels that are linked for a scene
-/// do not contain it, because their BVHs always come from build_bvh(); an overflow is still counted.
+/// Whether a ray whose stack was full tests every primitive. It cannot be full with a BVH from a builder, whose depth
+/// is limited (max_bvh_depth). The GPU traverses no other, so its code does without the test; an overflow is still
+/// counted.
+inline constexpr bool tries_all = !TANDEM_ON_DEVICE;
+
+/// Tests every primitive: slow but correct. A separate function, so that other rays need no registers for it.
 template <std::uint32_t kinds, class Real, class From>
 TANDEM_HD_CALL Closest<Real> try_all(SceneView scene, Ray<Real> ray, From source, Closest<Real> best) {
     const FilterRay<Real> filter = make_filter_ray(ray);
@@ -78,7 +81,7 @@ struct BvhStructure {
         }
         if (end.stack_was_full) [[unlikely]] {
             bvh_detail::count(bvh.stack_overflows);
-            if constexpr (!is_linked) {
+            if constexpr (bvh_detail::tries_all) {
                 hits.begin_again();
                 for (std::uint32_t id = 0; id < primitive_count(scene) && !end.stopped; ++id) {
                     end.stopped = hits.block(id, true);
@@ -148,9 +151,9 @@ struct BvhStructure {
 
     /// For the few rays with too many candidates or with a full stack: traverses the hierarchy once more, with the
     /// limit that is known by now. Unsure hits are decided at once, certain ones if there is no place for them; after
-    /// another full stack all primitives, as in try_all(). Out of line, so that other rays need no registers for it.
-    /// The decision is in one place: with three, a kernel for all kinds has 1.4 times the code. Tests:
-    /// Bvh.DecidesAboutCrowds.
+    /// another full stack, on the host, all primitives, as in try_all(). Out of line, so that other rays need no
+    /// registers for it. The decision is in one place: with three, a kernel for all kinds has 1.4 times the code.
+    /// Tests: Bvh.DecidesAboutCrowds.
     template <Search search, class Real, class From>
     TANDEM_HD_CALL Closest<Real> decide_crowd(const BvhStructure& self, Ray<Real> ray, From source, Closest<Real> best,
                                               float limit) {
@@ -188,7 +191,7 @@ struct BvhStructure {
                 if (next == no_primitive) {
                     if (at.depth <= 0) return best;
                     if (tried == 0) bvh_detail::count(self.bvh.stack_overflows);
-                    if (is_linked || tried == primitive_count(self.scene)) return best;
+                    if (!bvh_detail::tries_all || tried == primitive_count(self.scene)) return best;
                     next = tried++;
                 }
             }
@@ -223,7 +226,7 @@ struct BvhStructure {
             });
         if (end.stack_was_full) [[unlikely]] {
             bvh_detail::count(bvh.stack_overflows);
-            if constexpr (!is_linked) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
+            if constexpr (bvh_detail::tries_all) best = bvh_detail::try_all<kinds>(scene, ray, source, best);
         }
     }
 
