@@ -8,8 +8,13 @@ if(TANDEM_UNITY)
   )
 endif()
 
-# tandem_compile_together(TARGET PATTERN): the sources of TARGET that match, in equal parts of at most 30
+# tandem_compile_together(TARGET PATTERN [MOST]): the sources of TARGET that match, in equal parts of at most MOST; default:
+# 30
 function(tandem_compile_together target pattern)
+  set(most 30)
+  if(ARGC GREATER 2)
+    set(most ${ARGV2})
+  endif()
   if(NOT TANDEM_UNITY)
     return()
   endif()
@@ -18,7 +23,7 @@ function(tandem_compile_together target pattern)
   list(FILTER files INCLUDE REGEX "${pattern}")
   string(MAKE_C_IDENTIFIER "${pattern}" name)
   list(LENGTH files count)
-  math(EXPR groups "(${count} + 29) / 30")
+  math(EXPR groups "(${count} + ${most} - 1) / ${most}")
   set(number 0)
   foreach(file IN LISTS files)
     math(EXPR group "${number} * ${groups} / ${count}")

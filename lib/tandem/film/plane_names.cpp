@@ -12,7 +12,7 @@ namespace tandem {
 namespace {
 
 /// The parts between commas; without a comma the whole text, which may be empty.
-std::vector<std::string> split(std::string_view text) {
+std::vector<std::string> split_at_commas(std::string_view text) {
     std::vector<std::string> parts;
     while (true) {
         const std::size_t end = std::min(text.find(','), text.size());
@@ -41,7 +41,7 @@ PlaneMask all_planes() {
 const std::vector<PlaneInfo>& plane_infos() {
     static const std::vector<PlaneInfo> infos = {
 #define TANDEM_PLANE(name, Value, rule, channels, help) \
-    {FilmPlane::name, #name, PlaneRule::rule, split(channels), help},
+    {FilmPlane::name, #name, PlaneRule::rule, split_at_commas(channels), help},
 #include "tandem/film/planes.def"
 #undef TANDEM_PLANE
     };
@@ -54,7 +54,7 @@ std::string to_string(PlaneMask planes) { return fmt::format("{}", fmt::join(nam
 
 PlaneMask parse_planes(std::string_view text) {
     PlaneMask planes;
-    for (const std::string& word : split(text)) {
+    for (const std::string& word : split_at_commas(text)) {
         const auto& infos = plane_infos();
         const auto found =
             std::find_if(infos.begin(), infos.end(), [&](const PlaneInfo& info) { return word == info.name; });
