@@ -142,12 +142,12 @@ DeviceScene::DeviceScene(const PreparedScene& scene, Tier tier, std::shared_ptr<
         view_.instanced = {};
         view_.instanced_bvh = {};
     } else {
-        static_cast<SceneView&>(view_.instanced) = view_.scene;
         view_.instanced.mesh_count = static_cast<std::uint32_t>(instances.meshes.size());
-        view_.instanced.first_instanced_id = static_cast<std::uint32_t>(primitive_count(scene));
         view_.instanced_bvh.instance_entries = static_cast<std::uint32_t>(instanced_bvh.entry_instances.size());
         view_.instanced_bvh.frame = instanced_bvh.frame;
     }
+    static_cast<SceneView&>(view_.instanced) = view_.scene;
+    view_.instanced.first_instanced_id = static_cast<std::uint32_t>(primitive_count(scene));
     if (instances.empty() && fits_constant_memory(host)) {
         view_.few = make_constant_memory_tracer(host, view_.scene);
         view_.certain = make_certain_scene(host);

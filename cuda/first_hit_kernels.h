@@ -28,4 +28,26 @@ void launch_first_hits(const Tracer& tracer, const PixelJob& job, std::uint32_t 
            stream, tracer, job, pixels, planes);
 }
 
+/// Hierarchies have the tracer for instances in any case, except in fast, whose scenes of instances have the kernel of
+/// strict: another kernel would take longer to compile than it saves (docs/performance/build-time.md).
+template <class Real>
+void fill_first_hits(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, const FilmPlanes& planes,
+                     DeviceCounters* counters, cudaStream_t stream) {
+    const auto launch_with = [&](const auto& tracer) { launch_first_hits<Real>(tracer, job, height, planes, stream); };
+    switch (structure_of(scene)) {
+        case Structure::few:
+            return launch_with(scene.few);
+        case Structure::loop:
+            return launch_with(LoopTracer{scene.scene});
+        case Structure::bvh:
+        case Structure::instanced:
+            break;
+    }
+    if constexpr (is_fast<Real>) {
+        launch_with(BvhTracer{scene.scene, counting_bvh(scene, counters)});
+    } else {
+        launch_with(instanced_tracer<HierarchyTracer>(scene, counters));
+    }
+}
+
 }  // namespace tandem::cuda

@@ -24,7 +24,7 @@ struct DeviceSceneView {
     ConstantMemoryTracer few;  ///< filled for a scene that fits_constant_memory(), without the view of a camera
     CertainScene certain;      ///< for that view
     bool diverges;             ///< even neighbouring rays visit very different numbers of nodes
-    InstancedView instanced;   ///< without instances in most scenes
+    InstancedView instanced;   ///< the same scene; without instances in most scenes
     InstancedBvhView instanced_bvh;
 };
 
@@ -57,6 +57,13 @@ struct DeviceCounters {
     unsigned long long rays[ray_counters];
     unsigned int next_in_queue;  ///< the next pixel, or ray
 };
+
+/// The hierarchy of a scene, which counts full stacks into `counters`.
+[[nodiscard]] inline BvhView counting_bvh(const DeviceSceneView& scene, DeviceCounters* counters) {
+    BvhView bvh = scene.bvh;
+    bvh.stack_overflows = &counters->stack_overflows;
+    return bvh;
+}
 
 /// A TraceJob in device memory. `sources`, `ends` and `wide_t` may be null.
 struct DeviceRays {

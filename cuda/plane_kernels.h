@@ -11,16 +11,14 @@ namespace tandem::cuda {
 using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height,
                             const FilmPlanes& planes, DeviceCounters* counters, cudaStream_t stream);
 
-// Defined by first_hits.cu. In scenes of instances the tier fast has the kernel of strict.
-extern FirstHitLaunch launch_first_hits_instanced_strict, launch_first_hits_instanced_precise;
+// Defined by first_hits.cu.
 #define TANDEM_TIER(name, promise) extern FirstHitLaunch launch_first_hits_##name;
 #include "tandem/render/tiers.def"
 #undef TANDEM_TIER
 
 [[nodiscard]] inline FirstHitLaunch& first_hits(Structure structure, Tier tier) {
-    if (structure == Structure::instanced) {
-        return tier == Tier::precise ? launch_first_hits_instanced_precise : launch_first_hits_instanced_strict;
-    }
+    // there the tier fast has the kernel of strict
+    if (structure == Structure::instanced && tier == Tier::fast) return launch_first_hits_strict;
     switch (tier) {
 #define TANDEM_TIER(name, promise) \
     case Tier::name:               \

@@ -296,9 +296,7 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
         case Structure::bvh:
             break;
     }
-    BvhView bvh = scene.bvh;
-    bvh.stack_overflows = &counters->stack_overflows;
-    const DeferringBvhTracer tracer = {{scene.scene, bvh}};
+    const DeferringBvhTracer tracer = {{scene.scene, counting_bvh(scene, counters)}};
     if (structure_of(scene) == Structure::instanced) {
         return launch(InstancedTracer{{scene.instanced, tracer, scene.instanced_bvh}});
     }

@@ -10,7 +10,7 @@ namespace tandem::cuda {
 
 void TANDEM_TRACE_NAME(TANDEM_TRACE_TIER)(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     using Real = tier_real::TANDEM_TRACE_TIER;
-    const InstancedTracer tracer = instanced_tracer(scene, rays.counters);
+    const auto tracer = instanced_tracer<InstancedTracer>(scene, rays.counters);
     switch (ask_of(rays)) {
         case Ask::nearest:
             return launch_one<Real, Ask::nearest>(tracer, rays, stream);

@@ -59,7 +59,7 @@ void launch_best(const Tracer& tracer, const DeviceSceneView& scene, const Devic
 template <class Real, Ask ask>
 void launch_trace(const DeviceSceneView& scene, const DeviceRays& rays, cudaStream_t stream) {
     if (rays.count == 0) return;
-    with_tracer<Decisions::behind_walk>(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
+    with_tracer(scene, rays.counters, [&]<class Tracer>(const Tracer& tracer) {
         if constexpr (is_fast<Real> && can_refill<Tracer> && ask != Ask::occluded) {
             // Decisions in leaves are slower for incoherent rays even in float alone, and the hits of a ray must not
             // depend on the others that it is traced with.

@@ -17,48 +17,40 @@ inline constexpr unsigned int resident_blocks = [] {
     return faces && !is_fast<Real> ? 6 : 8;
 }();
 
-/// The tracer for a scene of Structure::instanced, which counts into `counters`.
-inline InstancedTracer instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counters) {
-    BvhView bvh = scene.bvh;
-    bvh.stack_overflows = &counters->stack_overflows;
-    return {{scene.instanced, {{scene.scene, bvh}}, scene.instanced_bvh}};
+/// A tracer for scenes of instances, or for all with a hierarchy, which counts into `counters`.
+template <class Tracer>
+Tracer instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counters) {
+    return {{scene.instanced, {{scene.scene, counting_bvh(scene, counters)}}, scene.instanced_bvh}};
 }
 
+/// Calls f with the tracer that traces many rays best in a scene without instances, and counts into `counters`. Scenes
+/// without triangles and quads have tracers of their own, and so have hierarchies of one kind.
 template <class F>
-auto with_instanced_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
-    return f(instanced_tracer(scene, counters));
-}
-
-/// Calls f with the tracer for a scene without instances, which counts into `counters`. `decisions`: where hierarchies
-/// decide. Behind the walk, which is for many rays, scenes without triangles and quads have tracers of their own, and
-/// so have hierarchies of one kind.
-template <Decisions decisions = Decisions::in_leaves, class F>
 auto with_tracer(const DeviceSceneView& scene, DeviceCounters* counters, F f) {
-    constexpr bool is_for_many = decisions == Decisions::behind_walk;
-    constexpr std::uint32_t all = PrimitiveKinds::all;
-    constexpr std::uint32_t bodies = is_for_many ? PrimitiveKinds::bodies : all;
     const bool faces = has_faces(scene.scene);
     switch (structure_of(scene)) {
         case Structure::few:
             return f(scene.few);
         case Structure::loop:
-            return faces ? f(LoopTracerFor<all>{scene.scene}) : f(LoopTracerFor<bodies>{scene.scene});
+            return faces ? f(LoopTracer{scene.scene}) : f(LoopTracerFor<PrimitiveKinds::bodies>{scene.scene});
         case Structure::bvh:
         case Structure::instanced:
             break;
     }
-    BvhView bvh = scene.bvh;
-    bvh.stack_overflows = &counters->stack_overflows;
-    if constexpr (is_for_many) {
-        constexpr std::uint32_t sphere = PrimitiveKinds::sphere, triangle = PrimitiveKinds::triangle;
-        constexpr std::uint32_t parallelepiped = PrimitiveKinds::parallelepiped;
-        const std::uint32_t count = primitive_count(scene.scene);
-        if (scene.scene.sphere_count == count) return f(BvhTracerFor<sphere, decisions>{scene.scene, bvh});
-        if (scene.scene.triangle_count == count) return f(BvhTracerFor<triangle, decisions>{scene.scene, bvh});
-        if (bvh.placed_by_entry != 0) return f(BvhTracerFor<parallelepiped, decisions>{scene.scene, bvh});
+    const BvhView bvh = counting_bvh(scene, counters);
+    constexpr Decisions behind_walk = Decisions::behind_walk;
+    const std::uint32_t count = primitive_count(scene.scene);
+    if (scene.scene.sphere_count == count) {
+        return f(BvhTracerFor<PrimitiveKinds::sphere, behind_walk>{scene.scene, bvh});
     }
-    return faces ? f(BvhTracerFor<all, decisions>{scene.scene, bvh})
-                 : f(BvhTracerFor<bodies, decisions>{scene.scene, bvh});
+    if (scene.scene.triangle_count == count) {
+        return f(BvhTracerFor<PrimitiveKinds::triangle, behind_walk>{scene.scene, bvh});
+    }
+    if (bvh.placed_by_entry != 0) {
+        return f(BvhTracerFor<PrimitiveKinds::parallelepiped, behind_walk>{scene.scene, bvh});
+    }
+    return faces ? f(BvhTracerFor<PrimitiveKinds::all, behind_walk>{scene.scene, bvh})
+                 : f(BvhTracerFor<PrimitiveKinds::bodies, behind_walk>{scene.scene, bvh});
 }
 
 }  // namespace tandem::cuda

@@ -51,9 +51,9 @@ def units_of(source):
 def exact_kernels(tier):
     """The kernels of a tier that trace rays and find first hits, as one source: compiled one by one, as the build does, they
     take twice as long."""
-    macros = {"SHORT_PATHS": 1, "TRACE_TIER": tier, "FIRST_HITS_TIER": tier, "FIRST_HITS_INSTANCED": 1}
-    defined = "".join(f"#define TANDEM_{name} {value}\n" for name, value in macros.items())
-    return defined + "".join(f'#include "cuda/{source}"\n' for source in ("trace.cu", "trace_instanced.cu", "first_hits.cu"))
+    lines = [f"#define TANDEM_{name}" for name in ("SHORT_PATHS 1", f"TRACE_TIER {tier}", f"FIRST_HITS_TIER {tier}")]
+    lines += [f'#include "cuda/{source}"' for source in ("trace.cu", "trace_instanced.cu", "first_hits.cu")]
+    return "\n".join(lines) + "\n"
 
 
 def main():

@@ -192,7 +192,9 @@ struct Walk {
 
 }  // namespace instanced_detail
 
-/// Not for the tier fast, whose rays are traced by the kernels of strict.
+/// Not for the tier fast, whose rays are traced by the kernels of strict. `may_lack_instances`: find() works without
+/// nodes of instances too.
+template <bool may_lack_instances = false>
 struct InstancedStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all | PrimitiveKinds::instanced;
     static constexpr bool has_hierarchy = true;
@@ -208,7 +210,7 @@ struct InstancedStructure {
             others.template find<search>(ray, source, best);
             if (search == Search::any && best.t < t_max) return;
         }
-        find_in_instances<search>(ray, source, best);
+        if (!may_lack_instances || bvh.nodes != nullptr) find_in_instances<search>(ray, source, best);
     }
 
     /// Whether the tracer has find_blocker().
@@ -311,6 +313,8 @@ struct InstancedStructure {
     }
 };
 
-using InstancedTracer = RayTracer<InstancedStructure>;
+using InstancedTracer = RayTracer<InstancedStructure<>>;
+/// For every scene with a hierarchy. It has no find_blocker() for scenes without instances.
+using HierarchyTracer = RayTracer<InstancedStructure<true>>;
 
 }  // namespace tandem
