@@ -8,8 +8,8 @@ if(TANDEM_UNITY)
   )
 endif()
 
-# tandem_compile_together(TARGET PATTERN [MOST]): the sources of TARGET that match, in equal parts of at most MOST; default:
-# 30
+# tandem_compile_together(TARGET PATTERN [MOST]): the sources of TARGET that match, in equal parts of at most MOST files,
+# 30 by default
 function(tandem_compile_together target pattern)
   set(most 30)
   if(ARGC GREATER 2)

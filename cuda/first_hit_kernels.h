@@ -28,8 +28,9 @@ void launch_first_hits(const Tracer& tracer, const PixelJob& job, std::uint32_t 
            stream, tracer, job, pixels, planes);
 }
 
-/// Hierarchies have the tracer for instances in any case, except in fast, whose scenes of instances have the kernel of
-/// strict: another kernel would take longer to compile than it saves (docs/performance/build-time.md).
+/// Starts the kernel that fits the scene. All hierarchies have the tracer for instances, which is one kernel less to
+/// compile (docs/performance/build-time.md). In fast they have a tracer of their own, but scenes of instances have the
+/// kernel of strict (first_hits() in cuda/plane_kernels.h).
 template <class Real>
 void fill_first_hits(const DeviceSceneView& scene, const PixelJob& job, std::uint32_t height, const FilmPlanes& planes,
                      DeviceCounters* counters, cudaStream_t stream) {

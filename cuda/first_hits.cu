@@ -1,5 +1,5 @@
 // The kernels that fill the planes of first hits, for one tier (TANDEM_FIRST_HITS_TIER). cuda/CMakeLists.txt compiles
-// this file for each.
+// this file for each tier.
 #include "cuda/first_hit_kernels.h"
 #include "cuda/tier_real.h"
 

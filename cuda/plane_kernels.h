@@ -17,7 +17,7 @@ using FirstHitLaunch = void(const DeviceSceneView& scene, const PixelJob& job, s
 #undef TANDEM_TIER
 
 [[nodiscard]] inline FirstHitLaunch& first_hits(Structure structure, Tier tier) {
-    // there the tier fast has the kernel of strict
+    // in scenes of instances the tier fast has the kernel of strict
     if (structure == Structure::instanced && tier == Tier::fast) return launch_first_hits_strict;
     switch (tier) {
 #define TANDEM_TIER(name, promise) \

@@ -80,13 +80,13 @@ def main():
             report.add(shown, f"nvcc fails: {result.stderr.strip()[:2000]}")
             return
         text = ptx.read_text()
+        forbid(TRIES_ALL, text, shown)
         if fast:
             if "fma.rn.ftz.f32" not in text or "sqrt.approx.ftz.f32" not in text:
                 report.add(shown, "does not contract or approximate, which is what the tier fast is for")
             print(f"{shown}: {len(re.findall(r'[.]approx', text))} approximations")
             return
         forbid(FORBIDDEN, text, shown)
-        forbid(TRIES_ALL, text, shown)
         entries = len(re.findall(r"^\s*(?:\.visible |\.weak )?\.entry", text, re.M))
         print(f"{shown}: {entries} kernels, {len(re.findall(r'fma.rn.f64', text))} written fma.rn.f64")
 

@@ -192,8 +192,8 @@ struct Walk {
 
 }  // namespace instanced_detail
 
-/// Not for the tier fast, whose rays are traced by the kernels of strict. `may_lack_instances`: find() works without
-/// nodes of instances too.
+/// Not for the tier fast, whose rays are traced by the kernels of strict. `may_lack_instances`: for scenes without
+/// instances too, whose `bvh` has no nodes. Tests: PlaneBits.
 template <bool may_lack_instances = false>
 struct InstancedStructure {
     static constexpr std::uint32_t kinds = PrimitiveKinds::all | PrimitiveKinds::instanced;
@@ -214,7 +214,7 @@ struct InstancedStructure {
     }
 
     /// Whether the tracer has find_blocker().
-    TANDEM_HD_INLINE static constexpr bool finds_blockers() { return true; }
+    TANDEM_HD_INLINE static constexpr bool finds_blockers() { return !may_lack_instances; }
 
     /// As BvhStructure::find_blocker().
     template <class Real, class Hits>
@@ -314,7 +314,7 @@ struct InstancedStructure {
 };
 
 using InstancedTracer = RayTracer<InstancedStructure<>>;
-/// For every scene with a hierarchy. It has no find_blocker() for scenes without instances.
+/// For every scene with a hierarchy.
 using HierarchyTracer = RayTracer<InstancedStructure<true>>;
 
 }  // namespace tandem
