@@ -149,7 +149,7 @@ void add_sweep_options(CLI::App& command, SweepOptions& sweep) {
                        "Folder that keeps the references of the sweep; without it they are rendered each time");
     command
         .add_option("--reference-samples", sweep.reference_samples,
-                    "Samples per pixel of each reference; 0 means 32 times the most of --samples")
+                    "Samples per pixel of each reference; 0 means 16 times the most of --samples")
         ->capture_default_str()
         ->check(CLI::Range(0, 1 << 24));
     command

@@ -13,7 +13,7 @@ namespace tandem::bench {
 
 struct ReferenceOptions {
     FilmSize size;
-    int samples = 2048;      ///< per pixel, of each of two
+    int samples = 1024;      ///< per pixel, of each of two
     std::uint64_t seed = 0;  ///< of the report; those of the references follow from it and differ from all others
     std::string folder;      ///< where references are kept; empty: nowhere
     bool rebuild = false;    ///< renders again what the folder has
@@ -25,11 +25,11 @@ struct DescribedReference {
     std::string description;  ///< a sentence: what it is, and where it is from
 };
 
-/// The closed form of a scene, or two images in the tier precise without limits of paths, with two seeds. With a folder
-/// they are read from there, or rendered and written there: SCENE-WIDTHxHEIGHT-a.pfm and -b.pfm, with the filter's name
-/// before the letter unless it is box, each with its metadata beside it. Throws InputError if a file is of another
-/// scene, size, seed or number of samples, and says how to render it again; EnvironmentError if the folder cannot be
-/// written.
+/// The closed form of a scene, or two images in the tier precise without limits of paths, by the sampler sobol with two
+/// seeds. With a folder they are read from there, or rendered and written there: SCENE-WIDTHxHEIGHT-a.pfm and -b.pfm,
+/// with the filter's name before the letter unless it is box, each with its metadata beside it. Throws InputError if a
+/// file is of another scene, size, seed, sampler or number of samples, and says how to render it again;
+/// EnvironmentError if the folder cannot be written.
 [[nodiscard]] DescribedReference make_reference(const AccuracyScene& scene, Backend& backend,
                                                 const ReferenceOptions& options);
 

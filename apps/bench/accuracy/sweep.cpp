@@ -223,7 +223,7 @@ VariedAxes varied_axes(const SweepOptions& options) {
 ReferenceOptions reference_options(const SweepOptions& options, PixelFilter filter) {
     const int most = *std::max_element(options.samples.begin(), options.samples.end());
     return {options.size,
-            options.reference_samples > 0 ? options.reference_samples : 32 * most,
+            options.reference_samples > 0 ? options.reference_samples : 16 * most,
             options.seed,
             options.reference_folder,
             options.rebuild_references,

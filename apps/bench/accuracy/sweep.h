@@ -30,7 +30,7 @@ struct SweepOptions {
     int seeds = 32;  ///< images per point; at least 2
     std::uint64_t seed = 0;
     int threads = 0;               ///< of the CPU; 0 means one per core
-    int reference_samples = 0;     ///< per pixel, of each of two; 0 means 32 times the most of `samples`
+    int reference_samples = 0;     ///< per pixel, of each of two; 0 means 16 times the most of `samples`
     std::string reference_folder;  ///< empty: references are not kept
     bool rebuild_references = false;
 };
