@@ -20,10 +20,10 @@ else()
   target_compile_options(tandem_baseline_isa INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=x86-64-v2>)
 endif()
 
-# tandem_optimise(LEVEL): code that is not timed compiles faster with -O1 or -O0. Called by folders whose code does not
+# tandem_optimise(LEVEL): code that is not timed compiles faster with -O1, -Og or -O0. Called by folders whose code does not
 # compute images.
 macro(tandem_optimise level)
-  string(REPLACE "-O3" "${level}" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+  string(REGEX REPLACE "-O[13]" "${level}" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 endmacro()
 
 # Warnings and sanitizers; not exported.
