@@ -69,7 +69,7 @@ if(tandem_nvcc_help MATCHES "--Ofast-compile")
   set(tandem_quick_device_code --Ofast-compile=max)
 endif()
 
-# -O2 of the device compiler, for LTO-IR that compiles in two thirds of the time and whose kernels are as fast
+# -O2 of the device compiler, for LTO-IR that compiles in three quarters of the time and whose kernels are as fast
 # (docs/performance/build-time.md). nvcc does not document it, so ask nvcc.
 execute_process(
   COMMAND ${CMAKE_CUDA_COMPILER} -Xcicc=-O2 --dryrun -x cu -c /dev/null -o /dev/null

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 namespace tandem {
 
@@ -63,9 +62,7 @@ Plane filtered(const Plane& plane, const AxisWeights& along_x, const AxisWeights
     }
     for (int y = 0; y < plane.height; ++y) {
         const auto line = [&](std::size_t k) {
-            return std::as_const(rows).values.data() +
-                   static_cast<std::ptrdiff_t>(std::clamp(y + static_cast<int>(k) - radius_y, 0, plane.height - 1)) *
-                       plane.width;
+            return row(rows, std::clamp(y + static_cast<int>(k) - radius_y, 0, plane.height - 1));
         };
         add_lines(along_y, line, plane.width, row(result, y));
     }
