@@ -101,8 +101,8 @@ class Patterns(unittest.TestCase):
         self.assertTrue(self.modules["objects"].FUSED.search("  1a:\tvfmadd213pd %ymm0,%ymm1,%ymm2"))
         self.assertTrue(self.modules["objects"].FUSED.search("  1a:\tvfnmsub132sd %xmm0,%xmm1,%xmm2"))
         self.assertFalse(self.modules["objects"].FUSED.search("  1a:\tvmulpd %ymm0,%ymm1,%ymm2"))
-        self.assertTrue(self.modules["objects"].NEWER.search("cpu/CMakeFiles/tandem_cpu_strict_v3.dir/kernels/query.cpp.o"))
-        self.assertFalse(self.modules["objects"].NEWER.search("cpu/CMakeFiles/tandem_cpu_strict_v2.dir/kernels/query.cpp.o"))
+        self.assertTrue(self.modules["objects"].NEWER.search("cpu/CMakeFiles/tandem_cpu_strict_v3_alone.dir/kernels/query.cpp.o"))
+        self.assertFalse(self.modules["objects"].NEWER.search("cpu/CMakeFiles/tandem_cpu_strict_v2_alone.dir/kernels/query.cpp.o"))
         forbidden = self.modules["ptx"].FORBIDDEN
         for line in ("\tsqrt.approx.f32 %f1, %f2;", "\tmul.ftz.f32 %f1, %f2, %f3;", "\tdiv.full.f32 %f1, %f2, %f3;",
                      "\t@%p1 fma.rn.ftz.f32 %f1, %f2, %f3, %f4;"):
