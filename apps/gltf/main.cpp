@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "apps/common/command_line.h"
 #include "apps/common/run_main.h"
 #include "apps/gltf/describe.h"
 #include "tandem/base/whole_file.h"
@@ -58,27 +58,22 @@ int run_check(const std::string& scene_name, const std::string& json_target) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app(
+    CommandLine app(
         "Prints what a glTF file contains and what is wrong with it.\n"
         "Exit status: 0 fine, 2 wrong usage or input, 3 the machine lacks something.",
         "tandem-gltf");
-    app.require_subcommand(1);
     std::string scene;
     std::string json_target;
     const auto add = [&](const char* name, const char* what) {
-        CLI::App* command = app.add_subcommand(name, what);
-        command->add_option("SCENE", scene, ".gltf or .glb file, or named:NAME")->required();
-        command->add_option("--json", json_target, "Write the result to a JSON file; - is standard output");
+        CommandLine command = app.command(name, what);
+        command.option("SCENE", &scene, ".gltf or .glb file, or named:NAME").required();
+        command.option("--json", &json_target, "Write the result to a JSON file; - is standard output");
         return command;
     };
-    const CLI::App* info = add("info", "Print what the scene contains and how Tandem renders it");
+    const CommandLine info = add("info", "Print what the scene contains and how Tandem renders it");
     add("check", "Print what prevents the scene from being rendered, and what is approximated or ignored");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? exit_done : exit_bad_input;
-    }
-    return info->parsed() ? run_info(scene, json_target) : run_check(scene, json_target);
+    if (const auto status = app.parse(argc, argv)) return *status;
+    return info.is_given() ? run_info(scene, json_target) : run_check(scene, json_target);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 /// tandem-render renders frames of a scene to image files. docs/images.md describes formats, names and resuming.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "common/arguments.h"
 #include "common/choose_gpus.h"
+#include "common/command_line.h"
 #include "common/run_main.h"
 #include "render/interrupt.h"
 #include "render/plan_command.h"
@@ -74,195 +74,193 @@ RenderTarget target_of(const Words& words) {
     return target;
 }
 
-void declare_target(CLI::App& app, Words& words) {
-    auto* const error =
-        app.add_option("--target-error", words.target_error,
-                       fmt::format("take samples where they help most until the image has this error "
-                                   "(docs/long-renders.md); --spp is then the most samples per pixel, {} if not given",
-                                   most_samples_of_target))
-            ->type_name("E")
-            ->check(CLI::PositiveNumber);
-    app.add_option("--metric", words.metric,
-                   "metric of that error: rmse, in units of radiance; relmse, the mean of relative squared errors; or "
-                   "flip, the difference that a person sees, from 0 to 1")
-        ->needs(error)
-        ->check(CLI::IsMember({"rmse", "relmse", "flip"}))
-        ->capture_default_str();
-    app.add_option("--time-budget", words.time_budget,
-                   "time budget of a frame, in seconds: a round of samples starts only if it will end in time")
-        ->type_name("SECONDS")
-        ->check(CLI::PositiveNumber);
+void declare_target(CommandLine& app, Words& words) {
+    const CommandOption error =
+        app.option("--target-error", &words.target_error,
+                   fmt::format("take samples where they help most until the image has this error "
+                               "(docs/long-renders.md); --spp is then the most samples per pixel, {} if not given",
+                               most_samples_of_target))
+            .shows_type("E")
+            .above_zero();
+    app.option("--metric", &words.metric,
+               "metric of that error: rmse, in units of radiance; relmse, the mean of relative squared errors; or "
+               "flip, the difference that a person sees, from 0 to 1")
+        .needs(error)
+        .one_of({"rmse", "relmse", "flip"})
+        .shows_default();
+    app.option("--time-budget", &words.time_budget,
+               "time budget of a frame, in seconds: a round of samples starts only if it will end in time")
+        .shows_type("SECONDS")
+        .above_zero();
 }
 
-void declare_denoiser(CLI::App& app, Words& words) {
-    auto* const denoise = app.add_flag(
-        "--denoise", words.denoise,
-        "denoise the image by Open Image Denoise, if it is installed (docs/denoising.md): fewer samples "
-        "look smooth, but the error is unknown, and the image cannot be verified. The hash that is printed "
-        "is that of the film before denoising");
-    app.add_option("--denoiser", words.denoiser, "the denoiser's library, if the system's loader does not find it")
-        ->type_name("FILE")
-        ->needs(denoise);
+void declare_denoiser(CommandLine& app, Words& words) {
+    const CommandOption denoise =
+        app.flag("--denoise", &words.denoise,
+                 "denoise the image by Open Image Denoise, if it is installed (docs/denoising.md): fewer samples "
+                 "look smooth, but the error is unknown, and the image cannot be verified. The hash that is printed "
+                 "is that of the film before denoising");
+    app.option("--denoiser", &words.denoiser, "the denoiser's library, if the system's loader does not find it")
+        .shows_type("FILE")
+        .needs(denoise);
 }
 
-void declare_checkpoint(CLI::App& app, Words& words) {
-    auto* const file = app.add_option("--checkpoint", words.checkpoint.file,
-                                      "render one frame in tiles, and write the finished ones to this file regularly "
-                                      "and when interrupted; it is removed when the image is written")
-                           ->type_name("FILE");
-    app.add_option("--checkpoint-every", words.checkpoint.every, "seconds from one checkpoint to the next")
-        ->type_name("SECONDS")
-        ->needs(file)
-        ->check(CLI::Range(0.0, 1e9))
-        ->capture_default_str();
-    app.add_flag("--resume", words.checkpoint.resume,
-                 "continue from the checkpoint file if it exists, on any backend and with the same bits")
-        ->needs(file);
+void declare_checkpoint(CommandLine& app, Words& words) {
+    const CommandOption file =
+        app.option("--checkpoint", &words.checkpoint.file,
+                   "render one frame in tiles, and write the finished ones to this file regularly "
+                   "and when interrupted; it is removed when the image is written")
+            .shows_type("FILE");
+    app.option("--checkpoint-every", &words.checkpoint.every, "seconds from one checkpoint to the next")
+        .shows_type("SECONDS")
+        .needs(file)
+        .within(0.0, 1e9)
+        .shows_default();
+    app.flag("--resume", &words.checkpoint.resume,
+             "continue from the checkpoint file if it exists, on any backend and with the same bits")
+        .needs(file);
 }
 
-void declare(CLI::App& app, RenderCommand& command, Words& words, BackendOptions& backend) {
+/// Options whose absence has a meaning.
+struct Declared {
+    CommandOption samples;
+    CommandOption limits;
+};
+
+Declared declare(CommandLine& app, RenderCommand& command, Words& words, BackendOptions& backend) {
     // Input, output and frames
     SequenceOptions& sequence = command.sequence;
     std::string scenes;
     for (const std::string& name : scene_names()) scenes += " named:" + name;
-    app.set_version_flag("--version", version());
-    app.add_option("SCENE", words.source.scene, "glTF file, or a built-in scene:" + scenes)->required();
-    app.add_option(
-        "-o,--output", sequence.output,
-        "image file: .png, .ppm, .pfm or .exr; %04d or #### in the name stands for the frame number; not needed "
-        "with --plan");
-    app.add_option("--size", words.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-    auto* const samples =
-        app.add_option("--spp", sequence.job.samples,
-                       "samples per pixel; if not given, fewer where large primitives overlap (docs/images.md)")
-            ->capture_default_str();
-    app.add_option("--seed", sequence.job.seed, "seed of the random numbers")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+    app.version(version());
+    app.option("SCENE", &words.source.scene, "glTF file, or a built-in scene:" + scenes).required();
+    app.option("-o,--output", &sequence.output,
+               "image file: .png, .ppm, .pfm or .exr; %04d or #### in the name stands for the frame number; not needed "
+               "with --plan");
+    app.option("--size", &words.size, "width and height in pixels").shows_type("WxH").shows_default();
+    const CommandOption samples =
+        app.option("--spp", &sequence.job.samples,
+                   "samples per pixel; if not given, fewer where large primitives overlap (docs/images.md)")
+            .shows_default();
+    app.option("--seed", &sequence.job.seed, "seed of the random numbers").at_least_zero().shows_default();
     std::string samplers;
     for (const SamplerInfo& info : sampler_infos()) samplers += fmt::format("; {}: {}", info.name, info.help);
-    app.add_option("--sampler", words.sampler,
-                   "where the random numbers of samples come from" + samplers +
-                       ". Default: sobol, but random with a target and for the plane variance, which need independent "
-                       "samples (docs/samplers.md)")
-        ->type_name("NAME");
+    app.option("--sampler", &words.sampler,
+               "where the random numbers of samples come from" + samplers +
+                   ". Default: sobol, but random with a target and for the plane variance, which need independent "
+                   "samples (docs/samplers.md)")
+        .shows_type("NAME");
     std::string filters;
     for (const PixelFilterInfo& info : pixel_filter_infos()) filters += fmt::format("; {}: {}", info.name, info.help);
-    app.add_option(
-           "--filter", words.filter,
+    app.option(
+           "--filter", &words.filter,
            "filter of the picture: which part of it a pixel shows, and with what weights (docs/filters.md)" + filters)
-        ->type_name("NAME")
-        ->capture_default_str();
-    auto* const frame = app.add_option("--frame", words.frame, "frame to render")
-                            ->type_name("K")
-                            ->check(CLI::NonNegativeNumber)
-                            ->capture_default_str();
-    app.add_option("--frames", words.frames, "frames A to B, both included, or the whole animation")
-        ->type_name("A-B|all")
-        ->excludes(frame);
+        .shows_type("NAME")
+        .shows_default();
+    const CommandOption frame =
+        app.option("--frame", &words.frame, "frame to render").shows_type("K").at_least_zero().shows_default();
+    app.option("--frames", &words.frames, "frames A to B, both included, or the whole animation")
+        .shows_type("A-B|all")
+        .excludes(frame);
     // Camera and lights
-    app.add_option("--camera", words.source.camera,
-                   "name of a camera's node or, if no camera has that name, a view of the whole scene: " +
-                       view_names() + ". Default: the scene's first camera, or auto if there is none")
-        ->type_name("NAME");
-    app.add_option("--light", words.light,
-                   "lights for a file without any: default adds a background, a light from the upper left of the "
-                   "camera and one from the camera; none adds nothing")
-        ->check(CLI::IsMember({"default", "none"}))
-        ->capture_default_str();
-    auto* const picture =
-        app.add_option(
-               "--env", words.source.environment,
-               "light the scene by an equirectangular picture of its environment: .hdr, .exr or .pfm. It replaces "
-               "the background and the default lights")
-            ->type_name("FILE");
-    app.add_option("--env-rotation", words.source.rotation,
-                   "rotation of that picture about the vertical axis, counter-clockwise as seen from above, in degrees")
-        ->type_name("DEG")
-        ->needs(picture)
-        ->check(CLI::Range(-36000.0, 36000.0))
-        ->capture_default_str();
-    app.add_option("--env-intensity", words.source.intensity, "factor of that picture's values")
-        ->type_name("X")
-        ->needs(picture)
-        ->check(CLI::Range(0.0F, most_environment_intensity))
-        ->capture_default_str();
+    app.option("--camera", &words.source.camera,
+               "name of a camera's node or, if no camera has that name, a view of the whole scene: " + view_names() +
+                   ". Default: the scene's first camera, or auto if there is none")
+        .shows_type("NAME");
+    app.option("--light", &words.light,
+               "lights for a file without any: default adds a background, a light from the upper left of the "
+               "camera and one from the camera; none adds nothing")
+        .one_of({"default", "none"})
+        .shows_default();
+    const CommandOption picture =
+        app.option("--env", &words.source.environment,
+                   "light the scene by an equirectangular picture of its environment: .hdr, .exr or .pfm. It replaces "
+                   "the background and the default lights")
+            .shows_type("FILE");
+    app.option("--env-rotation", &words.source.rotation,
+               "rotation of that picture about the vertical axis, counter-clockwise as seen from above, in degrees")
+        .shows_type("DEG")
+        .needs(picture)
+        .within(-36000.0, 36000.0)
+        .shows_default();
+    app.option("--env-intensity", &words.source.intensity, "factor of that picture's values")
+        .shows_type("X")
+        .needs(picture)
+        .within(0.0F, most_environment_intensity)
+        .shows_default();
     // What to simulate
-    app.add_option(
-        "--effects", words.effects,
-        "force effects on or off, as in -shadows,+refraction; or all, or none. Default: the effects that the "
-        "scene needs");
-    app.add_option("--shutter-instants", words.source.instants,
-                   "number of instants at which a frame with an open shutter is rendered, at most one per sample. "
-                   "Default: that of the camera")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
-    auto* const limits =
-        app.add_option(
-               "--limits", words.limits,
-               "limits of the reflections, refractions and diffuse bounces of a path; if not given, lower where "
-               "very many large primitives overlap (docs/images.md)")
-            ->type_name("R,T,D")
-            ->capture_default_str();
+    app.option("--effects", &words.effects,
+               "force effects on or off, as in -shadows,+refraction; or all, or none. Default: the effects that the "
+               "scene needs");
+    app.option("--shutter-instants", &words.source.instants,
+               "number of instants at which a frame with an open shutter is rendered, at most one per sample. "
+               "Default: that of the camera")
+        .shows_type("N")
+        .within(1, 1024);
+    const CommandOption limits =
+        app.option("--limits", &words.limits,
+                   "limits of the reflections, refractions and diffuse bounces of a path; if not given, lower where "
+                   "very many large primitives overlap (docs/images.md)")
+            .shows_type("R,T,D")
+            .shows_default();
     declare_target(app, words);
     declare_denoiser(app, words);
-    app.add_flag("--plan", words.plan,
-                 "render nothing; print how many samples and how much time a frame will take, from a short probe, and "
-                 "whether that is within --time-budget (status 1 if not)");
-    app.callback([&command, &words, samples, limits] {
-        SequenceOptions& options = command.sequence;
-        if (options.output.empty() && !words.plan) throw CLI::RequiredError("-o,--output");
-        if (words.target_error > 0 || words.time_budget > 0) {
-            options.target = target_of(words);
-            if (samples->empty() && !(words.plan && words.target_error == 0)) {
-                options.job.samples = most_samples_of_target;
-            }
-            return;
-        }
-        options.fewer_samples = samples->empty();
-        options.shorter_paths = limits->empty() && samples->empty();
-    });
+    app.flag("--plan", &words.plan,
+             "render nothing; print how many samples and how much time a frame will take, from a short probe, and "
+             "whether that is within --time-budget (status 1 if not)");
     std::string planes;
     for (const PlaneInfo& info : plane_infos()) planes += std::string("; ") + info.name + ": " + info.help;
-    app.add_option("--aov", words.planes,
-                   "planes to write beside the colour, separated by commas, or all: layers of a .exr file, or files "
-                   "beside a .pfm file" +
-                       planes)
-        ->type_name("LIST");
-    app.add_flag("--indirect", words.source.indirect,
-                 "simulate indirect light instead of ambient light, even if the file does not ask for it");
+    app.option("--aov", &words.planes,
+               "planes to write beside the colour, separated by commas, or all: layers of a .exr file, or files "
+               "beside a .pfm file" +
+                   planes)
+        .shows_type("LIST");
+    app.flag("--indirect", &words.source.indirect,
+             "simulate indirect light instead of ambient light, even if the file does not ask for it");
     // How to render
-    app.add_option("--backend", words.backend, "backend: cpu, cuda or oracle; cuda:1 is the GPU of that number")
-        ->capture_default_str();
-    app.add_option(
-           "--gpus", words.gpus,
-           "GPUs of the backend cuda that share each frame: all, how many, or a list of numbers such as 0,1; one "
-           "if not given")
-        ->type_name("all|N|LIST");
-    app.add_option("--tier", words.tier, "accuracy tier: fast, strict or precise")->capture_default_str();
-    app.add_option("--threads", backend.threads,
-                   "threads for the CPU backends and for preparing scenes; 0 is one per core")
-        ->check(CLI::Range(0, 4096))
-        ->capture_default_str();
-    app.add_option("--specialise", words.specialise, "whether to link a GPU kernel for the scene: always or never")
-        ->capture_default_str();
+    app.option("--backend", &words.backend, "backend: cpu, cuda or oracle; cuda:1 is the GPU of that number")
+        .shows_default();
+    app.option("--gpus", &words.gpus,
+               "GPUs of the backend cuda that share each frame: all, how many, or a list of numbers such as 0,1; one "
+               "if not given")
+        .shows_type("all|N|LIST");
+    app.option("--tier", &words.tier, "accuracy tier: fast, strict or precise").shows_default();
+    app.option("--threads", &backend.threads,
+               "threads for the CPU backends and for preparing scenes; 0 is one per core")
+        .within(0, 4096)
+        .shows_default();
+    app.option("--specialise", &words.specialise, "whether to link a GPU kernel for the scene: always or never")
+        .shows_default();
     declare_checkpoint(app, words);
     // Files and messages
-    app.add_option(
-           "--exposure", words.exposure,
+    app.option(
+           "--exposure", &words.exposure,
            "exposure of .png and .ppm in stops, each of which doubles the brightness; auto derives it from the first "
            "frame. Default: that of the scene")
-        ->type_name("STOPS|auto");
-    app.add_option("--transfer", words.transfer,
-                   "transfer function of .png and .ppm: srgb or linear. Default: that of the scene")
-        ->type_name("srgb|linear");
-    app.add_option("--json", command.json, "write times, hashes and counts to a JSON file; - is standard output");
-    app.add_flag("--ppm-text", sequence.write.ppm_text, "write .ppm as text (P3) instead of binary (P6)");
-    app.add_option("--png-level", sequence.write.png_level, "compression level of .png, 0 to 9; 1 is the fast one")
-        ->check(CLI::Range(0, 9))
-        ->capture_default_str();
-    app.add_flag("--force", sequence.force, "render every frame, even if its file exists with the same metadata");
-    app.add_flag("--quiet", command.quiet, "print only errors");
+        .shows_type("STOPS|auto");
+    app.option("--transfer", &words.transfer,
+               "transfer function of .png and .ppm: srgb or linear. Default: that of the scene")
+        .shows_type("srgb|linear");
+    app.option("--json", &command.json, "write times, hashes and counts to a JSON file; - is standard output");
+    app.flag("--ppm-text", &sequence.write.ppm_text, "write .ppm as text (P3) instead of binary (P6)");
+    app.option("--png-level", &sequence.write.png_level, "compression level of .png, 0 to 9; 1 is the fast one")
+        .within(0, 9)
+        .shows_default();
+    app.flag("--force", &sequence.force, "render every frame, even if its file exists with the same metadata");
+    app.flag("--quiet", &command.quiet, "print only errors");
+    return {samples, limits};
+}
+
+/// What to render at most, from the options of samples and of the target.
+void take_target(const Words& words, const Declared& declared, SequenceOptions& options) {
+    const bool has_samples = declared.samples.is_given();
+    if (words.target_error > 0 || words.time_budget > 0) {
+        options.target = target_of(words);
+        if (!has_samples && !(words.plan && words.target_error == 0)) options.job.samples = most_samples_of_target;
+        return;
+    }
+    options.fewer_samples = !has_samples;
+    options.shorter_paths = !has_samples && !declared.limits.is_given();
 }
 
 FrameRange frames_of(const Words& words, const Scene& scene) {
@@ -295,7 +293,7 @@ void print_ignored_display_options(const SequenceOptions& options) {
 }
 
 int render(int argc, char** argv) {
-    CLI::App app("Renders frames of a scene and prints the SHA-256 of each film.");
+    CommandLine app("Renders frames of a scene and prints the SHA-256 of each film.", "tandem-render");
     app.footer(
         "tandem-render verify IMAGE [SCENE] renders parts of an image again and reports whether they match "
         "(tandem-render "
@@ -304,12 +302,12 @@ int render(int argc, char** argv) {
     RenderCommand command;
     Words words;
     BackendOptions backend_options;
-    declare(app, command, words, backend_options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+    const Declared declared = declare(app, command, words, backend_options);
+    if (const auto status = app.parse(argc, argv)) return *status;
+    if (command.sequence.output.empty() && !words.plan) {
+        throw InputError("no image file: name one with --output, such as -o image.png; only --plan needs none");
     }
+    take_target(words, declared, command.sequence);
     const auto [width, height] = parse_size(words.size);
     SequenceOptions& sequence = command.sequence;
     sequence.job.width = width;
