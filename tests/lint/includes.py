@@ -107,6 +107,11 @@ def reached(root, path):
     return found | {BRINGS[header] for header in found if header in BRINGS}
 
 
+def declared_ahead(code, namespace):
+    """The classes of a library that the code declares without defining them, which needs no header."""
+    return set(re.findall(r"\b(?:class|struct) (\w+);", " ".join(re.findall(rf"\bnamespace {namespace} {{([^{{}}]*)}}", code))))
+
+
 def lacking(code, headers):
     """A sentence for each name in the code that these headers do not declare."""
     for name in sorted(set(re.findall(r"\bstd::(\w+)", code)) - ANYWHERE):
@@ -115,7 +120,8 @@ def lacking(code, headers):
         elif DECLARED_BY[name] not in headers:
             yield f"names std::{name}, but neither it nor what it includes of ours includes <{DECLARED_BY[name]}>"
     for namespace, folder in LIBRARIES.items():
-        if re.search(rf"(?<![\w:]){namespace}::", code) and not any(header.startswith(folder) for header in headers):
+        named = set(re.findall(rf"(?<![\w:]){namespace}::(\w+)", code)) - declared_ahead(code, namespace)
+        if named and not any(header.startswith(folder) for header in headers):
             yield f"names {namespace}::, but neither it nor what it includes of ours includes a header of <{folder}>"
 
 

@@ -67,6 +67,9 @@ class Patterns(unittest.TestCase):
         self.assertEqual(found(code, "vector", "fmt/core.h"), [])
         self.assertEqual(found(code, "string"), ["std::vector", "fmt::"])
         self.assertEqual(found("std::unheard_of b;", "vector"), ["std::unheard_of"])
+        ahead = "namespace fmt { class context; struct a; } namespace my { class format; } "
+        self.assertEqual(found(ahead + "fmt::context& b; fmt::a* c;"), [])
+        self.assertEqual(found(ahead + "fmt::context& b; fmt::format();"), ["fmt::"])
 
     def test_headers_are_reached_through_our_own(self):
         with tempfile.TemporaryDirectory() as name:

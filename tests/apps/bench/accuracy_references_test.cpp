@@ -36,6 +36,7 @@ TEST_F(References, AreTwoIndependentImagesWithMetadata) {
     ASSERT_TRUE(a && b);
     EXPECT_EQ(a->samples, 4);
     EXPECT_EQ(a->tier, "precise");
+    EXPECT_EQ(a->sampler, "sobol");
     EXPECT_EQ(a->limits, "255,255,255");
     EXPECT_EQ(a->film_sha256.size(), 64U);
     EXPECT_EQ(a->scene_hash, b->scene_hash);
