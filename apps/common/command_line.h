@@ -1,4 +1,5 @@
-/// The command line of a program. Only command_line.cpp includes CLI11, which takes seconds to compile.
+/// The command line of a program, parsed by CLI11. Only command_line.cpp includes CLI11, which takes seconds to
+/// compile. Tested in tests/apps/common/command_line_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +16,13 @@ class Option;
 
 namespace tandem {
 
-/// The variable that an option sets. It keeps its value if the option is not given, and outlives the CommandLine.
+/// The variable that an option sets. It keeps its value if the user does not give the option. It has to outlive
+/// parse().
 using OptionTarget = std::variant<int*, std::uint64_t*, float*, double*, std::string*, std::optional<std::string>*,
                                   std::vector<int>*, std::vector<std::string>*>;
 
-/// An option, as option() and flag() return it. All functions but is_given() return it again, for the next one.
+/// An option that option() or flag() declared. Its functions return it, so that calls can be chained. It is valid as
+/// long as the CommandLine of the program.
 class CommandOption {
   public:
     CommandOption required() const;
@@ -58,7 +61,8 @@ class CommandLine {
     /// The end of --help.
     void footer(const std::string& text);
 
-    /// One of them must then be given. It belongs to this object.
+    /// Declares a command, such as info in `tandem-gltf info`. Then the user has to give one of the commands. The
+    /// result is valid as long as this object.
     CommandLine command(const std::string& name, const std::string& help);
     [[nodiscard]] std::vector<CommandLine> commands();
     /// Whether the user gave this command; after parse().
