@@ -159,7 +159,9 @@ class CpuScene final : public ResidentScene {
         const std::size_t most = 0xFFFFFFFFU / (sizeof(Quad) / sizeof(float));
         const bool own_faces =
             tier() != Tier::fast || !is_whole_scene || scene_->triangles.size() > most || scene_->quads.size() > most;
-        add_primitives(device, kernels, embree.get(), view, own_faces ? count : view.first_id[embree_triangles]);
+        const std::uint32_t ours = own_faces ? count : view.first_id[embree_triangles];
+        if (is_whole_scene) cut_into_pieces(view, ours);
+        add_primitives(device, kernels, embree.get(), view, ours);
         if (!own_faces) {
             add_faces(device, kernels, embree.get(), view, embree_triangles, scene_->triangles);
             add_faces(device, kernels, embree.get(), view, embree_quads, scene_->quads);
@@ -169,11 +171,28 @@ class CpuScene final : public ResidentScene {
         view.embree = embree.get();
     }
 
-    /// Those of the primitives [0, count) that belong to the layer, as user geometry.
+    /// Cuts needles among the primitives [0, count), if there is memory for their pieces.
+    void cut_into_pieces(CpuSceneView& view, std::uint32_t count) {
+        cut_ = cut_primitives(view.scene, count, view.frame.bounds);
+        const std::size_t pieces = cut_.further.size();
+        if (pieces == 0) return;
+        try {
+            require_memory((count + pieces) * bvh_bytes_per_primitive,
+                           fmt::format("the hierarchy of {} pieces", pieces));
+        } catch (const EnvironmentError&) {
+            cut_ = {};
+            return;
+        }
+        view.cut = &cut_;
+        view.first_piece = count;
+    }
+
+    /// Those of the primitives [0, count) that belong to the layer, and their pieces, as user geometry.
     static void add_primitives(RTCDevice device, const TierKernels& kernels, RTCScene embree, CpuSceneView& view,
                                std::uint32_t count) {
         if (count == 0) return;
-        const EmbreeGeometry geometry = user_geometry(device, &view, count);
+        const std::size_t items = count + (view.cut != nullptr ? view.cut->further.size() : 0);
+        const EmbreeGeometry geometry = user_geometry(device, &view, static_cast<std::uint32_t>(items));
         rtcSetGeometryBoundsFunction(geometry.get(), padded_bounds, nullptr);
         rtcSetGeometryIntersectFunction(geometry.get(), kernels.intersect);
         rtcSetGeometryOccludedFunction(geometry.get(), kernels.occluded);
@@ -216,7 +235,11 @@ class CpuScene final : public ResidentScene {
 
     static void padded_bounds(const RTCBoundsFunctionArguments* args) {
         const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
-        Aabb box = primitive_bounds(view.scene, args->primID);
+        const std::uint32_t item = args->primID;
+        Aabb box = item >= view.first_piece ? piece_bounds(view.scene, view.cut->further[item - view.first_piece])
+                   : view.cut != nullptr && view.cut->counts[item] > 1
+                       ? piece_bounds(view.scene, {item, 0, view.cut->counts[item]})
+                       : primitive_bounds(view.scene, item);
         box = view.sizes.contains(box) ? pad(box, view.frame.padding) : Aabb{};  // Embree leaves empty boxes out
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
     }
@@ -226,6 +249,7 @@ class CpuScene final : public ResidentScene {
     CpuSceneView view_{};
     std::vector<CpuSceneView> smaller_;  ///< the layers after the first
     std::vector<EmbreeScene> embree_;    ///< of each layer
+    CutPrimitives cut_;
     PhaseTimes times_;
 
     bool groups_pay_ = false;

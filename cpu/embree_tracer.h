@@ -38,11 +38,12 @@ struct QueryContext {
 template <class One, class Packet>
 void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
+    const std::uint32_t id = primitive_of_item(view, args->primID);
     if (args->N == 1) {
         if (args->valid[0] == 0) return;
         auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
         const Double<One> before = query.best.t;
-        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.source, true, query.best);
+        intersect_primitive<One>(view.scene, id, query.filter, *query.source, true, query.best);
         auto& ray = reinterpret_cast<RTCRayHit*>(args->rayhit)->ray;
         // not beyond a face that Embree found
         if (query.best.t < before) ray.tfar = lesser(to_plain(query.proposal.limit(query.best.t)), ray.tfar);
@@ -52,13 +53,13 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
     Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
     auto& ray = reinterpret_cast<typename embree::Packet<Packet::size>::RayHit*>(args->rayhit)->ray;
     auto& tfar = *reinterpret_cast<Float<Packet>*>(ray.tfar);
-    if (query.triangles.defers(view, args->primID)) {
-        active = query.triangles.template test<Search::nearest>(view, args->primID, *query.source, active, 0.0F, tfar);
+    if (query.triangles.defers(view, id)) {
+        active = query.triangles.template test<Search::nearest>(view, id, *query.source, active, 0.0F, tfar);
         if (!any(active)) [[likely]]
             return;
     }
     const Double<Packet> before = query.best.t;
-    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
+    intersect_primitive<Packet>(view.scene, id, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) tfar = select(nearer, lesser(query.proposal.limit(query.best.t), tfar), tfar);
 }
@@ -67,12 +68,13 @@ void intersect_callback(const RTCIntersectFunctionNArguments* args) {
 template <class One, class Packet>
 void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     const auto& view = *static_cast<const CpuSceneView*>(args->geometryUserPtr);
+    const std::uint32_t id = primitive_of_item(view, args->primID);
     constexpr float found = -__builtin_huge_valf();
     if (args->N == 1) {
         if (args->valid[0] == 0) return;
         auto& query = *reinterpret_cast<QueryContext<One>*>(args->context);
         const Double<One> before = query.best.t;
-        intersect_primitive<One>(view.scene, args->primID, query.filter, *query.source, true, query.best);
+        intersect_primitive<One>(view.scene, id, query.filter, *query.source, true, query.best);
         if (query.best.t < before) reinterpret_cast<RTCRay*>(args->ray)->tfar = found;
         return;
     }
@@ -80,20 +82,20 @@ void occluded_callback(const RTCOccludedFunctionNArguments* args) {
     Mask<Packet> active(*reinterpret_cast<const typename Mask<Packet>::Vector*>(args->valid));
     auto& ray = *reinterpret_cast<typename embree::Packet<Packet::size>::Ray*>(args->ray);
     auto& tfar = *reinterpret_cast<Float<Packet>*>(ray.tfar);
-    if (query.asks(view.scene, args->primID, active)) [[unlikely]] {
-        visit_primitive(view.scene, args->primID, [&]<class Primitive>(const Primitive& primitive) {
+    if (query.asks(view.scene, id, active)) [[unlikely]] {
+        visit_primitive(view.scene, id, [&]<class Primitive>(const Primitive& primitive) {
             if constexpr (has_filter<Packet, Primitive>) active = active && may_touch(query.filter, primitive);
         });
-        if (any(active)) tfar = select(query.masked->block(args->primID, active), Float<Packet>(found), tfar);
+        if (any(active)) tfar = select(query.masked->block(id, active), Float<Packet>(found), tfar);
         return;
     }
-    if (query.triangles.defers(view, args->primID)) {
-        active = query.triangles.template test<Search::any>(view, args->primID, *query.source, active, found, tfar);
+    if (query.triangles.defers(view, id)) {
+        active = query.triangles.template test<Search::any>(view, id, *query.source, active, found, tfar);
         if (!any(active)) [[likely]]
             return;
     }
     const Double<Packet> before = query.best.t;
-    intersect_primitive<Packet>(view.scene, args->primID, query.filter, *query.source, active, query.best);
+    intersect_primitive<Packet>(view.scene, id, query.filter, *query.source, active, query.best);
     const Mask<Packet> nearer = query.best.t < before;
     if (any(nearer)) tfar = select(nearer, Float<Packet>(found), tfar);
 }

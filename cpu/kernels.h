@@ -6,6 +6,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "cpu/cut_primitives.h"
 #include "cpu/embree_api.h"
 #include "cpu/size_layers.h"
 #include "tandem/effects/variants.h"
@@ -36,8 +37,15 @@ struct CpuSceneView {
     const GroupView* groups;
     SizeRange sizes;                        ///< of the primitives in `embree`
     const CpuSceneView* smaller = nullptr;  ///< the next layer: the same scene, and a hierarchy of smaller primitives
+    const CutPrimitives* cut = nullptr;     ///< null if no primitive is in pieces
+    std::uint32_t first_piece = ~0U;        ///< the items of our_primitives from here on are further pieces
     bool splits_packets = false;            ///< whether trace() traces coherent rays one by one too
 };
+
+/// The primitive of item `number` of our_primitives.
+[[nodiscard]] TANDEM_HD_INLINE std::uint32_t primitive_of_item(const CpuSceneView& view, std::uint32_t number) {
+    return number < view.first_piece ? number : view.cut->further[number - view.first_piece].primitive;
+}
 
 /// Pixels [x0, x1) x [y0, y1).
 struct Tile {

@@ -44,23 +44,24 @@ TANDEM_HD_INLINE Slab slab_of_piece(const Aabb& box, std::uint32_t number, std::
     return {axis, plane(number), plane(number + 1)};
 }
 
+/// Extends `box` around the part of a segment in a slab.
+TANDEM_HD_INLINE void add_within(const Vec3d& p, const Vec3d& q, const Slab& slab, Aabb& box) {
+    const auto add = [&](const Vec3d& point) { box = merge(box, Aabb{narrow(point), narrow(point)}); };
+    const double start = p[slab.axis], end = q[slab.axis];
+    if (slab.lower <= start && start <= slab.upper) add(p);
+    const auto cross = [&](double plane) {
+        if ((start < plane) != (end < plane)) add(p + (q - p) * ((plane - start) / (end - start)));
+    };
+    cross(slab.lower);
+    cross(slab.upper);
+}
+
 /// The bounds of the part of a triangle in a slab; empty if there is none.
 TANDEM_HD_INLINE Aabb bounds_within(const Triangle& triangle, const Slab& slab) {
     Aabb box;
-    const auto add = [&](const Vec3d& point) { box = merge(box, Aabb{narrow(point), narrow(point)}); };
-    const auto add_edge = [&](const Vec3f& from, const Vec3f& to) {
-        const Vec3d p = widen(from), q = widen(to);
-        const double start = p[slab.axis], end = q[slab.axis];
-        if (slab.lower <= start && start <= slab.upper) add(p);
-        const auto cross = [&](double plane) {
-            if ((start < plane) != (end < plane)) add(p + (q - p) * ((plane - start) / (end - start)));
-        };
-        cross(slab.lower);
-        cross(slab.upper);
-    };
-    add_edge(triangle.v0, triangle.v1);
-    add_edge(triangle.v1, triangle.v2);
-    add_edge(triangle.v2, triangle.v0);
+    add_within(widen(triangle.v0), widen(triangle.v1), slab, box);
+    add_within(widen(triangle.v1), widen(triangle.v2), slab, box);
+    add_within(widen(triangle.v2), widen(triangle.v0), slab, box);
     return box;
 }
 

@@ -1,0 +1,137 @@
+#include "cpu/cut_primitives.h"
+
+#include <gtest/gtest.h>
+
+#include "support/needles.h"
+#include "tandem/kernel/traversal/proposal.h"
+
+namespace tandem {
+namespace {
+
+Aabb bounds_of(const SceneView& scene) {
+    Aabb box;
+    for (std::uint32_t id = 0; id < primitive_count(scene); ++id) box = merge(box, primitive_bounds(scene, id));
+    return box;
+}
+CutPrimitives cut(const SceneView& scene) { return cut_primitives(scene, primitive_count(scene), bounds_of(scene)); }
+
+bool contains(const Aabb& box, const Vec3d& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (point[axis] < double{box.lower[axis]} || point[axis] > double{box.upper[axis]}) return false;
+    }
+    return true;
+}
+
+double condition_of(const SceneView& scene, std::uint32_t id) {
+    double result = 0;
+    visit_primitive(scene, id, [&]<class Primitive>(const Primitive& primitive) {
+        if constexpr (std::is_base_of_v<Placement, Primitive>) result = condition(primitive);
+    });
+    return result;
+}
+
+// However a primitive is cut, each of its points is in a piece. The padding stands for rounding; a quarter of that of a
+// hierarchy is enough.
+TEST(CutPrimitives, HaveAllPointsInTheirPieces) {
+    test::Random random(7);
+    for (int round = 0; round < 40; ++round) {
+        const PreparedScene prepared = test::needles(random, 3, 1.5);
+        const SceneView scene = view(prepared);
+        Padding padding = make_structure_frame(bounds_of(scene)).padding;
+        padding.least *= 0.25F;
+        const auto check = [&](std::uint32_t id, const Vec3d& point) {
+            for (const int whole : {1, 2, 3, 7, 16}) {
+                const auto count = static_cast<std::uint16_t>(whole);
+                int holders = 0;
+                for (std::uint16_t i = 0; i < count; ++i) {
+                    const Aabb box = pad(piece_bounds(scene, {id, i, count}), padding);
+                    holders += contains(box, point) ? 1 : 0;
+                }
+                ASSERT_GE(holders, 1) << "round " << round << ", primitive " << id << ", " << count
+                                      << " pieces, condition " << condition_of(scene, id);
+            }
+        };
+        for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
+            visit_primitive(scene, id, [&]<class Primitive>(const Primitive& primitive) {
+                if constexpr (std::is_base_of_v<Placement, Primitive>) {
+                    for (int i = 0; i < 100; ++i) {
+                        const auto part = [&] {
+                            return random.coin() ? random.uniform(-1.0, 1.0) : random.coin() ? 1.0 : -1.0;
+                        };
+                        Vec3d local = {part(), part(), part()};
+                        if (std::is_same_v<Primitive, Ellipsoid>) local = local * (1 / length(local));
+                        check(id, test::point_of(primitive, local));
+                    }
+                }
+            });
+        }
+    }
+}
+
+std::size_t pieces_of(const PreparedScene& scene) {
+    const CutPrimitives result = cut(view(scene));
+    if (result.further.empty()) {
+        EXPECT_TRUE(result.counts.empty());
+        return 0;
+    }
+    std::size_t pieces = 0;
+    for (const std::uint8_t count : result.counts) pieces += count - 1U;
+    EXPECT_EQ(result.further.size(), pieces);
+    for (const PrimitivePiece& piece : result.further) {
+        EXPECT_EQ(piece.count, result.counts[piece.primitive]);
+        EXPECT_TRUE(piece.number >= 1 && piece.number < piece.count);
+    }
+    return pieces;
+}
+
+TEST(CutPrimitives, AreNeedlesAmongMany) {
+    test::Random random(8);
+    PreparedScene many = test::needles(random, 1'000, 1);
+    EXPECT_GT(pieces_of(many), 10'000U);
+    EXPECT_LT(pieces_of(test::needles(random, 1'000, 0.02)), 100U) << "shorter than their distances";
+    EXPECT_LT(pieces_of(test::needles(random, 2, 1)), 20U) << "few others near";
+    many.triangles.push_back({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    many.material_of.push_back(0);
+    EXPECT_GT(pieces_of(many), 10'000U);
+}
+
+TEST(CutPrimitives, AreNoThickOrAxisAlignedOnes) {
+    test::Random random(9);
+    PreparedScene scene;
+    const auto add = [&](const Vec3d& extent) {
+        Placement placement;
+        placement.centre = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+        placement.half_extent = extent;
+        placement.object_from_world = {{{1 / extent.x, 0, 0}, {0, 1 / extent.y, 0}, {0, 0, 1 / extent.z}}};
+        scene.parallelepipeds.push_back({placement});
+        scene.material_of.push_back(0);
+    };
+    for (int i = 0; i < 2'000; ++i) add({0.5, 0.001, 0.001});
+    EXPECT_EQ(pieces_of(scene), 0U);
+    scene.parallelepipeds.clear();
+    scene.material_of.clear();
+    for (int i = 0; i < 2'000; ++i) add({0.5, 0.4, 0.3});
+    EXPECT_EQ(pieces_of(scene), 0U);
+}
+
+// The inverse of such a matrix is too inexact (kernel/shapes/body_pieces.h).
+TEST(CutPrimitives, AreNoneOfExtremeShapes) {
+    test::Random random(10);
+    PreparedScene scene = test::needles(random, 1'000, 1);
+    for (Ellipsoid& body : scene.ellipsoids) body.object_from_world.row[0] = body.object_from_world.row[0] * 1e9;
+    for (Parallelepiped& body : scene.parallelepipeds) {
+        body.object_from_world.row[0] = body.object_from_world.row[0] * 1e9;
+    }
+    EXPECT_EQ(pieces_of(scene), 0U);
+}
+
+TEST(CutPrimitives, AreNoneInScenesWithAlphaMasks) {
+    test::Random random(11);
+    const PreparedScene scene = test::needles(random, 1'000, 1);
+    SceneView masked = view(scene);
+    masked.masked_kinds = PrimitiveKinds::parallelepiped;
+    EXPECT_TRUE(cut(masked).further.empty());
+}
+
+}  // namespace
+}  // namespace tandem
