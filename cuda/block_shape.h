@@ -4,6 +4,7 @@
 
 #include <cuda_runtime_api.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -31,6 +32,7 @@ inline constexpr unsigned int waiting_sets = 8;
 struct RenderGrid {
     dim3 blocks;
     dim3 threads;
+    std::size_t shared_bytes = 0;  ///< dynamic shared memory of a block
 };
 
 /// How many samples of a pixel to take at a time: the largest power of two, up to `most`, with which at most one place
@@ -56,6 +58,15 @@ struct RenderGrid {
     return samples_at_a_time(samples, 8, 5);
 }
 
+/// How many paths in stages a block follows, up to `most`: several for each of its `threads`, but so few that each
+/// place for a path has several pixels one after the other. Otherwise most places are empty while the last pixels end.
+/// `pixels`: of each block. Measured on an H200 (docs/performance/paths.md).
+[[nodiscard]] inline std::uint32_t staged_paths(std::uint64_t pixels, std::uint32_t threads, std::uint32_t most) {
+    constexpr std::uint64_t least_pixels = 3;  // of a path
+    const std::uint64_t per_thread = pixels / least_pixels / threads + 1;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(per_thread * threads, most));
+}
+
 /// Blocks of 2 x 2 tiles. `threads`: of a block.
 inline RenderGrid tiled_grid(std::uint32_t width, std::uint32_t height, WarpTile tile, dim3 threads) {
     return {dim3(blocks_for(width, 2 * tile.width()), blocks_for(height, 2 * tile.height())), threads};
@@ -72,5 +83,8 @@ inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, unsig
 /// A grid with this number of blocks on each multiprocessor of the current GPU; together these are as large as one
 /// block of the kernel may be.
 [[nodiscard]] RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocessor);
+/// A grid for paths in stages: one block on each multiprocessor, with shared memory for `path_bytes` of each of its
+/// paths. Allows the kernel to use as much.
+[[nodiscard]] RenderGrid staged_grid(const void* kernel, std::size_t path_bytes, std::uint64_t pixels);
 
 }  // namespace tandem::cuda

@@ -319,7 +319,12 @@ class CudaBackend final : public Backend {
         SceneKernels::Found linked;
         if (specialise_ == Specialise::always) {
             LinkedFacts facts = linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter);
-            if (structure_of(resident.view()) == Structure::instanced) facts.kinds |= PrimitiveKinds::instanced;
+            const Structure structure = structure_of(resident.view());
+            if (structure == Structure::instanced) facts.kinds |= PrimitiveKinds::instanced;
+            if (renders_in_stages(job.tier, structure, facts, resident.view().scene, pixel_job.width,
+                                  static_cast<std::uint32_t>(window.height))) {
+                facts.in_stages = 1;
+            }
             linked = kernels_->find(job.tier, resident.view(), facts);
         }
         const SceneKernel& kernel =
@@ -431,8 +436,8 @@ class CudaBackend final : public Backend {
         one.samples = 1;
         for (std::uint32_t i = 0; i < job.samples; ++i) {
             one.first_sample = job.first_sample + i;
-            check(cudaMemsetAsync(memory.counters.data() + offsetof(DeviceCounters, next_in_queue), 0,
-                                  sizeof(DeviceCounters::next_in_queue), stream),
+            constexpr std::size_t queue = offsetof(DeviceCounters, next_in_queue);
+            check(cudaMemsetAsync(memory.counters.data() + queue, 0, sizeof(DeviceCounters) - queue, stream),
                   "resetting the queue of pixels");
             draw(one, sample);
             add_samples(sample, sums, squares, pixels, stream);

@@ -3,6 +3,7 @@
 #include "cuda/block_shape.h"
 #include "cuda/cuda_error.h"
 #include "cuda/kernels.h"
+#include "cuda/stage_lists.h"
 
 namespace tandem::cuda {
 
@@ -32,6 +33,22 @@ RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocesso
         std::min(most_queue_threads, static_cast<unsigned int>(attributes_of(kernel).maxThreadsPerBlock));
     return {dim3(multiprocessor_count() * blocks_per_multiprocessor),
             dim3(std::max(threads / blocks_per_multiprocessor / warp, 1U) * warp)};
+}
+
+RenderGrid staged_grid(const void* kernel, std::size_t path_bytes, std::uint64_t pixels) {
+    // The rest of 256 KB is a cache, which spilled registers need.
+    constexpr std::size_t most_record_bytes = 147 * 1024;
+    RenderGrid grid = pixel_queue(kernel, 1);
+    const std::size_t room =
+        static_cast<std::size_t>(fact(cudaDevAttrMaxSharedMemoryPerBlockOptin)) - attributes_of(kernel).sharedSizeBytes;
+    const std::size_t most =
+        std::min<std::size_t>(std::min(room, most_record_bytes) / path_bytes, StageLists::most_paths);
+    const std::uint32_t paths = staged_paths(pixels / grid.blocks.x, grid.threads.x, static_cast<std::uint32_t>(most));
+    grid.shared_bytes = paths * path_bytes;
+    check(
+        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(most * path_bytes)),
+        "reserving shared memory");
+    return grid;
 }
 
 KernelFacts kernel_facts(const void* kernel) {

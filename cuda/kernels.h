@@ -55,7 +55,8 @@ struct DeviceCounters {
     unsigned long long rejected_rays;
     unsigned long long stack_overflows;
     unsigned long long rays[ray_counters];
-    unsigned int next_in_queue;  ///< the next pixel, or ray
+    unsigned int next_in_queue;         ///< the next pixel, or ray
+    unsigned long long waiting_blocks;  ///< GridPace's
 };
 
 /// The hierarchy of a scene, which counts full stacks into `counters`.

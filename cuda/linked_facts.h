@@ -24,6 +24,7 @@ struct LinkedFacts {
     std::uint32_t reflection = 0, refraction = 0, diffuse = 0;  ///< PathLimits
     std::uint32_t sampler = 0;                                  ///< Sampler, or `any`
     std::uint32_t filter = 0;                                   ///< PixelFilter, or `any`
+    std::uint32_t in_stages = 0;                                ///< whether paths are followed in stages
 
     friend auto operator<=>(const LinkedFacts&, const LinkedFacts&) = default;
 };

@@ -3,7 +3,8 @@
 // and short and long paths, so that a link does not process code that it does not need.
 //
 // TANDEM_SHORT_PATHS is defined for paths of one vertex, without synchronising_effects. Their code fits into the
-// instruction caches, and TANDEM_HD_CALL_ON(device) is inline.
+// instruction caches, and TANDEM_HD_CALL_ON(device) is inline. TANDEM_HAS_STAGES is defined if the kernel can follow
+// paths in stages.
 #include "cuda/linked_facts.h"
 
 extern "C" extern __device__ const tandem::cuda::LinkedFacts tandem_facts;
@@ -69,15 +70,20 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
                                                               const __grid_constant__ PixelJob job,
                                                               std::uint32_t height, Vec3d* __restrict__ sums,
                                                               void* __restrict__ radiances,
-                                                              DeviceCounters* __restrict__ counters) {
+                                                              DeviceCounters* __restrict__ counters, bool blocks_wait) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_SHORT_PATHS) && __CUDACC_VER_MAJOR__ >= 13
     // Spills registers to shared memory first, most of which is otherwise unused (docs/performance/paths.md, "Registers
-    // of kernels for long paths").
-    asm volatile(".pragma \"enable_smem_spilling\";");
+    // of kernels for long paths"), except by paths in stages.
+    if (tandem_facts.in_stages == 0) asm volatile(".pragma \"enable_smem_spilling\";");
 #endif
 #if defined(TANDEM_SHORT_PATHS)
     render_short<LinkedEffects, LinkedReal>(tracer, job, height, sums, counters);
 #else
+#if defined(TANDEM_HAS_STAGES)
+    if (tandem_facts.in_stages != 0) {
+        return render_in_stages<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, blocks_wait, counters);
+    }
+#endif
     render_long<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, counters);
 #endif
 }

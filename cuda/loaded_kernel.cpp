@@ -21,8 +21,8 @@ LoadedCode::LoadedCode(std::span<const std::byte> code, const std::string& kerne
 // a failure to unload cannot be handled
 LoadedCode::~LoadedCode() { (void)cudaLibraryUnload(library_); }
 
-void LoadedCode::start(const char* doing, dim3 grid, dim3 block, cudaStream_t stream, void** arguments) const {
-    check(cudaLaunchKernel(function(), grid, block, arguments, 0, stream), doing);
+void LoadedCode::start(const char* doing, const RenderGrid& grid, cudaStream_t stream, void** arguments) const {
+    check(cudaLaunchKernel(function(), grid.blocks, grid.threads, arguments, grid.shared_bytes, stream), doing);
 }
 
 }  // namespace tandem::cuda

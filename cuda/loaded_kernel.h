@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 
+#include "cuda/block_shape.h"
+
 namespace tandem::cuda {
 
 /// Code that is loaded, and its kernel. Its functions use the GPU that is current.
@@ -27,13 +29,13 @@ class LoadedCode {
     /// Launches the kernel, and throws on failure. `doing` completes "CUDA failed while ...". The parameters must have
     /// the types in the kernel's source: nothing checks this.
     template <class... Parameters>
-    void launch(const char* doing, dim3 grid, dim3 block, cudaStream_t stream, Parameters... arguments) const {
+    void launch(const char* doing, const RenderGrid& grid, cudaStream_t stream, Parameters... arguments) const {
         void* addresses[] = {&arguments...};
-        start(doing, grid, block, stream, addresses);
+        start(doing, grid, stream, addresses);
     }
 
   private:
-    void start(const char* doing, dim3 grid, dim3 block, cudaStream_t stream, void** arguments) const;
+    void start(const char* doing, const RenderGrid& grid, cudaStream_t stream, void** arguments) const;
 
     cudaLibrary_t library_ = nullptr;
     cudaKernel_t kernel_ = nullptr;

@@ -1,12 +1,14 @@
 /// The work of a thread of a render kernel: one pixel, a part of its samples, or several pixels one after the other.
 #pragma once
 
+#include "cuda/block_lanes.h"
 #include "cuda/block_shape.h"
 #include "cuda/block_threads.h"
 #include "cuda/kernels.h"
 #include "cuda/shared_pixel.h"
 #include "cuda/shared_queue.h"
 #include "cuda/shared_tiles.h"
+#include "cuda/staged_paths.h"
 #include "tandem/kernel/certain_pixel.h"
 #include "tandem/kernel/path_walk.h"
 #include "tandem/kernel/pixel_culling.h"
@@ -133,6 +135,27 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
         keep<Effects>(pixel, walk.pixel(job), sums, counters);
         pixel = {};
     }
+}
+
+/// Pixels from a queue, for long paths in stages. `rare`: records for each path, block after block. `blocks_wait`: as
+/// StagedLaunch::blocks_wait.
+template <class Effects, class Real, class Tracer>
+__device__ __forceinline__ void render_in_stages(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
+                                                 Vec3d* __restrict__ sums, void* __restrict__ rare, bool blocks_wait,
+                                                 DeviceCounters* __restrict__ counters) {
+    using Rare = RarePathRecords<Real>;
+    extern __shared__ uint4 records[];
+    __shared__ StageLists lists;
+    std::uint32_t bytes = 0;
+    asm("mov.u32 %0, %dynamic_smem_size;" : "=r"(bytes));
+    const std::uint32_t count =
+        min(bytes / static_cast<std::uint32_t>(PathRecords<Real>::bytes), StageLists::most_paths);
+    StagedPaths<Effects, Real, Tracer, DeviceLanes> paths(
+        tracer, job, height, PathRecords<Real>(records, count),
+        static_cast<Rare*>(rare) + std::size_t{blockIdx.x} * StageLists::most_paths, lists, count,
+        counters->next_in_queue, sums);
+    paths.run(GridPace<DeviceLanes>(counters->waiting_blocks, blocks_wait ? gridDim.x : 0U));
+    tandem::cuda::count<Effects>(paths.counted(), threadIdx.x, counters);
 }
 
 /// Paths in a hierarchy: the threads of a warp share pixels. SharedSamples hands out paths of several vertices, and

@@ -9,6 +9,8 @@
 #include "cuda/block_shape.h"
 #include "cuda/cubin_facts.h"
 #include "cuda/specialise.h"
+#include "cuda/stage_lists.h"
+#include "cuda/stored_path.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/kernel/surface_lobes.h"
@@ -212,6 +214,21 @@ unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes
     return code_bytes > 0 && code_bytes <= most ? 2 : 1;
 }
 
+bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts, const SceneView& scene,
+                       std::uint32_t width, std::uint32_t height) {
+    constexpr std::uint32_t most_pixels_across = 1U << 16;  // a pixel is a word (cuda/stored_path.h)
+    if (tier == Tier::fast || structure != Structure::loop) return false;
+    if (!EffectMask::from_bits(facts.effects).has(Effect::indirect) || scene.indirect_light == 0) return false;
+    return width <= most_pixels_across && height <= most_pixels_across;
+}
+
+// Measured on an H200 (docs/performance/paths.md, "Paths in stages").
+StagedLaunch staged_launch(Tier tier, std::size_t code_bytes) {
+    constexpr std::size_t most_unpaced = 220'000;
+    return {.path_bytes = tier == Tier::precise ? PathRecords<double>::bytes : PathRecords<float>::bytes,
+            .blocks_wait = code_bytes > most_unpaced};
+}
+
 SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
 
 SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, const LinkedFacts& facts) {
@@ -229,7 +246,9 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const auto cubin = cubin_facts(made.cubin, kernel_name);
             const std::size_t code_bytes = cubin ? cubin->code.size() : 0;
             const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, structure, code_bytes) : 0;
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks,
+            StagedLaunch staged;
+            if (facts.in_stages != 0) staged = staged_launch(input.tier, code_bytes);
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks, staged,
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
@@ -257,12 +276,15 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
         const int registers = most_registers(kernel_tier(tier, structure), effects);
         // with all effects the code is too large for two blocks
         kernel.reset(
-            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, "rendering"});
+            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, {}, "rendering"});
     }
     return *kernel;
 }
 
 std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene) {
+    if (kernel.staged.path_bytes > 0) {
+        return std::size_t{multiprocessor_count()} * StageLists::most_paths * sizeof(RarePathRecords<double>);
+    }
     if (kernel.queue_blocks == 0 || !has_hierarchy(scene)) return 0;
     return std::size_t{multiprocessor_count()} * most_queue_threads * waiting_sets * sizeof(Vec3d);
 }
@@ -275,12 +297,15 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
         shared.sharing_threads = sharing_threads(
             job.samples, is_instanced ? std::numeric_limits<std::size_t>::max() : primitive_count(scene.scene));
     }
-    const RenderGrid grid = kernel.queue_blocks > 0 ? pixel_queue(kernel.code.function(), kernel.queue_blocks)
-                            : has_hierarchy(scene)  ? shared_pixels(job.width, height, shared.sharing_threads)
-                                                    : thread_per_pixel(job.width, height);
+    const void* function = kernel.code.function();
+    const RenderGrid grid = kernel.staged.path_bytes > 0
+                                ? staged_grid(function, kernel.staged.path_bytes, std::uint64_t{job.width} * height)
+                            : kernel.queue_blocks > 0 ? pixel_queue(function, kernel.queue_blocks)
+                            : has_hierarchy(scene)    ? shared_pixels(job.width, height, shared.sharing_threads)
+                                                      : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch(kernel.doing, grid.blocks, grid.threads, stream, tracer, shared, height, sums, radiances,
-                           counters);
+        kernel.code.launch(kernel.doing, grid, stream, tracer, shared, height, sums, radiances, counters,
+                           kernel.staged.blocks_wait);
     };
     switch (structure_of(scene)) {
         case Structure::few: {

@@ -46,6 +46,21 @@ TEST(SharedPixels, LeaveFewThreadsIdle) {
     EXPECT_EQ(sharing_threads(64, std::size_t{1} << 32), 8U);
 }
 
+TEST(PathsInStages, AreSeveralForEachThreadOnlyWherePixelsAreMany) {
+    constexpr std::uint32_t threads = 384, most = 1344;
+    std::uint32_t before = 0;
+    for (std::uint64_t pixels = 0; pixels < 10'000; ++pixels) {
+        const std::uint32_t paths = staged_paths(pixels, threads, most);
+        ASSERT_TRUE(paths % threads == 0 || paths == most) << pixels << " pixels";
+        ASSERT_GE(paths, before) << pixels << " pixels";
+        ASSERT_TRUE(paths == threads || pixels >= 3 * (paths - threads)) << pixels << " pixels: places stay empty";
+        before = paths;
+    }
+    EXPECT_EQ(staged_paths(0, threads, most), threads);
+    EXPECT_EQ(staged_paths(1'000'000'000'000, threads, most), most);
+    EXPECT_EQ(staged_paths(1'000'000'000'000, threads, 100), 100U) << "fewer fit into the memory";
+}
+
 TEST(WarpTile, IsASquareOrTwo) {
     for (const unsigned int threads : {1U, 2U, 4U, 8U, 16U, 32U}) {
         const WarpTile tile = warp_tile(threads);

@@ -50,7 +50,7 @@ TEST_F(LoadedKernelOn, TheGpuGivesTheBitsOfTheHostForEveryEffect) {
         const ToyFacts facts = {effects, 3};
         const ToyKernel kernel(cubin(facts), "toy_kernel");
         check(cudaMemset(device_out.data(), 0xFF, count * sizeof(float)), "clearing numbers");
-        kernel.launch("running the toy kernel", (count + threads - 1) / threads, threads, nullptr,
+        kernel.launch("running the toy kernel", {dim3((count + threads - 1) / threads), dim3(threads)}, nullptr,
                       reinterpret_cast<const float*>(device_in.data()), reinterpret_cast<float*>(device_out.data()),
                       count);
         check(cudaMemcpy(out.data(), device_out.data(), count * sizeof(float), cudaMemcpyDeviceToHost),

@@ -130,6 +130,41 @@ TEST(QueueBlocks, AreTwoOnlyForCodeThatIsKnownToBeSmall) {
     EXPECT_EQ(queue_blocks(Tier::strict, Structure::loop, 130'000), 1U) << "threads use more of it";
 }
 
+TEST(PathsInStages, AreThoseOfIndirectLightAmongFewPrimitives) {
+    constexpr std::uint32_t most_across = 1U << 16;
+    SceneView scene{};
+    scene.indirect_light = 1;
+    LinkedFacts facts;
+    facts.effects = EffectMask(Effect::indirect).bits();
+    for (const Tier tier : {Tier::strict, Tier::precise}) {
+        EXPECT_TRUE(renders_in_stages(tier, Structure::loop, facts, scene, most_across, most_across));
+    }
+    EXPECT_FALSE(renders_in_stages(Tier::fast, Structure::loop, facts, scene, 8, 8));
+    for (const Structure structure : {Structure::few, Structure::bvh, Structure::instanced}) {
+        EXPECT_FALSE(renders_in_stages(Tier::strict, structure, facts, scene, 8, 8));
+    }
+    EXPECT_FALSE(renders_in_stages(Tier::strict, Structure::loop, facts, scene, most_across + 1, 8));
+    EXPECT_FALSE(renders_in_stages(Tier::strict, Structure::loop, facts, scene, 8, most_across + 1));
+    EXPECT_FALSE(renders_in_stages(Tier::strict, Structure::loop, {}, scene, 8, 8)) << "several shadow rays";
+    scene.indirect_light = 0;
+    EXPECT_FALSE(renders_in_stages(Tier::strict, Structure::loop, facts, scene, 8, 8)) << "effect forced on";
+}
+
+TEST(PathsInStages, WaitForOtherBlocksOnlyIfTheirCodeIsLarge) {
+    EXPECT_FALSE(staged_launch(Tier::strict, 175'000).blocks_wait);
+    EXPECT_TRUE(staged_launch(Tier::strict, 235'000).blocks_wait);
+    EXPECT_LT(staged_launch(Tier::strict, 0).path_bytes, staged_launch(Tier::precise, 0).path_bytes);
+}
+
+TEST_F(SceneKernel, FollowsPathsInStagesIfLinkedSo) {
+    LinkedFacts of = facts(Effect::indirect);
+    const LinkedSize one_by_one = linked(of, Structure::loop);
+    of.in_stages = 1;
+    const LinkedSize in_stages = linked(of, Structure::loop);
+    EXPECT_LE(in_stages.registers, most_registers(of));
+    EXPECT_NE(in_stages.code_bytes, one_by_one.code_bytes);
+}
+
 TEST_F(SceneKernel, HasNoCodeForKindsAndLightsThatTheSceneHasNot) {
     SceneView scene{};
     scene.sphere_count = 3;

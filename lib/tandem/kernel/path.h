@@ -74,6 +74,60 @@ requires(!can_bounce<Effects>()) TANDEM_HD
     radiance = select(found, reflected, radiance);
 }
 
+/// A vertex of paths after enter_vertex().
+template <class Effects, class Real>
+struct PathVertex {
+    Vertex<Real> surface;
+    ShadingFrame<Real> shading;
+    Mask<Real> masked = Mask<Real>(false);  ///< the hit is in an open part of an alpha mask
+    FollowedLobes<Real> followed;
+    LobeWeights<Real> weights;  ///< of the local lobes
+};
+
+/// The first stage of a vertex: the surface at the `hit` of each path in `found`, and the light that it emits, which is
+/// added to `radiance`. Removes masked hits from `found`.
+template <class Effects, std::uint32_t kinds, class Real>
+TANDEM_HD void enter_vertex(const SceneView& scene, const PathLimits& limits, const Closest<Real>& hit,
+                            Mask<Real>& found, PathState<Effects, Real>& path, Vec3<Real>& radiance,
+                            PathVertex<Effects, Real>& at) {
+    using D = Double<Real>;
+    const PathSource<Real> source = path.source;
+    step_to_vertex<Effects, kinds>(scene, path.ray, source, hit, found, at.surface);
+    const Surface<Real>& surface = at.surface.surface;
+    at.shading = make_shading_frame(surface, at.surface.point, -normalize(widen(path.ray.direction)));
+    const Mask<Real> in_glass = at.shading.from_inside && transmits<Effects>(surface.reflectance.lobes);
+    path.absorb(scene, hit.t, select(in_glass, surface.material, UInt<Real>(no_medium)), found);
+    at.masked = found && !surface.opaque;
+    if (Effects::has(Effect::cutouts)) found = found && !at.masked;
+    if (Effects::has(Effect::emission)) {
+        const Mask<Real> emits = found && norm1(surface.emission) > Real(0.0F);
+        const Real share = share_of_found<Effects>(scene, path, hit, at.surface.point, emits);
+        // unlit surfaces light nothing: paths from a diffuse surface do not see their emission
+        const Mask<Real> dark = Mask<Real>(Effects::has(Effect::indirect)) && surface.unlit && path.pdf > D(0.0);
+        radiance = select(found && !dark, radiance + path.throughput * (surface.emission * share), radiance);
+    }
+    weigh_local_lobes<Effects>(scene, surface, at.surface.point, at.shading, found, at.weights);
+    at.followed =
+        followed_lobes<Effects>(scene, limits, surface, at.shading, path.scatterings, path.reflections, at.weights);
+}
+
+/// The last stage of a vertex: samples the next ray of the paths in `found`, and continues masked ones. Returns the
+/// lanes with a mismatch of media (Interface::lost). Without bounces all paths end.
+template <class Effects, class Real>
+TANDEM_HD Mask<Real> leave_vertex(const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
+                                  const UInt<Real>& number, const Closest<Real>& hit, const Mask<Real>& found,
+                                  const PathVertex<Effects, Real>& at, PathState<Effects, Real>& path) {
+    if (!has_bounces<Effects>()) {
+        path.alive = Mask<Real>(false);
+        return path.alive;
+    }
+    path.alive = found;
+    const Mask<Real> mismatched = scatter<Effects>(scene, limits, sample, number, at.surface.surface, at.surface.point,
+                                                   at.shading, at.weights, path);
+    if (Effects::has(Effect::cutouts) && any(at.masked)) continue_through_mask(hit, at.masked, path);
+    return mismatched;
+}
+
 /// Processes vertex `number` of each path, at the `hit` that next_hit() found, and samples the next ray. Adds the light
 /// of the vertex to `radiance`. Paths that end are no longer alive.
 ///
@@ -86,59 +140,26 @@ requires(can_bounce<Effects>()) TANDEM_HD
     void advance(const Tracer& tracer, const SceneView& scene, const PathLimits& limits, const SampleId<Real>& sample,
                  const UInt<Real>& number, const Closest<Real>& hit, const Threads& threads,
                  PathState<Effects, Real>& path, Vec3<Real>& radiance, PathTally<Real>& tally) {
-    using D = Double<Real>;
     Mask<Real> found = path.alive && hit.primitive != UInt<Real>(no_primitive);
     const Mask<Real> missed = path.alive && !found;
     path.alive = found;
     if (any(missed)) see_background(scene, missed, path, radiance);
 
-    // Surface and emission
     threads.gather();
     if (!any(found) && !threads.wait_together()) return;
-    Vertex<Real> vertex;
-    ShadingFrame<Real> shading;
-    Mask<Real> masked(false);
-    FollowedLobes<Real> followed;
-    LobeWeights<Real> weights;
-    if (any(found)) {
-        const PathSource<Real> source = path.source;
-        step_to_vertex<Effects, Tracer::kinds>(scene, path.ray, source, hit, found, vertex);
-        const Surface<Real>& surface = vertex.surface;
-        shading = make_shading_frame(surface, vertex.point, -normalize(widen(path.ray.direction)));
-        const Mask<Real> in_glass = shading.from_inside && transmits<Effects>(surface.reflectance.lobes);
-        path.absorb(scene, hit.t, select(in_glass, surface.material, UInt<Real>(no_medium)), found);
-        masked = found && !surface.opaque;
-        if (Effects::has(Effect::cutouts)) found = found && !masked;
-        if (Effects::has(Effect::emission)) {
-            const Mask<Real> emits = found && norm1(surface.emission) > Real(0.0F);
-            const Real share = share_of_found<Effects>(scene, path, hit, vertex.point, emits);
-            // unlit surfaces light nothing: paths from a diffuse surface do not see their emission
-            const Mask<Real> dark = Mask<Real>(Effects::has(Effect::indirect)) && surface.unlit && path.pdf > D(0.0);
-            radiance = select(found && !dark, radiance + path.throughput * (surface.emission * share), radiance);
-        }
-        weigh_local_lobes<Effects>(scene, surface, vertex.point, shading, found, weights);
-        followed =
-            followed_lobes<Effects>(scene, limits, surface, shading, path.scatterings, path.reflections, weights);
-    }
+    PathVertex<Effects, Real> at;
+    if (any(found)) enter_vertex<Effects, Tracer::kinds>(scene, limits, hit, found, path, radiance, at);
 
-    // Direct light
-    const Vec3<D> position = path_detail::point_of(path.ray, hit.t);
-    const LitVertex<Real> lit = {vertex.surface, vertex.point, position, shading.to_viewer, followed, sample, number};
+    const Vec3<Double<Real>> position = path_detail::point_of(path.ray, hit.t);
+    const LitVertex<Real> lit = {at.surface.surface, at.surface.point, position, at.shading.to_viewer,
+                                 at.followed,        sample,           number};
     const Vec3<Real> reflected = reflected_light<Effects>(tracer, scene, lit, found, threads, tally.rays);
     threads.gather();
     if (!any(path.alive)) return;
     radiance = select(found, radiance + path.throughput * reflected, radiance);
 
-    // Continuation
-    if (!has_bounces<Effects>()) {
-        path.alive = Mask<Real>(false);
-        return;
-    }
-    path.alive = found;
-    const Mask<Real> mismatched =
-        scatter<Effects>(scene, limits, sample, number, vertex.surface, vertex.point, shading, weights, path);
+    const Mask<Real> mismatched = leave_vertex<Effects>(scene, limits, sample, number, hit, found, at, path);
     tally.lost_media = tally.lost_media + select(mismatched, UInt<Real>(1U), UInt<Real>(0U));
-    if (Effects::has(Effect::cutouts) && any(masked)) continue_through_mask(hit, masked, path);
 }
 
 }  // namespace tandem

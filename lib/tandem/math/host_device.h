@@ -45,8 +45,10 @@
 
 #if TANDEM_ON_DEVICE
 #define TANDEM_KEEP_LOOP _Pragma("unroll 1")
+#define TANDEM_UNROLL _Pragma("unroll")
 #else
 #define TANDEM_KEEP_LOOP
+#define TANDEM_UNROLL
 #endif
 
 #define TANDEM_HD_CALL_ON(side) TANDEM_HD_CALL_ON_##side

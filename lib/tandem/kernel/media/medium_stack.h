@@ -84,6 +84,13 @@ class MediumStack {
         return result;
     }
 
+    /// Whether both have the same media in the same order.
+    TANDEM_HD_INLINE friend Mask<Real> operator==(const MediumStack& a, const MediumStack& b) {
+        Mask<Real> same(true);
+        for (int i = 0; i < capacity; ++i) same = same && a.entries_[i] == b.entries_[i];
+        return same;
+    }
+
   private:
     static constexpr int medium_bits = 24;
     static constexpr std::uint32_t medium_mask = (1U << medium_bits) - 1;
