@@ -8,7 +8,6 @@
 #include <type_traits>
 
 #include "tandem/kernel/shapes/body_pieces.h"
-#include "tandem/kernel/traversal/collapse.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
 
@@ -89,26 +88,14 @@ class CentreCounts {
     std::vector<std::uint32_t> before_;
 };
 
-/// Whether the boxes of pieces have together less than this share of the area of the whole box.
-constexpr double worthwhile = 0.6;
-
-bool shrinks(const SceneView& scene, std::uint32_t id, std::uint32_t count, const Aabb& box) {
-    double area = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const PrimitivePiece piece = {id, static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(count)};
-        area += wide_half_area(piece_bounds(scene, piece));
-    }
-    return area < worthwhile * wide_half_area(box);
-}
-
-bool can_be_cut(const SceneView& scene, std::uint32_t id) {
-    bool can = false;
+/// What f returns for the placement of a solid; false for other primitives.
+template <class F>
+bool of_placement(const SceneView& scene, std::uint32_t id, F f) {
+    bool result = false;
     visit_primitive(scene, id, [&]<class Primitive>(const Primitive& primitive) {
-        if constexpr (std::is_base_of_v<Placement, Primitive>) {
-            can = is_needle(primitive) && condition(primitive) < most_condition;
-        }
+        if constexpr (std::is_base_of_v<Placement, Primitive>) result = f(primitive);
     });
-    return can;
+    return result;
 }
 
 /// Calls change(id, pieces) for all primitives in parallel, with the pieces that each has; change() may change them.
@@ -145,15 +132,16 @@ CutPrimitives cut_primitives(const SceneView& scene, std::uint32_t count, const 
     CutPrimitives result;
     if (scene.masked_kinds != 0 || scene.ellipsoid_count + scene.parallelepiped_count == 0) return result;
     result.counts.resize(count);
-    const std::size_t needles = for_each_count(
-        result.counts, [&](std::uint32_t id, std::uint8_t& pieces) { pieces = can_be_cut(scene, id) ? 2 : 1; });
+    const std::size_t needles = for_each_count(result.counts, [&](std::uint32_t id, std::uint8_t& pieces) {
+        pieces = of_placement(scene, id, is_needle) ? 2 : 1;
+    });
     if (needles == 0) return {};
     const CentreCounts centres(scene, bounds);
     const std::size_t further = for_each_count(result.counts, [&](std::uint32_t id, std::uint8_t& pieces) {
         if (pieces == 1) return;
-        const Aabb box = primitive_bounds(scene, id);
-        pieces = static_cast<std::uint8_t>(centres.pieces(box));
-        if (pieces > 1 && !shrinks(scene, id, pieces, box)) pieces = 1;
+        pieces = static_cast<std::uint8_t>(centres.pieces(primitive_bounds(scene, id)));
+        const auto pays = [&](const Placement& placement) { return are_small(placement, pieces); };
+        if (pieces > 1 && !of_placement(scene, id, pays)) pieces = 1;
     });
     if (further == 0) return {};
     result.further.reserve(further);

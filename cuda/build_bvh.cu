@@ -170,7 +170,7 @@ class Builder {
         return {ids.Current(), ids.Alternate(), codes.Current(), first_bit};
     }
 
-    /// Cuts long, thin triangles: from now on the leaves are pieces. Whether there are any.
+    /// Cuts long, thin primitives: from now on the leaves are pieces. Whether there are any.
     bool cut(const CurveOrder& order, const CurveCells& cells) {
         const SortedPrimitives sorted = {order.codes, order.list, count_, order.first_bit};
         run_kernel(count_pieces_kernel, count_ + 1, scene_, sorted, cells.per_metre, sums_);

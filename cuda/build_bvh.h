@@ -11,7 +11,7 @@
 
 namespace tandem::cuda {
 
-/// Piece `number` of the `count` of a triangle; of other primitives there is one.
+/// Piece `number` of the `count` of a primitive.
 struct alignas(8) Piece {
     std::uint32_t primitive;
     std::uint16_t number, count;
@@ -52,7 +52,7 @@ struct BuildEffort {
     std::uint32_t top_clusters;  ///< how many clusters are joined from the top down, on the host; 1: none
     int passes;                  ///< how often subtrees move to better places
     bool far;                    ///< clusters look for the nearest within 12 places of the curve, else within 8
-    bool cuts = true;            ///< long, thin triangles are cut into pieces, each with a box of its own
+    bool cuts = true;            ///< long, thin primitives are cut into pieces, each with a box of its own
     std::uint32_t most_leaves =
         0;  ///< with more pieces than that, nothing is cut; 0: that the free memory is enough for
 };
@@ -74,7 +74,7 @@ struct BuildMemory {
 
 /// Builds the BVH of a scene whose arrays are in GPU memory. Waits for the stream.
 ///
-/// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Long, thin triangles are then cut, and
+/// Method: sorts the centres of the primitives along a Morton curve of 63 bits. Long, thin primitives are then cut, and
 ///         their pieces sorted again (cut_kernels.h). Then neighbours on the curve merge,
 ///         pair by pair and in parallel, if each is the other's nearest within a radius; nearest means the smallest
 ///         area of the common box. Ties go to the pair whose places differ least in their high bits, which is the same

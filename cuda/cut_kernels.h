@@ -1,11 +1,10 @@
-/// The kernels that cut long, thin triangles before a BVH is built. Included by build_bvh.cu.
+/// The kernels that cut long, thin primitives before a BVH is built. Included by build_bvh.cu.
 ///
 /// Method: a triangle is cut into two pieces for each primitive that fits along it at the distances that primitives
-/// have
-///         there. They are counted in the cell of the Morton curve around its centre that is as large as its box, so
-///         that the result depends on what is near, not on the whole scene. Thick triangles and those along an axis are
-///         left alone: pieces do not make their boxes much smaller. Chosen by measurement
-///         (docs/performance/hierarchies.md).
+///         have there, an ellipsoid or parallelepiped into more. They are counted in the cell of the Morton curve
+///         around its centre that is as large as its box, so that the result depends on what is near, not on the whole
+///         scene. Thick primitives and those along an axis are left alone: pieces do not make their boxes much smaller.
+///         Chosen by measurement (docs/performance/hierarchies.md).
 /// Source: the idea is that of M. Ernst, G. Greiner, "Early Split Clipping for Bounding Volume Hierarchies", IEEE
 ///         Symposium on Interactive Ray Tracing, 2007.
 #pragma once
@@ -38,13 +37,10 @@ struct SortedPrimitives {
     }
 };
 
-__device__ inline std::uint32_t pieces_of(const Triangle& triangle, const SortedPrimitives& sorted, std::uint32_t place,
-                                          double cells_per_metre) {
-    constexpr double thick = 8;  // the largest area of the box, seen along an axis, over that of the triangle
-    constexpr int levels = 21;   // of the curve
-    const Aabb box = bounds(triangle);
-    const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
-    if (!(wide_half_area(box) > thick * 0.5 * length(normal))) return 1;
+/// How many pieces a primitive in `box` should have: pieces_along() of a box that is `more` times as long.
+__device__ inline std::uint32_t pieces_in(const Aabb& box, double more, const SortedPrimitives& sorted,
+                                          std::uint32_t place, double cells_per_metre) {
+    constexpr int levels = 21;  // of the curve
     const int axis = longest_axis(box);
     const double size = (widen(box.upper[axis]) - widen(box.lower[axis])) * cells_per_metre;
     int level = 0;
@@ -52,7 +48,24 @@ __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const Sorted
     level = min(max(level, (sorted.first_bit + 2) / 3), levels);
     const std::uint64_t code = sorted.codes[place] >> (3 * level) << (3 * level);
     const std::uint32_t there = sorted.first_from(code + (std::uint64_t{1} << (3 * level))) - sorted.first_from(code);
-    return pieces_along(ldexp(size, -level), there);
+    return pieces_along(more * ldexp(size, -level), there);
+}
+
+__device__ inline std::uint32_t pieces_of(const Triangle& triangle, const SortedPrimitives& sorted, std::uint32_t place,
+                                          double cells_per_metre) {
+    constexpr double thick = 8;  // the largest area of the box, seen along an axis, over that of the triangle
+    const Aabb box = bounds(triangle);
+    const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
+    if (!(wide_half_area(box) > thick * 0.5 * length(normal))) return 1;
+    return pieces_in(box, 1, sorted, place, cells_per_metre);
+}
+
+__device__ inline std::uint32_t pieces_of(const Placement& solid, const SortedPrimitives& sorted, std::uint32_t place,
+                                          double cells_per_metre) {
+    constexpr double more = 2;
+    if (!is_needle(solid)) return 1;
+    const std::uint32_t pieces = pieces_in(bounds(solid), more, sorted, place, cells_per_metre);
+    return pieces > 1 && are_small(solid, pieces) ? pieces : 1;
 }
 
 /// Low: the pieces of each primitive, in the order of the curve; one more element, for the total.
@@ -64,7 +77,7 @@ static __global__ void count_pieces_kernel(SceneView scene, SortedPrimitives sor
     if (place < sorted.count) {
         pieces = 1;
         visit_primitive(scene, sorted.ids[place], [&]<class Primitive>(const Primitive& primitive) {
-            if constexpr (std::is_same_v<Primitive, Triangle>) {
+            if constexpr (can_have_pieces<Primitive>) {
                 pieces = pieces_of(primitive, sorted, place, cells_per_metre);
             }
         });

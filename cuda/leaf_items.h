@@ -2,14 +2,14 @@
 #pragma once
 
 #include "cuda/build_bvh.h"
-#include "tandem/kernel/shapes/triangle_pieces.h"
+#include "tandem/kernel/shapes/body_pieces.h"
 #include "tandem/kernel/view/scene_view.h"
 
 namespace tandem::cuda {
 
 /// Rays that pass alpha masks count each entry that they hit as a primitive (kernel/masked_hits.h).
 [[nodiscard]] inline bool may_have_pieces(const SceneView& scene) {
-    return scene.triangle_count > 0 && has_no_masks(scene);
+    return scene.triangle_count + scene.ellipsoid_count + scene.parallelepiped_count > 0 && has_no_masks(scene);
 }
 
 /// The primitives of a scene, or pieces of them.
@@ -27,7 +27,7 @@ struct LeafItems {
         Aabb result;
         visit_primitive(scene, piece.primitive, [&]<class Primitive>(const Primitive& primitive) {
             result = tandem::bounds(primitive);
-            if constexpr (std::is_same_v<Primitive, Triangle>) {
+            if constexpr (can_have_pieces<Primitive>) {
                 if (piece.count > 1) {
                     result = bounds_within(primitive, slab_of_piece(result, piece.number, piece.count));
                 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "support/needles.h"
-#include "tandem/kernel/traversal/proposal.h"
 
 namespace tandem {
 namespace {
@@ -14,59 +13,6 @@ Aabb bounds_of(const SceneView& scene) {
     return box;
 }
 CutPrimitives cut(const SceneView& scene) { return cut_primitives(scene, primitive_count(scene), bounds_of(scene)); }
-
-bool contains(const Aabb& box, const Vec3d& point) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (point[axis] < double{box.lower[axis]} || point[axis] > double{box.upper[axis]}) return false;
-    }
-    return true;
-}
-
-double condition_of(const SceneView& scene, std::uint32_t id) {
-    double result = 0;
-    visit_primitive(scene, id, [&]<class Primitive>(const Primitive& primitive) {
-        if constexpr (std::is_base_of_v<Placement, Primitive>) result = condition(primitive);
-    });
-    return result;
-}
-
-// However a primitive is cut, each of its points is in a piece. The padding stands for rounding; a quarter of that of a
-// hierarchy is enough.
-TEST(CutPrimitives, HaveAllPointsInTheirPieces) {
-    test::Random random(7);
-    for (int round = 0; round < 40; ++round) {
-        const PreparedScene prepared = test::needles(random, 3, 1.5);
-        const SceneView scene = view(prepared);
-        Padding padding = make_structure_frame(bounds_of(scene)).padding;
-        padding.least *= 0.25F;
-        const auto check = [&](std::uint32_t id, const Vec3d& point) {
-            for (const int whole : {1, 2, 3, 7, 16}) {
-                const auto count = static_cast<std::uint16_t>(whole);
-                int holders = 0;
-                for (std::uint16_t i = 0; i < count; ++i) {
-                    const Aabb box = pad(piece_bounds(scene, {id, i, count}), padding);
-                    holders += contains(box, point) ? 1 : 0;
-                }
-                ASSERT_GE(holders, 1) << "round " << round << ", primitive " << id << ", " << count
-                                      << " pieces, condition " << condition_of(scene, id);
-            }
-        };
-        for (std::uint32_t id = 0; id < primitive_count(scene); ++id) {
-            visit_primitive(scene, id, [&]<class Primitive>(const Primitive& primitive) {
-                if constexpr (std::is_base_of_v<Placement, Primitive>) {
-                    for (int i = 0; i < 100; ++i) {
-                        const auto part = [&] {
-                            return random.coin() ? random.uniform(-1.0, 1.0) : random.coin() ? 1.0 : -1.0;
-                        };
-                        Vec3d local = {part(), part(), part()};
-                        if (std::is_same_v<Primitive, Ellipsoid>) local = local * (1 / length(local));
-                        check(id, test::point_of(primitive, local));
-                    }
-                }
-            });
-        }
-    }
-}
 
 std::size_t pieces_of(const PreparedScene& scene) {
     const CutPrimitives result = cut(view(scene));

@@ -10,6 +10,7 @@
 
 #include "cuda/bvh_on_gpu.h"
 #include "support/hair.h"
+#include "support/needles.h"
 #include "support/random.h"
 
 namespace tandem::cuda {
@@ -149,6 +150,30 @@ TEST_F(BuildBvhOn, TheGpuCutsLongThinTriangles) {
     (void)limited.build({4096, 8, true, true, 40'000});
     EXPECT_EQ(limited.built().entry_count, 20'000U) << "more leaves than allowed";
     masked.masked_kinds = masked.cutout_kinds = PrimitiveKinds::triangle;
+    EXPECT_EQ(entries_of(std::move(masked)), 2'000U) << "which rays count";
+}
+
+TEST_F(BuildBvhOn, TheGpuCutsSolidsAsThinAsNeedles) {
+    const auto entries_of = [](PreparedScene prepared) {
+        OnGpu scene(std::move(prepared));
+        EXPECT_EQ(scene.defect(), "");
+        (void)scene.build();
+        return scene.built().entry_count;
+    };
+    Random random(4);
+    EXPECT_GT(entries_of(test::needles(random, 1'000, 1)), 10'000U);
+    EXPECT_LT(entries_of(test::needles(random, 1'000, 0.02)), 6'000U) << "shorter than their distances";
+    for (const bool boxes : {false, true}) {  // of one kind: in the order of the entries
+        PreparedScene one_kind = test::needles(random, 1'000, 1);
+        boxes ? one_kind.ellipsoids.clear() : one_kind.parallelepipeds.clear();
+        one_kind.material_of.resize(1'000);
+        EXPECT_GT(entries_of(std::move(one_kind)), 5'000U) << (boxes ? "boxes" : "ellipsoids");
+    }
+    PreparedScene extreme = test::needles(random, 1'000, 1), masked = test::needles(random, 1'000, 1);
+    for (auto& solid : extreme.ellipsoids) solid.object_from_world.row[0] = solid.object_from_world.row[0] * 1e9;
+    for (auto& solid : extreme.parallelepipeds) solid.object_from_world.row[0] = solid.object_from_world.row[0] * 1e9;
+    EXPECT_EQ(entries_of(std::move(extreme)), 2'000U) << "inverses are too inexact";
+    masked.masked_kinds = masked.cutout_kinds = PrimitiveKinds::parallelepiped;
     EXPECT_EQ(entries_of(std::move(masked)), 2'000U) << "which rays count";
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "cuda/bvh_on_gpu.h"
+#include "support/needles.h"
 #include "support/random.h"
 #include "tandem/compile/prepared_scene.h"
 #include "tandem/film/film.h"
@@ -112,6 +113,14 @@ TEST_F(RefitBvhOn, TheGpuHoldsWhatMoves) {
             EXPECT_EQ(defect_after_move(before, after), "") << name << ", by " << distance;
         }
     }
+}
+
+TEST_F(RefitBvhOn, TheGpuHoldsPiecesOfNeedlesWhereverTheyMove) {
+    Random random(5);
+    const Arrays before(test::needles(random, 1'000, 1), *stream_);
+    ASSERT_NE(build(before).arrays.pieces, nullptr);
+    const Arrays after(test::needles(random, 1'000, 1), *stream_);
+    EXPECT_EQ(defect_after_move(before, after), "");
 }
 
 TEST_F(RefitBvhOn, TheGpuHoldsWhatMovesWildly) {

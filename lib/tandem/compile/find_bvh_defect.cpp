@@ -6,7 +6,7 @@
 
 #include "tandem/compile/build_bvh.h"
 #include "tandem/compile/child_box.h"
-#include "tandem/kernel/shapes/triangle_pieces.h"
+#include "tandem/kernel/shapes/body_pieces.h"
 
 namespace tandem {
 
@@ -63,15 +63,16 @@ class Inspector {
         }
     }
 
-    /// `boxes`: in which traversal finds the primitive. One has to contain it; the pieces of a triangle, together.
-    void inspect_primitive(std::uint32_t id, std::vector<ChildBox>& boxes) {
+    /// `boxes`: in which traversal finds the primitive. One has to contain it; if it is cut, one has to contain each
+    /// piece.
+    void inspect_primitive(std::uint32_t id, const std::vector<ChildBox>& boxes) {
         if (boxes.empty()) defect_ = fmt::format("primitive {} is missing", id);
         if (boxes.size() == 1 && !contains(boxes[0], pad(primitive_bounds(scene_, id), padding_))) {
             defect_ = fmt::format("primitive {} sticks out of its boxes", id);
         }
         if (boxes.size() < 2) return;
         visit_primitive(scene_, id, [&]<class Primitive>(const Primitive& primitive) {
-            if constexpr (std::is_same_v<Primitive, Triangle>) {
+            if constexpr (can_have_pieces<Primitive>) {
                 if (!cover(boxes, primitive)) {
                     defect_ = fmt::format("primitive {} sticks out of the {} boxes of its pieces", id, boxes.size());
                 }
@@ -81,17 +82,15 @@ class Inspector {
         });
     }
 
-    /// Whether the boxes, in their order along the triangle, contain as many pieces of it.
-    bool cover(std::vector<ChildBox>& boxes, const Triangle& triangle) const {
-        const Aabb all = bounds(triangle);
-        const int axis = longest_axis(all);
-        std::sort(boxes.begin(), boxes.end(), [axis](const ChildBox& a, const ChildBox& b) {
-            return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis];
-        });
+    /// Whether each of as many pieces of the primitive as there are boxes is in one of them.
+    template <class Primitive>
+    bool cover(const std::vector<ChildBox>& boxes, const Primitive& primitive) const {
+        const Aabb all = bounds(primitive);
         const auto count = static_cast<std::uint32_t>(boxes.size());
         for (std::uint32_t i = 0; i < count; ++i) {
-            const Aabb piece = bounds_within(triangle, slab_of_piece(all, i, count));
-            if (is_empty(piece) || !contains(boxes[i], pad(piece, padding_))) return false;
+            const Aabb piece = bounds_within(primitive, slab_of_piece(all, i, count));
+            const auto has_piece = [&](const ChildBox& box) { return contains(box, pad(piece, padding_)); };
+            if (is_empty(piece) || std::none_of(boxes.begin(), boxes.end(), has_piece)) return false;
         }
         return true;
     }

@@ -27,6 +27,12 @@ TANDEM_HD_INLINE float half_area(const Aabb& a) {
     return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
 }
 
+/// The same in double, so that it is a number in scenes of any size.
+TANDEM_HD_INLINE double wide_half_area(const Aabb& box) {
+    const Vec3d extent = widen(box.upper) - widen(box.lower);
+    return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
+}
+
 TANDEM_HD_INLINE Vec3f centre(const Aabb& a) { return (a.lower + a.upper) * 0.5F; }
 
 /// Largest magnitude of a coordinate of the box.

@@ -2,8 +2,10 @@
 ///
 /// Bound: the edges come from the inverse of the placement's matrix, in double. For matrices whose condition is less
 /// than most_condition, a corner errs by 2^-31 of the solid's size, far less than the padding of every box. Tested by
-/// tests/cpu/cut_primitives_test.cpp.
+/// tests/kernel/shapes/body_pieces_test.cpp.
 #pragma once
+
+#include <type_traits>
 
 #include "tandem/kernel/shapes/affine.h"
 #include "tandem/kernel/shapes/triangle_pieces.h"
@@ -11,6 +13,10 @@
 namespace tandem {
 
 inline constexpr double most_condition = 0x1p20;
+
+/// Whether there is bounds_within() for such primitives.
+template <class Primitive>
+inline constexpr bool can_have_pieces = std::is_same_v<Primitive, Triangle> || std::is_base_of_v<Placement, Primitive>;
 
 /// The half edges of the parallelepiped around a solid: the columns.
 TANDEM_HD_INLINE Matrix3 half_edges(const Placement& placement) { return inverse(placement.object_from_world); }
@@ -35,8 +41,11 @@ TANDEM_HD_INLINE bool is_needle(const Placement& placement) {
     return longest > least2 * second;
 }
 
-/// The bounds of the part of the solid in a slab: of the part of the parallelepiped around it.
+/// The bounds of the part of the solid in a slab: of the part of the parallelepiped around it. Of a matrix that is too
+/// close to singular, those of the whole solid.
 TANDEM_HD_INLINE Aabb bounds_within(const Placement& placement, const Slab& slab) {
+    const Aabb whole = bounds(placement);
+    if (!(condition(placement) < most_condition)) return whole;
     const Matrix3 axes = half_edges(placement);
     const auto corner = [&](int number) {
         const auto side = [number](int axis) { return (number >> axis & 1) != 0 ? 1.0 : -1.0; };
@@ -52,12 +61,23 @@ TANDEM_HD_INLINE Aabb bounds_within(const Placement& placement, const Slab& slab
     }
     add_within(corner(last), corner(last), slab, box);  // no edge starts there
     // an ellipsoid's box is smaller
-    const Aabb whole = bounds(placement);
     for (int axis = 0; axis < 3; ++axis) {
         box.lower[axis] = greater(box.lower[axis], whole.lower[axis]);
         box.upper[axis] = lesser(box.upper[axis], whole.upper[axis]);
     }
     return box;
+}
+
+/// Whether it pays to cut the solid into `count` pieces: whether their boxes have together less than 0.6 of the area of
+/// the whole box.
+TANDEM_HD_INLINE bool are_small(const Placement& placement, std::uint32_t count) {
+    constexpr double worthwhile = 0.6;
+    const Aabb whole = bounds(placement);
+    double area = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        area += wide_half_area(bounds_within(placement, slab_of_piece(whole, i, count)));
+    }
+    return area < worthwhile * wide_half_area(whole);
 }
 
 }  // namespace tandem

@@ -16,12 +16,6 @@ struct alignas(16) Forests {
 };
 static_assert(sizeof(Forests) == 16);
 
-/// Half of the surface area, in double, so that it is a number in scenes of any size.
-TANDEM_HD_INLINE double wide_half_area(const Aabb& box) {
-    const Vec3d extent = widen(box.upper) - widen(box.lower);
-    return extent.x * extent.y + extent.y * extent.z + extent.z * extent.x;
-}
-
 /// The area of a box over that of the root, `whole`.
 TANDEM_HD_INLINE float relative_area(const Aabb& box, double whole) {
     return narrow(lesser(wide_half_area(box) / greater(whole, 1e-300), 1.0));
