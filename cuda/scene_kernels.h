@@ -36,8 +36,9 @@ namespace tandem::cuda {
 /// if not known.
 [[nodiscard]] unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes);
 
-/// Whether to follow the paths of such a kernel in stages (cuda/staged_paths.h). `facts`: those of the scene and the
-/// job; `width`, `height`: of the window.
+/// Whether to follow the paths of such a kernel in stages (cuda/staged_paths.h), if no other kernel runs at the same
+/// time, for which blocks that wait for each other would wait in vain. `facts`: those of the scene and the job;
+/// `width`, `height`: of the window.
 [[nodiscard]] bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts, const SceneView& scene,
                                      std::uint32_t width, std::uint32_t height);
 
