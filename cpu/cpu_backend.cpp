@@ -71,7 +71,8 @@ bool are_connected(const std::vector<Triangle>& triangles) {
 /// groups, and the rays of wide packets one by one (docs/performance/cpu.md).
 constexpr double many_boxes = 6, very_many_boxes = 100;
 /// A packet is wide if packet_width() is more than this many times the distance between neighbouring primitives.
-constexpr double wide_packet = 6;
+/// Measured for 16 and 8 rays.
+constexpr double wide_packet(int rays) { return rays > 8 ? 6 : 3.5; }
 
 /// Whether single rays are faster through groups: in large scenes nearly all of whose primitives are spheres, triangles
 /// of meshes, or triangles of which a ray passes close to many. A guess, which affects only the speed.
@@ -148,7 +149,7 @@ class CpuScene final : public ResidentScene {
         groups_pay_ = smaller_.empty() && groups_pay(*scene_, crossed, tier());  // groups have one layer
         if (groups_pay_ && crossed > very_many_boxes) {
             const Vec3f extent = view_.frame.bounds.upper - view_.frame.bounds.lower;
-            widest_packet_ = wide_packet * max_norm(widen(extent)) / accurate_cbrt(count);
+            widest_packet_ = wide_packet(kernels.packet_rays) * max_norm(widen(extent)) / accurate_cbrt(count);
         }
     }
 

@@ -19,7 +19,13 @@ namespace {
 template <class Isa, Tier tier>
 constexpr TierKernels tier_kernels() {
     using Kernels = CpuKernels<Isa, tier>;
-    TierKernels kernels = {{}, Kernels::trace, Kernels::intersect, Kernels::occluded, nullptr, nullptr};
+    TierKernels kernels = {{},
+                           Kernels::trace,
+                           Kernels::intersect,
+                           Kernels::occluded,
+                           nullptr,
+                           nullptr,
+                           Isa::bytes / static_cast<int>(sizeof(float))};
     [&]<std::size_t... variant>(std::index_sequence<variant...>) {
         ((kernels.render_tile[variant] = Kernels::template render_tile<variant>), ...);
     }

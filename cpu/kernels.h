@@ -113,6 +113,7 @@ struct TierKernels {
     RTCOccludedFunctionN occluded;
     RTCFilterFunctionN filter_nearest;  ///< null except in the tier fast
     RTCFilterFunctionN filter_any;      ///< the same
+    int packet_rays;
 };
 
 }  // namespace tandem
