@@ -62,7 +62,7 @@ __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const Sorted
 
 __device__ inline std::uint32_t pieces_of(const Placement& solid, const SortedPrimitives& sorted, std::uint32_t place,
                                           double cells_per_metre) {
-    constexpr double more = 2;
+    constexpr double more = 2;  // four pieces for each primitive that fits along, where a triangle gets two
     if (!is_needle(solid)) return 1;
     const std::uint32_t pieces = pieces_in(bounds(solid), more, sorted, place, cells_per_metre);
     return pieces > 1 && are_small(solid, pieces) ? pieces : 1;

@@ -37,7 +37,7 @@ class GridPace {
         if (blocks_ != 0 && Lanes::thread() == 0) Lanes::add(arrived_, left);
     }
 
-    static constexpr long long patience = 1'000'000;  ///< half a millisecond; a stage takes less than a tenth of that
+    static constexpr long long patience = 1'000'000;  ///< about half a millisecond
 
   private:
     static constexpr unsigned long long left = 1ULL << 40;  // more than all arrivals

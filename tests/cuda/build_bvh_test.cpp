@@ -128,13 +128,15 @@ TEST_F(BuildBvhOn, TheGpuGivesTheSameBytesEveryTime) {
     }
 }
 
+/// The entries of the tree of a scene, which has no defect.
+std::uint32_t entries_of(PreparedScene prepared) {
+    OnGpu scene(std::move(prepared));
+    EXPECT_EQ(scene.defect(), "");
+    (void)scene.build();
+    return scene.built().entry_count;
+}
+
 TEST_F(BuildBvhOn, TheGpuCutsLongThinTriangles) {
-    const auto entries_of = [](PreparedScene prepared) {
-        OnGpu scene(std::move(prepared));
-        EXPECT_EQ(scene.defect(), "");
-        (void)scene.build();
-        return scene.built().entry_count;
-    };
     EXPECT_GT(entries_of(named("hair/20000")), 40'000U);
     Random random(3);
     EXPECT_GT(entries_of(test::hair(random, 2'000, 500)), 6'000U) << "among spheres";
@@ -154,15 +156,10 @@ TEST_F(BuildBvhOn, TheGpuCutsLongThinTriangles) {
 }
 
 TEST_F(BuildBvhOn, TheGpuCutsSolidsAsThinAsNeedles) {
-    const auto entries_of = [](PreparedScene prepared) {
-        OnGpu scene(std::move(prepared));
-        EXPECT_EQ(scene.defect(), "");
-        (void)scene.build();
-        return scene.built().entry_count;
-    };
     Random random(4);
     EXPECT_GT(entries_of(test::needles(random, 1'000, 1)), 10'000U);
-    EXPECT_LT(entries_of(test::needles(random, 1'000, 0.02)), 6'000U) << "shorter than their distances";
+    // pieces_along() gives up to three to one that has no other in its cell
+    EXPECT_LE(entries_of(test::needles(random, 1'000, 0.02)), 3 * 2'000U) << "shorter than their distances";
     for (const bool boxes : {false, true}) {  // of one kind: in the order of the entries
         PreparedScene one_kind = test::needles(random, 1'000, 1);
         boxes ? one_kind.ellipsoids.clear() : one_kind.parallelepipeds.clear();

@@ -20,7 +20,7 @@
 ///                         caches (docs/performance/paths.md); inline in kernels that fit into the caches too
 ///                         (TANDEM_SHORT_PATHS, cuda/linked_kernel.cu).
 /// TANDEM_KEEP_LOOP        before a loop that few threads reach: it is not unrolled on the device, which keeps code
-///                         short
+///                         short. TANDEM_UNROLL: it is unrolled there
 /// TANDEM_KEEP_ROUNDING    (x) hides the origin of x from the compiler. GCC 12 otherwise removes the two conversions of
 ///                         a vector of doubles, to float and back, and with them the rounding.
 #pragma once
