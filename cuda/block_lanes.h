@@ -60,17 +60,25 @@ struct DeviceLanes {
     __device__ __forceinline__ static Number add(Number& to, Number value) {
         return atomicAdd(&to, value);
     }
-    /// What other blocks may change.
-    __device__ __forceinline__ static unsigned long long read(unsigned long long& from) {
-        const volatile unsigned long long& now = from;
+    /// The number of the multiprocessor.
+    __device__ __forceinline__ static std::uint32_t multiprocessor() {
+        std::uint32_t number = 0;
+        asm volatile("mov.u32 %0, %smid;" : "=r"(number));
+        return number;
+    }
+    // A word that other blocks read and write.
+    __device__ __forceinline__ static std::uint32_t read(std::uint32_t& from) {
+        const volatile std::uint32_t& now = from;
         return now;
     }
+    __device__ __forceinline__ static void write(std::uint32_t& to, std::uint32_t value) {
+        volatile std::uint32_t& now = to;
+        now = value;
+    }
 
-    /// The clock of the multiprocessor.
-    __device__ __forceinline__ static long long cycles() { return clock64(); }
     /// Leaves the multiprocessor to other threads for a moment.
     __device__ __forceinline__ static void pause() {
-        constexpr unsigned int nanoseconds = 64;
+        constexpr unsigned int nanoseconds = 32;
         __nanosleep(nanoseconds);
     }
 };

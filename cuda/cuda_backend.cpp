@@ -321,9 +321,8 @@ class CudaBackend final : public Backend {
             LinkedFacts facts = linked_facts(resident.view().scene, effects, job.limits, job.sampler, job.filter);
             const Structure structure = structure_of(resident.view());
             if (structure == Structure::instanced) facts.kinds |= PrimitiveKinds::instanced;
-            const bool overlaps = least_pixels > 0;  // parts of a film have two streams
-            if (!overlaps && renders_in_stages(job.tier, structure, facts, resident.view().scene, pixel_job.width,
-                                               static_cast<std::uint32_t>(window.height))) {
+            if (renders_in_stages(job.tier, structure, facts, resident.view().scene, pixel_job.width,
+                                  static_cast<std::uint32_t>(window.height))) {
                 facts.in_stages = 1;
             }
             linked = kernels_->find(job.tier, resident.view(), facts);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "cuda/pair_pace.h"
 #include "tandem/kernel/pixel.h"
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/shapes/ray_end.h"
@@ -55,8 +56,8 @@ struct DeviceCounters {
     unsigned long long rejected_rays;
     unsigned long long stack_overflows;
     unsigned long long rays[ray_counters];
-    unsigned int next_in_queue;         ///< the next pixel, or ray
-    unsigned long long waiting_blocks;  ///< GridPace's
+    unsigned int next_in_queue;                        ///< the next pixel, or ray
+    std::uint32_t stages[most_paced_multiprocessors];  ///< PairPace's
 };
 
 /// The hierarchy of a scene, which counts full stacks into `counters`.

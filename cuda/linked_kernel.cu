@@ -70,7 +70,7 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
                                                               const __grid_constant__ PixelJob job,
                                                               std::uint32_t height, Vec3d* __restrict__ sums,
                                                               void* __restrict__ radiances,
-                                                              DeviceCounters* __restrict__ counters, bool blocks_wait) {
+                                                              DeviceCounters* __restrict__ counters) {
 #if TANDEM_ON_DEVICE && !defined(TANDEM_SHORT_PATHS) && __CUDACC_VER_MAJOR__ >= 13
     // Spills registers to shared memory first, most of which is otherwise unused (docs/performance/paths.md, "Registers
     // of kernels for long paths"), except by paths in stages.
@@ -81,7 +81,7 @@ extern "C" __global__ void TANDEM_LINKED_BOUNDS tandem_render(const __grid_const
 #else
 #if defined(TANDEM_HAS_STAGES)
     if (tandem_facts.in_stages != 0) {
-        return render_in_stages<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, blocks_wait, counters);
+        return render_in_stages<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, counters);
     }
 #endif
     render_long<LinkedEffects, LinkedReal>(tracer, job, height, sums, radiances, counters);

@@ -137,11 +137,10 @@ __device__ __forceinline__ void render_queue(const Tracer& tracer, const PixelJo
     }
 }
 
-/// Pixels from a queue, for long paths in stages. `rare`: records for each path, block after block. `blocks_wait`: as
-/// StagedLaunch::blocks_wait.
+/// Pixels from a queue, for long paths in stages. `rare`: records for each path, block after block.
 template <class Effects, class Real, class Tracer>
 __device__ __forceinline__ void render_in_stages(const Tracer& tracer, const PixelJob& job, std::uint32_t height,
-                                                 Vec3d* __restrict__ sums, void* __restrict__ rare, bool blocks_wait,
+                                                 Vec3d* __restrict__ sums, void* __restrict__ rare,
                                                  DeviceCounters* __restrict__ counters) {
     using Rare = RarePathRecords<Real>;
     extern __shared__ uint4 records[];
@@ -154,7 +153,7 @@ __device__ __forceinline__ void render_in_stages(const Tracer& tracer, const Pix
         tracer, job, height, PathRecords<Real>(records, count),
         static_cast<Rare*>(rare) + std::size_t{blockIdx.x} * StageLists::most_paths, lists, count,
         counters->next_in_queue, sums);
-    paths.run(GridPace<DeviceLanes>(counters->waiting_blocks, blocks_wait ? gridDim.x : 0U));
+    paths.run(PairPace<DeviceLanes>(counters->stages));
     tandem::cuda::count<Effects>(paths.counted(), threadIdx.x, counters);
 }
 

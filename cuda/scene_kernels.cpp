@@ -222,11 +222,8 @@ bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts,
     return width <= most_pixels_across && height <= most_pixels_across;
 }
 
-// Measured on an H200 (docs/performance/paths.md, "Paths in stages").
-StagedLaunch staged_launch(Tier tier, std::size_t code_bytes) {
-    constexpr std::size_t most_unpaced = 220'000;
-    return {.path_bytes = tier == Tier::precise ? PathRecords<double>::bytes : PathRecords<float>::bytes,
-            .blocks_wait = code_bytes > most_unpaced};
+std::size_t staged_path_bytes(Tier tier) {
+    return tier == Tier::precise ? PathRecords<double>::bytes : PathRecords<float>::bytes;
 }
 
 SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
@@ -246,9 +243,8 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const auto cubin = cubin_facts(made.cubin, kernel_name);
             const std::size_t code_bytes = cubin ? cubin->code.size() : 0;
             const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, structure, code_bytes) : 0;
-            StagedLaunch staged;
-            if (facts.in_stages != 0) staged = staged_launch(input.tier, code_bytes);
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks, staged,
+            const std::size_t path_bytes = facts.in_stages != 0 ? staged_path_bytes(input.tier) : 0;
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks, path_bytes,
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
@@ -276,13 +272,13 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
         const int registers = most_registers(kernel_tier(tier, structure), effects);
         // with all effects the code is too large for two blocks
         kernel.reset(
-            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, {}, "rendering"});
+            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, 0, "rendering"});
     }
     return *kernel;
 }
 
 std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene) {
-    if (kernel.staged.path_bytes > 0) {
+    if (kernel.staged_path_bytes > 0) {
         return std::size_t{multiprocessor_count()} * StageLists::most_paths * sizeof(RarePathRecords<double>);
     }
     if (kernel.queue_blocks == 0 || !has_hierarchy(scene)) return 0;
@@ -298,14 +294,13 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
             job.samples, is_instanced ? std::numeric_limits<std::size_t>::max() : primitive_count(scene.scene));
     }
     const void* function = kernel.code.function();
-    const RenderGrid grid = kernel.staged.path_bytes > 0
-                                ? staged_grid(function, kernel.staged.path_bytes, std::uint64_t{job.width} * height)
+    const RenderGrid grid = kernel.staged_path_bytes > 0
+                                ? staged_grid(function, kernel.staged_path_bytes, std::uint64_t{job.width} * height)
                             : kernel.queue_blocks > 0 ? pixel_queue(function, kernel.queue_blocks)
                             : has_hierarchy(scene)    ? shared_pixels(job.width, height, shared.sharing_threads)
                                                       : thread_per_pixel(job.width, height);
     const auto launch = [&](const auto& tracer) {
-        kernel.code.launch(kernel.doing, grid, stream, tracer, shared, height, sums, radiances, counters,
-                           kernel.staged.blocks_wait);
+        kernel.code.launch(kernel.doing, grid, stream, tracer, shared, height, sums, radiances, counters);
     };
     switch (structure_of(scene)) {
         case Structure::few: {

@@ -36,28 +36,21 @@ namespace tandem::cuda {
 /// if not known.
 [[nodiscard]] unsigned int queue_blocks(Tier tier, Structure structure, std::size_t code_bytes);
 
-/// Whether to follow the paths of such a kernel in stages (cuda/staged_paths.h), if no other kernel runs at the same
-/// time, for which blocks that wait for each other would wait in vain. `facts`: those of the scene and the job;
-/// `width`, `height`: of the window.
+/// Whether to follow the paths of such a kernel in stages (cuda/staged_paths.h). `facts`: those of the scene and the
+/// job; `width`, `height`: of the window.
 [[nodiscard]] bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts, const SceneView& scene,
                                      std::uint32_t width, std::uint32_t height);
 
-/// How a kernel follows paths in stages.
-struct StagedLaunch {
-    std::size_t path_bytes = 0;  ///< of shared memory for each path; 0 if paths are not followed in stages
-    bool blocks_wait = false;    ///< for each other (cuda/grid_pace.h)
-};
-
-/// `tier`: of the kernel. Blocks wait for each other if the code of a stage may exceed the instruction caches.
-[[nodiscard]] StagedLaunch staged_launch(Tier tier, std::size_t code_bytes);
+/// The shared memory of a path in stages. `tier`: of the kernel.
+[[nodiscard]] std::size_t staged_path_bytes(Tier tier);
 
 /// A render kernel on the GPU.
 struct SceneKernel {
     LoadedCode code;
     /// Its blocks on a multiprocessor, if its threads take pixels from a queue (cuda/render_thread.h); else 0.
     unsigned int queue_blocks;
-    StagedLaunch staged;
-    const char* doing;  ///< as with LoadedCode::launch()
+    std::size_t staged_path_bytes;  ///< 0 if it does not follow paths in stages
+    const char* doing;              ///< as with LoadedCode::launch()
 };
 
 class SceneKernels {

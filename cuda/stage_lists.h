@@ -3,14 +3,15 @@
 
 #include <cstdint>
 
+#include "cuda/hit_classes.h"
 #include "tandem/math/host_device.h"
 
 namespace tandem::cuda {
 
 /// Lists of paths in the shared memory of a block. Those of the next turn are filled while those of this turn are read.
 struct StageLists {
-    static constexpr std::uint32_t most_paths = 1344;   ///< of a block
-    static constexpr std::uint32_t classes = 32;        ///< of hits: those of a class are shaded together
+    static constexpr std::uint32_t most_paths = 1344;                ///< of a block
+    static constexpr std::uint32_t classes = HitClasses::count + 1;  ///< the last one is that of no hit
     static constexpr std::uint16_t path_ends = 0x8000;  ///< the bit of shadow rays whose path has no other ray
 
     /// The paths that wait for rays.
@@ -27,6 +28,8 @@ struct StageLists {
     std::uint32_t class_start[classes + 1];  ///< in `hits`
     std::uint32_t class_warps[classes + 1];  ///< warps that the classes before need, each with hits of one class
     std::uint32_t rays_taken, hits_taken;    ///< by the warps
+
+    HitClasses hit_classes;
 
     static constexpr std::uint32_t no_hit = 0xFFFF;
     TANDEM_HD_INLINE static constexpr std::uint32_t place_word(std::uint32_t place, std::uint32_t of_class) {

@@ -1,5 +1,5 @@
 /// Long paths in stages. A block follows several paths for each of its threads. In each stage, a warp takes paths that
-/// need the same code: rays to trace, or hits of one primitive to shade. So most of its threads work, where a thread
+/// need the same code: rays to trace, or hits of one class to shade. So most of its threads work, where a thread
 /// that follows one path alone waits for the others at each branch.
 ///
 /// Source: the idea is that of S. Laine, T. Karras, T. Aila, "Megakernels Considered Harmful: Wavefront Path Tracing on
@@ -7,8 +7,8 @@
 /// (docs/performance/paths.md). Tested by tests/cuda/staged_paths_test.cpp.
 #pragma once
 
-#include "cuda/grid_pace.h"
 #include "cuda/kernels.h"
+#include "cuda/pair_pace.h"
 #include "cuda/stage_lists.h"
 #include "cuda/stored_path.h"
 #include "cuda/warp_tile.h"
@@ -59,7 +59,8 @@ class StagedPaths {
           sums_(sums) {}
 
     /// Follows paths until no pixel is left. Writes the sums of the pixels.
-    TANDEM_HD void run(GridPace<Lanes> pace) {
+    TANDEM_HD void run(PairPace<Lanes> pace) {
+        pace.begin();
         begin();
         bool is_first = true;
         for (std::uint32_t turn = 0; has_rays(turn); turn ^= 1) {
@@ -86,6 +87,7 @@ class StagedPaths {
         for (std::uint32_t i = Lanes::thread(); i < count_; i += Lanes::threads()) {
             lists_.rays[0].paths[i] = static_cast<std::uint16_t>(i);
         }
+        lists_.hit_classes.template compare_materials<Lanes>(tracer_.scene);
         clear_classes(0);
         if (Lanes::thread() == 0) {
             for (auto& rays : lists_.rays) rays.new_count = rays.open_count = rays.shadow_count = 0;
@@ -185,7 +187,8 @@ class StagedPaths {
         record.primitive = hit.primitive;
         records_.store(record, path);
         const bool is_hit = hit.primitive != no_primitive;
-        const std::uint32_t of_class = is_hit ? hit.primitive % (StageLists::classes - 1) : StageLists::classes;
+        const std::uint32_t of_class =
+            is_hit ? lists_.hit_classes.template of<Tracer::kinds>(tracer_.scene, hit.primitive) : StageLists::classes;
         const std::uint32_t group = Lanes::lanes_with(traced, of_class);
         const std::uint32_t place =
             Threads::append(is_hit ? lists_.class_count[turn][of_class] : next.new_count, group, traced);

@@ -22,6 +22,7 @@ std::vector<test::Renderer> fast_renderers() {
     for (test::Renderer renderer : test::exact_renderers()) {
         if (renderer.tier != Tier::strict) continue;
         renderer.tier = Tier::fast;
+        if (renderer.backend == "cuda") renderer.options.specialise = test::without_waiting(Tier::fast);
         list.push_back(std::move(renderer));
     }
     return list;

@@ -27,8 +27,9 @@ struct HostLane {
         to += value;
         return to - value;
     }
-    static unsigned long long read(const unsigned long long& from) { return from; }
-    static long long cycles() { return 0; }
+    static std::uint32_t multiprocessor() { return 0; }
+    static std::uint32_t read(const std::uint32_t& from) { return from; }
+    static void write(std::uint32_t& to, std::uint32_t value) { to = value; }
     static void pause() {}
 };
 

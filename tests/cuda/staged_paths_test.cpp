@@ -65,7 +65,7 @@ Staged render_staged(const PreparedScene& scene, const RenderJob& job, std::uint
     Staged result;
     result.sums.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
     unsigned int next_pixel = 0;
-    unsigned long long waiting_blocks = 0;
+    std::vector<std::uint32_t> stages(most_paced_multiprocessors);
     std::mutex mutex;
     HostLanes::block_threads = threads;
     HostLanes::block = std::make_unique<std::barrier<>>(static_cast<std::ptrdiff_t>(threads));
@@ -76,7 +76,7 @@ Staged render_staged(const PreparedScene& scene, const RenderJob& job, std::uint
             StagedPaths<Everything, Real, LoopTracer, HostLanes> paths(
                 tracer, pixel_job, static_cast<std::uint32_t>(window.height), PathRecords<Real>(records.data(), count),
                 rare.data(), *lists, count, next_pixel, result.sums.data());
-            paths.run(GridPace<HostLanes>(waiting_blocks, 1));
+            paths.run(PairPace<HostLanes>(stages.data()));
             const std::lock_guard lock(mutex);
             result.rays += paths.counted().tally.rays;
             result.lost_media += paths.counted().tally.lost_media;
