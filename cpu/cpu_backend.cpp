@@ -121,7 +121,11 @@ class CpuScene final : public ResidentScene {
             const std::size_t count = primitive_count(*scene_);
             try {
                 require_memory(count * group_bytes_per_primitive, fmt::format("the groups of {} primitives", count));
-                arena.execute([&] { groups_.emplace(device, view_); });
+                arena.execute([&] {
+                    const CutPrimitives cut =
+                        if_it_fits(cut_triangles(view_.scene, view_.frame.bounds), count, group_bytes_per_primitive);
+                    groups_.emplace(device, view_, cut);
+                });
             } catch (const EnvironmentError&) {  // the scene has another hierarchy
             }
             group_seconds_ = watch.seconds();
@@ -172,18 +176,23 @@ class CpuScene final : public ResidentScene {
         view.embree = embree.get();
     }
 
+    /// The pieces of `count` primitives, or none if there is no memory for a hierarchy of them.
+    static CutPrimitives if_it_fits(CutPrimitives cut, std::size_t count, std::size_t bytes_each) {
+        const std::size_t pieces = cut.further.size();
+        try {
+            if (pieces > 0) {
+                require_memory((count + pieces) * bytes_each, fmt::format("the hierarchy of {} pieces", pieces));
+            }
+        } catch (const EnvironmentError&) {
+            return {};
+        }
+        return cut;
+    }
+
     /// Cuts needles among the primitives [0, count), if there is memory for their pieces.
     void cut_into_pieces(CpuSceneView& view, std::uint32_t count) {
-        cut_ = cut_primitives(view.scene, count, view.frame.bounds);
-        const std::size_t pieces = cut_.further.size();
-        if (pieces == 0) return;
-        try {
-            require_memory((count + pieces) * bvh_bytes_per_primitive,
-                           fmt::format("the hierarchy of {} pieces", pieces));
-        } catch (const EnvironmentError&) {
-            cut_ = {};
-            return;
-        }
+        cut_ = if_it_fits(cut_primitives(view.scene, count, view.frame.bounds), count, bvh_bytes_per_primitive);
+        if (cut_.further.empty()) return;
         view.cut = &cut_;
         view.first_piece = count;
     }
@@ -239,7 +248,7 @@ class CpuScene final : public ResidentScene {
         const std::uint32_t item = args->primID;
         Aabb box = item >= view.first_piece ? piece_bounds(view.scene, view.cut->further[item - view.first_piece])
                    : view.cut != nullptr && view.cut->counts[item] > 1
-                       ? piece_bounds(view.scene, {item, 0, view.cut->counts[item]})
+                       ? piece_bounds(view.scene, view.cut->first_piece(0, item))
                        : primitive_bounds(view.scene, item);
         box = view.sizes.contains(box) ? pad(box, view.frame.padding) : Aabb{};  // Embree leaves empty boxes out
         *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};

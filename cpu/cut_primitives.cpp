@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <type_traits>
+#include <utility>
 
+#include "tandem/compile/crossed_boxes.h"
 #include "tandem/kernel/shapes/body_pieces.h"
 #include "tandem/math/accurate_functions.h"
 #include "tandem/math/fp_environment.h"
@@ -48,9 +50,9 @@ class CentreCounts {
         }
     }
 
-    /// How many pieces a primitive in `box` should have, by the centres in the cells that the box meets.
-    [[nodiscard]] std::uint32_t pieces(const Aabb& box) const {
-        constexpr double more = 4;  // than pieces_along() gives; measured (docs/performance/cpu.md)
+    /// How many pieces a primitive in `box` should have, by the centres in the cells that the box meets: `more` than
+    /// pieces_along() gives.
+    [[nodiscard]] std::uint32_t pieces(const Aabb& box, double more) const {
         const Cell from = cell_of(widen(box.lower)), last = cell_of(widen(box.upper));
         const Cell to = {last.x + 1, last.y + 1, last.z + 1};
         const auto cells = static_cast<double>((to.x - from.x) * (to.y - from.y) * (to.z - from.z));
@@ -116,12 +118,24 @@ std::size_t for_each_count(std::vector<std::uint8_t>& counts, const Change& chan
     return further;
 }
 
+/// The primitives from id `first` on, with the pieces after the first of each. `further`: how many these are.
+CutPrimitives in_pieces(std::vector<std::uint8_t> counts, std::uint32_t first, std::size_t further) {
+    if (further == 0) return {};
+    CutPrimitives result{std::move(counts), {}};
+    result.further.reserve(further);
+    for (std::uint32_t place = 0; place < result.counts.size(); ++place) {
+        const std::uint8_t count = result.counts[place];
+        for (std::uint16_t i = 1; i < count; ++i) result.further.push_back({first + place, i, count});
+    }
+    return result;
+}
+
 }  // namespace
 
 Aabb piece_bounds(const SceneView& scene, const PrimitivePiece& piece) {
     Aabb box;
     visit_primitive(scene, piece.primitive, [&]<class Primitive>(const Primitive& primitive) {
-        if constexpr (std::is_base_of_v<Placement, Primitive>) {
+        if constexpr (can_have_pieces<Primitive>) {
             box = bounds_within(primitive, slab_of_piece(bounds(primitive), piece.number, piece.count));
         }
     });
@@ -129,26 +143,38 @@ Aabb piece_bounds(const SceneView& scene, const PrimitivePiece& piece) {
 }
 
 CutPrimitives cut_primitives(const SceneView& scene, std::uint32_t count, const Aabb& bounds) {
-    CutPrimitives result;
-    if (scene.masked_kinds != 0 || scene.ellipsoid_count + scene.parallelepiped_count == 0) return result;
-    result.counts.resize(count);
-    const std::size_t needles = for_each_count(result.counts, [&](std::uint32_t id, std::uint8_t& pieces) {
-        pieces = of_placement(scene, id, is_needle) ? 2 : 1;
-    });
+    constexpr double more = 4;  // measured (docs/performance/cpu.md)
+    if (scene.masked_kinds != 0 || scene.ellipsoid_count + scene.parallelepiped_count == 0) return {};
+    std::vector<std::uint8_t> counts(count);
+    const std::size_t needles = for_each_count(
+        counts, [&](std::uint32_t id, std::uint8_t& pieces) { pieces = of_placement(scene, id, is_needle) ? 2 : 1; });
     if (needles == 0) return {};
     const CentreCounts centres(scene, bounds);
-    const std::size_t further = for_each_count(result.counts, [&](std::uint32_t id, std::uint8_t& pieces) {
+    const std::size_t further = for_each_count(counts, [&](std::uint32_t id, std::uint8_t& pieces) {
         if (pieces == 1) return;
-        pieces = static_cast<std::uint8_t>(centres.pieces(primitive_bounds(scene, id)));
+        pieces = static_cast<std::uint8_t>(centres.pieces(primitive_bounds(scene, id), more));
         const auto pays = [&](const Placement& placement) { return are_small(placement, pieces); };
         if (pieces > 1 && !of_placement(scene, id, pays)) pieces = 1;
     });
-    if (further == 0) return {};
-    result.further.reserve(further);
-    for (std::uint32_t id = 0; id < count; ++id) {
-        for (std::uint16_t i = 1; i < result.counts[id]; ++i) result.further.push_back({id, i, result.counts[id]});
-    }
-    return result;
+    return in_pieces(std::move(counts), 0, further);
+}
+
+// Chosen by measurement (docs/performance/cpu.md).
+CutPrimitives cut_triangles(const SceneView& scene, const Aabb& bounds) {
+    constexpr double least_crossed = 500, more = 0.5;
+    constexpr std::uint32_t least_pieces = 6;
+    if (scene.masked_kinds != 0 || crossed_boxes(scene, bounds) < least_crossed) return {};
+    std::vector<std::uint8_t> counts(scene.triangle_count);
+    const std::size_t slivers = for_each_count(
+        counts, [&](std::uint32_t i, std::uint8_t& pieces) { pieces = is_sliver(scene.triangles[i]) ? 2 : 1; });
+    if (slivers == 0) return {};
+    const CentreCounts centres(scene, bounds);
+    const std::size_t further = for_each_count(counts, [&](std::uint32_t i, std::uint8_t& pieces) {
+        if (pieces == 1) return;
+        const std::uint32_t fitting = centres.pieces(tandem::bounds(scene.triangles[i]), more);
+        pieces = fitting < least_pieces ? 1 : static_cast<std::uint8_t>(fitting);
+    });
+    return in_pieces(std::move(counts), primitive_count(scene) - scene.triangle_count - scene.quad_count, further);
 }
 
 }  // namespace tandem

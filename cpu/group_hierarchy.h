@@ -9,10 +9,10 @@ namespace tandem {
 /// Neither copied nor moved, because its view has its address.
 class GroupHierarchy {
   public:
-    /// `scene`: its arrays outlive the hierarchy. To be called in a TBB arena. Throws EnvironmentError if there
-    /// is not enough memory.
-    GroupHierarchy(RTCDevice device, const CpuSceneView& scene)
-        : groups_(make_groups(device, scene.scene, scene.frame.padding.least)),
+    /// `scene`: its arrays outlive the hierarchy. `cut`: as for make_groups(). To be called in a TBB arena. Throws
+    /// EnvironmentError if there is not enough memory.
+    GroupHierarchy(RTCDevice device, const CpuSceneView& scene, const CutPrimitives& cut)
+        : groups_(make_groups(device, scene.scene, cut, scene.frame.padding.least)),
           group_view_(groups_.view()),
           view_(scene) {
         view_.groups = &group_view_;

@@ -43,10 +43,10 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned int count, void*)
 void* make_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
     auto* leaf = static_cast<Leaf*>(rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf)));
     leaf->children = 0;
-    leaf->count = static_cast<std::uint32_t>(count);
     for (std::size_t i = 0; i < count; ++i) leaf->id[i] = primitives[i].primID;
-    // their order depends on the threads
+    // their order depends on the threads; and pieces of one primitive may meet
     std::sort(leaf->id, leaf->id + count);
+    leaf->count = static_cast<std::uint32_t>(std::unique(leaf->id, leaf->id + count) - leaf->id);
     return static_cast<TreeNode*>(leaf);
 }
 
@@ -123,21 +123,22 @@ class GroupMaker {
         : device_(device), scene_(scene), margin_(margin) {}
 
     template <class Group>
-    HugePageVector<Group> make(std::uint32_t first, std::uint32_t count) {
+    HugePageVector<Group> make(std::uint32_t first, std::uint32_t count, const CutPrimitives& cut = {}) {
         if (count == 0) return {};
-        std::vector<RTCBuildPrimitive> boxes(count);
+        std::vector<RTCBuildPrimitive> boxes(count + cut.further.size());
         Aabb all;
-        for_all(count, [&](std::size_t i) {
-            const std::uint32_t id = first + static_cast<std::uint32_t>(i);
-            const Aabb box = primitive_bounds(scene_, id);
-            boxes[i] = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, id};
+        for_all(boxes.size(), [&](std::size_t i) {
+            const PrimitivePiece piece = i < count ? cut.first_piece(first, i) : cut.further[i - count];
+            const Aabb box = piece.count > 1 ? piece_bounds(scene_, piece) : primitive_bounds(scene_, piece.primitive);
+            boxes[i] = {box.lower.x, box.lower.y, box.lower.z, 0,
+                        box.upper.x, box.upper.y, box.upper.z, piece.primitive};
         });
         for (const RTCBuildPrimitive& box : boxes) all = merge(all, box_of(box));
         const EmbreeTree tree(rtcNewBVH(device_));
         RTCBuildArguments arguments = rtcDefaultBuildArguments();
         arguments.bvh = tree.get();
         arguments.primitives = boxes.data();
-        arguments.primitiveCount = arguments.primitiveArrayCapacity = count;
+        arguments.primitiveCount = arguments.primitiveArrayCapacity = boxes.size();
         arguments.maxBranchingFactor = group_node_width;
         arguments.maxDepth = group_depth - 1;
         arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = group_size;
@@ -189,13 +190,13 @@ GroupView PrimitiveGroups::view() const {
             quads.data(), size(bodies), size(triangles), size(quads)};
 }
 
-PrimitiveGroups make_groups(RTCDevice device, const SceneView& scene, float margin) {
+PrimitiveGroups make_groups(RTCDevice device, const SceneView& scene, const CutPrimitives& cut, float margin) {
     const std::uint32_t triangles = scene.triangle_count, quads = scene.quad_count;
     const std::uint32_t bodies = primitive_count(scene) - triangles - quads;
     GroupMaker maker(device, scene, margin);
     PrimitiveGroups groups;
     groups.bodies = maker.make<BodyGroup>(0, bodies);
-    groups.triangles = maker.make<TriangleGroup>(bodies, triangles);
+    groups.triangles = maker.make<TriangleGroup>(bodies, triangles, cut);
     groups.quads = maker.make<QuadGroup>(bodies + triangles, quads);
     groups.root = maker.join();
     groups.nodes = maker.take_nodes();

@@ -11,7 +11,6 @@
 
 #include "cuda/build_tree.h"
 #include "cuda/leaf_items.h"
-#include "tandem/math/lengths.h"
 
 namespace tandem::cuda {
 
@@ -53,11 +52,8 @@ __device__ inline std::uint32_t pieces_in(const Aabb& box, double more, const So
 
 __device__ inline std::uint32_t pieces_of(const Triangle& triangle, const SortedPrimitives& sorted, std::uint32_t place,
                                           double cells_per_metre) {
-    constexpr double thick = 8;  // the largest area of the box, seen along an axis, over that of the triangle
-    const Aabb box = bounds(triangle);
-    const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
-    if (!(wide_half_area(box) > thick * 0.5 * length(normal))) return 1;
-    return pieces_in(box, 1, sorted, place, cells_per_metre);
+    if (!is_sliver(triangle)) return 1;
+    return pieces_in(bounds(triangle), 1, sorted, place, cells_per_metre);
 }
 
 __device__ inline std::uint32_t pieces_of(const Placement& solid, const SortedPrimitives& sorted, std::uint32_t place,

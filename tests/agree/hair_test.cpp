@@ -1,5 +1,5 @@
-// Triangles as thin as hair, on every backend. Hierarchies on the GPU hold them in pieces (cuda/cut_kernels.h), and no
-// ray passes between two of them.
+// Triangles as thin as hair, on every backend. Hierarchies hold them in pieces (cuda/cut_kernels.h,
+// cpu/cut_primitives.h), and no ray passes between two of them.
 
 #include "support/hair.h"
 
@@ -27,6 +27,13 @@ TEST_P(Hair, IsHitWhereItIs) {
         };
         EXPECT_GT(std::count_if(hits.begin(), hits.end(), is_of_hair), 1'000);
     }
+}
+
+// So many that the CPU traces single rays through groups, which hold them in pieces (cpu/cut_primitives.h).
+TEST_P(Hair, InGroupsIsHitWhereItIs) {
+    test::Random random(43);
+    const PreparedScene scene = test::hair(random, 20'000, 100);
+    expect_hits_of_the_loop(scene, test::rays_at_hair(scene, random, 500), "20,000 hairs");
 }
 
 // On the CPU: the first packet that is split makes the groups, which count as a build.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/hair.h"
 #include "support/needles.h"
 
 namespace tandem {
@@ -69,6 +70,33 @@ TEST(CutPrimitives, AreNoneOfExtremeShapes) {
         body.object_from_world.row[0] = body.object_from_world.row[0] * 1e9;
     }
     EXPECT_EQ(pieces_of(scene), 0U);
+}
+
+TEST(CutTriangles, AreLongOnesAmongMany) {
+    test::Random random(13);
+    const PreparedScene scene = test::hair(random, 20'000, 7);
+    const CutPrimitives result = cut_triangles(view(scene), bounds_of(view(scene)));
+    ASSERT_EQ(result.counts.size(), 20'000U);
+    EXPECT_GT(result.further.size(), 100'000U);
+    EXPECT_EQ(result.first_piece(7, 2).primitive, 9U);
+    for (const PrimitivePiece& piece : result.further) {
+        ASSERT_GE(piece.primitive, 7U) << "a sphere";
+        EXPECT_EQ(piece.count, result.counts[piece.primitive - 7]);
+        EXPECT_TRUE(piece.number >= 1 && piece.number < piece.count);
+    }
+    const PreparedScene few = test::hair(random, 2'000);
+    EXPECT_TRUE(cut_triangles(view(few), bounds_of(view(few))).further.empty()) << "a line hits few boxes";
+}
+
+TEST(CutTriangles, AreNoThickOrMaskedOnes) {
+    test::Random random(14);
+    PreparedScene scene = test::hair(random, 20'000);
+    SceneView masked = view(scene);
+    masked.masked_kinds = PrimitiveKinds::triangle;
+    EXPECT_TRUE(cut_triangles(masked, bounds_of(masked)).further.empty());
+    EXPECT_FALSE(cut_triangles(view(scene), bounds_of(view(scene))).further.empty());
+    for (Triangle& t : scene.triangles) t.v2 = t.v0 + Vec3f{t.v0.y - t.v1.y, t.v1.x - t.v0.x, 0};
+    EXPECT_TRUE(cut_triangles(view(scene), bounds_of(view(scene))).further.empty());
 }
 
 TEST(CutPrimitives, AreNoneInScenesWithAlphaMasks) {

@@ -75,7 +75,7 @@ class GroupTracer : public ::testing::TestWithParam<std::tuple<InstructionSet, T
     template <class Real>
     void expect_bits_as(const PreparedScene& prepared, const std::vector<Ray<float>>& rays, const std::string& what) {
         const LoopTracer loop = {view(prepared)};
-        const GroupHierarchy scene(device_.get(), plain_view(prepared));
+        const GroupHierarchy scene(device_.get(), plain_view(prepared), {});
         const Batch first = {rays, {}, {}};
         compare<Real>(scene, loop, first, what);
         if (HasFatalFailure()) return;
@@ -194,7 +194,7 @@ TEST(GroupTracerInFast, FindsNearlyAllHits) {
     for (const InstructionSet& set : instruction_sets()) {
         if (!set.is_supported()) continue;
         const TierKernels& kernels = set.kernels(Tier::fast);
-        const GroupHierarchy hierarchy(device.get(), plain_view(prepared));
+        const GroupHierarchy hierarchy(device.get(), plain_view(prepared), {});
         std::vector<Hit> hits(rays.size());
         trace_single_rays(kernels, hierarchy, {.rays = rays, .hits = hits});
         std::size_t found = 0, same = 0;
@@ -217,7 +217,7 @@ TEST_P(GroupTracer, TracesCoherentRaysOneByOneWhereItShall) {
     half.spheres.resize(1000);
     half.material_of.resize(1000);
     const EmbreeDevice device(rtcNewDevice(nullptr));
-    const GroupHierarchy groups(device.get(), plain_view(half));
+    const GroupHierarchy groups(device.get(), plain_view(half), {});
     std::vector<Ray<float>> rays;
     for (int i = 0; i < 64 * 64; ++i) {
         const double x = i % 64 / 64.0 - 0.5, y = i / 64 / 64.0 - 0.5;

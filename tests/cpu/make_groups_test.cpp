@@ -1,4 +1,4 @@
-// Every primitive is in one group, with its own numbers.
+// Every primitive is in one group, or a triangle in the groups of its pieces, with its own numbers.
 #include "cpu/make_groups.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 
 #include "cpu/embree_handles.h"
 #include "cpu/group_walk.h"
+#include "support/hair.h"
 #include "support/hard_scenes.h"
 #include "tandem/compile/prepare.h"
 #include "tandem/compile/prepared_scene.h"
@@ -20,8 +21,8 @@ constexpr float margin = 0.125F;
 
 class Groups : public ::testing::Test {
   protected:
-    [[nodiscard]] PrimitiveGroups make(const PreparedScene& scene) const {
-        return make_groups(device_.get(), view(scene), margin);
+    [[nodiscard]] PrimitiveGroups make(const PreparedScene& scene, const CutPrimitives& cut = {}) const {
+        return make_groups(device_.get(), view(scene), cut, margin);
     }
 
   private:
@@ -146,6 +147,45 @@ TEST_F(Groups, HoldEveryPrimitiveOnce) {
     for (const char* name : {"mixed/5000", "icosphere/4", "quads/1000", "spheres/1", "spheres/7", "spheres/8"}) {
         const PreparedScene scene = prepare(named_scene(name));
         expect_all_once(make(scene), scene, name);
+    }
+}
+
+/// Whether a group below a child of the tree has a primitive, with a point in all boxes on the way there.
+bool holds(const PrimitiveGroups& groups, std::uint32_t child, std::uint32_t id, const Vec3f& point) {
+    if ((child & group_bit) != 0) {
+        const auto& ids = ids_of(groups.view(), child & ~group_bit);
+        return std::find(std::begin(ids), std::end(ids), id) != std::end(ids);
+    }
+    const GroupNode& node = groups.nodes.at(child);
+    for (int i = 0; i < group_node_width; ++i) {
+        bool is_inside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            is_inside = is_inside && node.plane[axis][i] <= point[axis] && point[axis] <= node.plane[3 + axis][i];
+        }
+        if (is_inside && holds(groups, node.child[i], id, point)) return true;
+    }
+    return false;
+}
+
+TEST_F(Groups, HoldAllPointsOfTrianglesInPieces) {
+    test::Random random(12);
+    const PreparedScene scene = test::hair(random, 3'000, 5);
+    CutPrimitives cut;
+    cut.counts.assign(scene.triangles.size(), 9);
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        for (std::uint16_t k = 1; k < 9; ++k) cut.further.push_back({5 + i, k, 9});
+    }
+    const PrimitiveGroups groups = make(scene, cut);
+    std::vector<int> seen(primitive_count(scene));
+    (void)check(groups.triangles, scene, seen);
+    EXPECT_LE(*std::max_element(seen.begin(), seen.end()), 9);
+    EXPECT_GT(std::count_if(seen.begin(), seen.end(), [](int times) { return times > 5; }), 2'000);
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        const float u = random.uniform(0.0F, 1.0F), v = random.uniform(0.0F, 1 - u);
+        for (const Vec3f& point : {t.v0, t.v1, t.v2, t.v0 + (t.v1 - t.v0) * u + (t.v2 - t.v0) * v}) {
+            EXPECT_TRUE(holds(groups, groups.root, 5 + i, point)) << "triangle " << i;
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-/// Triangles as thin as hair, which hierarchies on the GPU hold in pieces (cuda/cut_kernels.h).
+/// Triangles as thin as hair, which hierarchies hold in pieces (cuda/cut_kernels.h, cpu/cut_primitives.h).
 #pragma once
 
 #include <cmath>

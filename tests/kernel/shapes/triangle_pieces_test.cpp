@@ -75,6 +75,13 @@ TEST(TrianglePieces, OfThinTrianglesAreSmall) {
     }
 }
 
+TEST(TrianglePieces, AreOfSlivers) {
+    EXPECT_TRUE(is_sliver({{0, 0, 0}, {1, 1, 1}, {0, 0.01F, 0}}));
+    EXPECT_FALSE(is_sliver({{0, 0, 0}, {1, 0, 0}, {0, 0.01F, 0}})) << "along an axis";
+    EXPECT_FALSE(is_sliver({{0, 0, 0}, {1, 1, 1}, {1, 0, 0}}));
+    EXPECT_FALSE(is_sliver({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}})) << "a point";
+}
+
 TEST(TrianglePieces, LieWithinTheTrianglesBox) {
     const Triangle triangle{{0, 0, 0}, {8, 4, 0}, {8, 0, 2}};
     const Aabb second = piece(triangle, 1, 2);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "tandem/kernel/shapes/triangle.h"
+#include "tandem/math/lengths.h"
 
 namespace tandem {
 
@@ -54,6 +55,15 @@ TANDEM_HD_INLINE void add_within(const Vec3d& p, const Vec3d& q, const Slab& sla
     };
     cross(slab.lower);
     cross(slab.upper);
+}
+
+/// Whether the box of a triangle, seen along an axis, is much larger than the triangle: then it is long and thin, and
+/// lies along no axis.
+TANDEM_HD_INLINE bool is_sliver(const Triangle& triangle) {
+    constexpr double thick = 8;
+    const Aabb box = bounds(triangle);
+    const Vec3d normal = cross(widen(triangle.v1) - widen(triangle.v0), widen(triangle.v2) - widen(triangle.v0));
+    return wide_half_area(box) > thick * 0.5 * length(normal);
 }
 
 /// The bounds of the part of a triangle in a slab; empty if there is none.
