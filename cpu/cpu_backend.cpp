@@ -151,7 +151,9 @@ class CpuScene final : public ResidentScene {
         }
         const double crossed = crossed_boxes(view_.scene, view_.frame.bounds);
         groups_pay_ = smaller_.empty() && groups_pay(*scene_, crossed, tier());  // groups have one layer
-        if (groups_pay_ && crossed > very_many_boxes) {
+        if (groups_pay_ && may_cut_triangles(view_.scene, view_.frame.bounds)) {
+            widest_packet_ = 0;
+        } else if (groups_pay_ && crossed > very_many_boxes) {
             const Vec3f extent = view_.frame.bounds.upper - view_.frame.bounds.lower;
             widest_packet_ = wide_packet(kernels.packet_rays) * max_norm(widen(extent)) / accurate_cbrt(count);
         }

@@ -159,11 +159,16 @@ CutPrimitives cut_primitives(const SceneView& scene, std::uint32_t count, const 
     return in_pieces(std::move(counts), 0, further);
 }
 
-// Chosen by measurement (docs/performance/cpu.md).
+// These numbers are chosen by measurement (docs/performance/cpu.md).
+bool may_cut_triangles(const SceneView& scene, const Aabb& bounds) {
+    constexpr double least_boxes = 300;
+    return scene.masked_kinds == 0 && boxes_before_a_hit(scene, bounds) > least_boxes;
+}
+
 CutPrimitives cut_triangles(const SceneView& scene, const Aabb& bounds) {
-    constexpr double least_crossed = 500, more = 0.5;
+    constexpr double more = 0.5;
     constexpr std::uint32_t least_pieces = 6;
-    if (scene.masked_kinds != 0 || crossed_boxes(scene, bounds) < least_crossed) return {};
+    if (!may_cut_triangles(scene, bounds)) return {};
     std::vector<std::uint8_t> counts(scene.triangle_count);
     const std::size_t slivers = for_each_count(
         counts, [&](std::uint32_t i, std::uint8_t& pieces) { pieces = is_sliver(scene.triangles[i]) ? 2 : 1; });

@@ -39,11 +39,15 @@ struct CutPrimitives {
 ///         most_pieces. The primitives near are counted in a grid.
 [[nodiscard]] CutPrimitives cut_primitives(const SceneView& scene, std::uint32_t count, const Aabb& bounds);
 
-/// For groups (cpu/make_groups.h): cuts long, thin triangles, where many others are near. Only in scenes where a line
-/// hits very many boxes of triangles: elsewhere the pieces take longer to build than they save. Likewise.
+/// For groups (cpu/make_groups.h): cuts long, thin triangles, where many others are near. Only if may_cut_triangles().
+/// Likewise.
 ///
 /// Method: as above, with one piece for each primitive that fits along the box, and at least six.
 [[nodiscard]] CutPrimitives cut_triangles(const SceneView& scene, const Aabb& bounds);
+
+/// Whether rays enter so many boxes of triangles before they hit one that pieces save more time than they take to
+/// build. There coherent rays are faster through groups too, however narrow their packets are.
+[[nodiscard]] bool may_cut_triangles(const SceneView& scene, const Aabb& bounds);
 
 /// The bounds of a piece, not padded.
 [[nodiscard]] Aabb piece_bounds(const SceneView& scene, const PrimitivePiece& piece);

@@ -9,13 +9,15 @@
 namespace tandem {
 namespace {
 
-double crossed(const char* name) {
+template <class Estimate>
+double estimate(const char* name, const Estimate& of) {
     const PreparedScene prepared = prepare(named_scene(name));
     const SceneView scene = view(prepared);
     Aabb all;
     for (std::uint32_t id = 0; id < primitive_count(scene); ++id) all = merge(all, primitive_bounds(scene, id));
-    return crossed_boxes(scene, all);
+    return of(scene, all);
 }
+double crossed(const char* name) { return estimate(name, crossed_boxes); }
 
 TEST(CrossedBoxes, AreManyAmongLooseTrianglesAndMoreAmongHair) {
     EXPECT_EQ(crossed("spheres/1000"), 0);
@@ -23,6 +25,13 @@ TEST(CrossedBoxes, AreManyAmongLooseTrianglesAndMoreAmongHair) {
     const double loose = crossed("triangles/20000"), more = crossed("triangles/160000");
     EXPECT_NEAR(more / loose, 2, 0.2);  // with the cube root of their number
     EXPECT_GT(crossed("hair/20000"), 10 * loose);
+}
+
+// The lines that enter a closed mesh leave it.
+TEST(BoxesBeforeAHit, AreFewerWhereTrianglesAreHit) {
+    EXPECT_NEAR(crossed("icosphere/6") / estimate("icosphere/6", boxes_before_a_hit), 1 + 2 * 0.52, 0.1);
+    EXPECT_GT(estimate("hair/20000", boxes_before_a_hit), 0.9 * crossed("hair/20000"));
+    EXPECT_EQ(estimate("spheres/1000", boxes_before_a_hit), 0);
 }
 
 TEST(CrossedBoxes, OfOneBoxIsItsShare) {

@@ -9,16 +9,21 @@
 
 namespace tandem::test {
 
+struct HairShape {
+    float reach = 1;  ///< how far each goes on its way to another place in the cube
+    float width = 1;  ///< of 2^-5 to 2^-2 metres
+};
+
 /// `count` of them in a cube of two metres around the origin, and `spheres` small spheres, whose ids come first.
-inline PreparedScene hair(Random& random, std::uint32_t count, std::uint32_t spheres = 0) {
+inline PreparedScene hair(Random& random, std::uint32_t count, std::uint32_t spheres = 0, HairShape shape = {}) {
     const auto anywhere = [&] {
         return Vec3f{random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F)};
     };
     PreparedScene scene;
     for (std::uint32_t i = 0; i < spheres; ++i) scene.spheres.push_back({anywhere(), 0.02F});
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Vec3f root = anywhere(), tip = anywhere();
-        const float width = std::abs(random.log_uniform(-5.0, -2.0));
+        const Vec3f root = anywhere(), tip = root + (anywhere() - root) * shape.reach;
+        const float width = shape.width * std::abs(random.log_uniform(-5.0, -2.0));
         Triangle triangle{root, tip, root + anywhere() * width};
         triangle.attributes.sides = FaceSides::double_sided;
         scene.triangles.push_back(triangle);
