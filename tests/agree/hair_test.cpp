@@ -38,37 +38,30 @@ TEST_P(Hair, InGroupsIsHitWhereItIs) {
 
 /// On the CPU: 512 coherent rays, `step` apart, have the hits of the loop. Returns whether they made the groups, as the
 /// first packet that is split does; these count as a build.
-bool makes_groups(const PreparedScene& scene, Backend& backend, ResidentScene& resident, float step) {
+bool make_groups(const PreparedScene& scene, float step) {
     const LoopTracer loop{view(scene)};
-    const double before = resident.load_times().build;
+    const auto backend = make_backend("cpu");
+    const auto resident = backend->load(scene);
+    const double before = resident->load_times().build;
     std::vector<Ray<float>> rays;
     for (int i = 0; i < 512; ++i) {
         const auto x = static_cast<float>(i % 16), y = static_cast<float>(i) / 16;
         rays.push_back({{0, 0, 4}, {step * (x + 1), step * y * 0.1F, -1}});
     }
     std::vector<Hit> hits(rays.size());
-    backend.trace(resident, rays, hits);
+    backend->trace(*resident, rays, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         EXPECT_EQ(hits[i].primitive, loop.closest(rays[i], NoSource{}, true).primitive) << step << ", ray " << i;
     }
-    return resident.load_times().build > before;
+    return resident->load_times().build > before;
 }
 
-TEST(HairInPackets, IsTracedOneByOneOnlyIfPacketsAreWide) {
+TEST(HairInPackets, IsTracedOneByOneIfPacketsAreWideOrItIsCut) {
     test::Random random(42);
     const PreparedScene scene = test::hair(random, 20'000, 0, {.reach = 0.3F});
-    const auto backend = make_backend("cpu");
-    const auto resident = backend->load(scene);
-    EXPECT_FALSE(makes_groups(scene, *backend, *resident, 1e-4F));
-    EXPECT_TRUE(makes_groups(scene, *backend, *resident, 0.01F));
-}
-
-TEST(HairInPackets, IsTracedOneByOneWhereItIsCut) {
-    test::Random random(44);
-    const PreparedScene scene = test::hair(random, 20'000, 0, {.width = 0.01F});
-    const auto backend = make_backend("cpu");
-    const auto resident = backend->load(scene);
-    EXPECT_TRUE(makes_groups(scene, *backend, *resident, 1e-4F));
+    EXPECT_FALSE(make_groups(scene, 1e-4F));
+    EXPECT_TRUE(make_groups(scene, 0.01F));
+    EXPECT_TRUE(make_groups(test::hair(random, 20'000, 0, {.width = 0.01F}), 1e-4F)) << "cut";
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Hair, testing::ValuesIn(test::exact_renderers()), test::test_name);
