@@ -40,7 +40,7 @@ struct CutPrimitives {
 [[nodiscard]] CutPrimitives cut_primitives(const SceneView& scene, std::uint32_t count, const Aabb& bounds);
 
 /// For groups (cpu/make_groups.h): cuts long, thin triangles, where many others are near. Only if may_cut_triangles().
-/// Likewise.
+/// `bounds`: of the scene. To be called in a TBB arena.
 ///
 /// Method: as above, with one piece for each primitive that fits along the box, and at least six.
 [[nodiscard]] CutPrimitives cut_triangles(const SceneView& scene, const Aabb& bounds);

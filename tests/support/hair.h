@@ -11,7 +11,7 @@ namespace tandem::test {
 
 struct HairShape {
     float reach = 1;  ///< how far each goes on its way to another place in the cube
-    float width = 1;  ///< of 2^-5 to 2^-2 metres
+    float width = 1;  ///< times 2^-5 to 2^-2 metres, at random
 };
 
 /// `count` of them in a cube of two metres around the origin, and `spheres` small spheres, whose ids come first.
