@@ -58,6 +58,13 @@ struct RenderGrid {
     return samples_at_a_time(samples, 8, 5);
 }
 
+/// The memory of paths in stages (cuda/staged_memory.h).
+struct StagedMemory {
+    std::uint32_t most_paths = 0;  ///< of a block
+    std::size_t path_bytes = 0;    ///< of shared memory, for the records of a path
+    std::size_t rare_bytes = 0;    ///< of device memory, likewise
+};
+
 /// How many paths in stages a block follows, up to `most`: several for each of its `threads`, but so few that each
 /// place for a path has several pixels one after the other. Otherwise most places are empty while the last pixels end.
 /// `pixels`: of each block. Measured on an H200 (docs/performance/paths.md).
@@ -83,8 +90,8 @@ inline RenderGrid shared_pixels(std::uint32_t width, std::uint32_t height, unsig
 /// A grid with this number of blocks on each multiprocessor of the current GPU; together these are as large as one
 /// block of the kernel may be.
 [[nodiscard]] RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocessor);
-/// A grid for paths in stages: one block on each multiprocessor, with shared memory for `path_bytes` of each of its
-/// paths. Allows the kernel to use as much.
-[[nodiscard]] RenderGrid staged_grid(const void* kernel, std::size_t path_bytes, std::uint64_t pixels);
+/// A grid for paths in stages: one block on each multiprocessor, with shared memory for its paths. Allows the kernel to
+/// use as much.
+[[nodiscard]] RenderGrid staged_grid(const void* kernel, const StagedMemory& memory, std::uint64_t pixels);
 
 }  // namespace tandem::cuda

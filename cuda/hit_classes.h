@@ -15,7 +15,7 @@ struct HitClasses {
 
     std::uint32_t words[most_materials];  ///< material_class()
     std::uint8_t first[most_materials];   ///< the first material with the same word
-    std::uint8_t ranks[most_materials];   ///< the number of the word among those of all materials
+    std::uint8_t ranks[most_materials];   ///< of the word among the different ones: 0 for the one with most parts
     std::uint32_t rank_count;
 
     /// All threads of the block call it. Before a thread calls of(), all have to wait for each other.
@@ -32,22 +32,30 @@ struct HitClasses {
             while (words[same] != words[i]) ++same;
             first[i] = static_cast<std::uint8_t>(same);
         });
-        const auto firsts_before = [&](std::uint32_t end) {
+        const auto count_firsts = [&](auto where) {
             std::uint32_t found = 0;
-            for (std::uint32_t i = 0; i < end; ++i) found += first[i] == i ? 1U : 0U;
+            for (std::uint32_t i = 0; i < materials; ++i) found += first[i] == i && where(i) ? 1U : 0U;
             return found;
         };
-        for_each_material([&](std::uint32_t i) { ranks[i] = static_cast<std::uint8_t>(firsts_before(first[i])); });
-        if (Lanes::thread() == 0) rank_count = firsts_before(materials);
+        for_each_material([&](std::uint32_t i) {
+            const int parts = count_bits(words[i]);
+            ranks[i] = static_cast<std::uint8_t>(count_firsts([&](std::uint32_t other) {
+                const int others = count_bits(words[other]);
+                return others > parts || (others == parts && other < first[i]);
+            }));
+        });
+        if (Lanes::thread() == 0) rank_count = count_firsts([](std::uint32_t) { return true; });
     }
 
     /// The class of a hit: a number below `count`, the same for hits that need the same code. Others have the same one
-    /// only if there are more classes than numbers. `kinds`: of the tracer.
+    /// only if there are more classes than numbers. Hits of materials with many parts have low numbers, and of these,
+    /// hits on faces: if they are shaded first, no warp begins their long code while others already wait for the end of
+    /// the stage. `kinds`: of the tracer.
     template <std::uint32_t kinds>
     [[nodiscard]] TANDEM_HD std::uint32_t of(const SceneView& scene, std::uint32_t primitive) const {
         const std::uint32_t material = material_of<kinds>(scene, primitive);
         const std::uint32_t rank = material < most_materials ? ranks[material] : rank_count;
-        return (kind_number<kinds>(scene, primitive) * (rank_count + 1) + rank) % count;
+        return ((rank + 1) * kind_count<kinds>() - 1 - kind_number<kinds>(scene, primitive)) % count;
     }
 };
 

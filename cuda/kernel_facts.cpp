@@ -3,7 +3,6 @@
 #include "cuda/block_shape.h"
 #include "cuda/cuda_error.h"
 #include "cuda/kernels.h"
-#include "cuda/stage_lists.h"
 
 namespace tandem::cuda {
 
@@ -35,19 +34,16 @@ RenderGrid pixel_queue(const void* kernel, unsigned int blocks_per_multiprocesso
             dim3(std::max(threads / blocks_per_multiprocessor / warp, 1U) * warp)};
 }
 
-RenderGrid staged_grid(const void* kernel, std::size_t path_bytes, std::uint64_t pixels) {
-    // The rest of 256 KB is a cache, which spilled registers need.
-    constexpr std::size_t most_record_bytes = 147 * 1024;
+RenderGrid staged_grid(const void* kernel, const StagedMemory& memory, std::uint64_t pixels) {
     RenderGrid grid = pixel_queue(kernel, 1);
     const std::size_t room =
         static_cast<std::size_t>(fact(cudaDevAttrMaxSharedMemoryPerBlockOptin)) - attributes_of(kernel).sharedSizeBytes;
-    const std::size_t most =
-        std::min<std::size_t>(std::min(room, most_record_bytes) / path_bytes, StageLists::most_paths);
+    const std::size_t most = std::min<std::size_t>(room / memory.path_bytes, memory.most_paths);
     const std::uint32_t paths = staged_paths(pixels / grid.blocks.x, grid.threads.x, static_cast<std::uint32_t>(most));
-    grid.shared_bytes = paths * path_bytes;
-    check(
-        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(most * path_bytes)),
-        "reserving shared memory");
+    grid.shared_bytes = paths * memory.path_bytes;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                               static_cast<int>(most * memory.path_bytes)),
+          "reserving shared memory");
     return grid;
 }
 

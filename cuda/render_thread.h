@@ -144,14 +144,14 @@ __device__ __forceinline__ void render_in_stages(const Tracer& tracer, const Pix
                                                  DeviceCounters* __restrict__ counters) {
     using Rare = RarePathRecords<Real>;
     extern __shared__ uint4 records[];
-    __shared__ StageLists lists;
+    __shared__ StageListsOf<Real> lists;
     std::uint32_t bytes = 0;
     asm("mov.u32 %0, %dynamic_smem_size;" : "=r"(bytes));
     const std::uint32_t count =
-        min(bytes / static_cast<std::uint32_t>(PathRecords<Real>::bytes), StageLists::most_paths);
+        min(bytes / static_cast<std::uint32_t>(PathRecords<Real>::bytes), most_staged_paths<Real>);
     StagedPaths<Effects, Real, Tracer, DeviceLanes> paths(
         tracer, job, height, PathRecords<Real>(records, count),
-        static_cast<Rare*>(rare) + std::size_t{blockIdx.x} * StageLists::most_paths, lists, count,
+        static_cast<Rare*>(rare) + std::size_t{blockIdx.x} * most_staged_paths<Real>, lists, count,
         counters->next_in_queue, sums);
     paths.run(PairPace<DeviceLanes>(counters->stages));
     tandem::cuda::count<Effects>(paths.counted(), threadIdx.x, counters);

@@ -6,11 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "cuda/block_shape.h"
 #include "cuda/cubin_facts.h"
 #include "cuda/specialise.h"
-#include "cuda/stage_lists.h"
-#include "cuda/stored_path.h"
+#include "cuda/staged_memory.h"
 #include "tandem/base/error.h"
 #include "tandem/base/seconds.h"
 #include "tandem/kernel/surface_lobes.h"
@@ -222,8 +220,8 @@ bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts,
     return width <= most_pixels_across && height <= most_pixels_across;
 }
 
-std::size_t staged_path_bytes(Tier tier) {
-    return tier == Tier::precise ? PathRecords<double>::bytes : PathRecords<float>::bytes;
+StagedMemory staged_memory(Tier tier) {
+    return tier == Tier::precise ? staged_memory_of<double>() : staged_memory_of<float>();
 }
 
 SceneKernels::SceneKernels(int architecture) : architecture_(architecture), cache_(kernel_cache_folder()) {}
@@ -243,8 +241,8 @@ SceneKernels::Found SceneKernels::find(Tier tier, const DeviceSceneView& scene, 
             const auto cubin = cubin_facts(made.cubin, kernel_name);
             const std::size_t code_bytes = cubin ? cubin->code.size() : 0;
             const unsigned int blocks = has_queue(facts) ? queue_blocks(input.tier, structure, code_bytes) : 0;
-            const std::size_t path_bytes = facts.in_stages != 0 ? staged_path_bytes(input.tier) : 0;
-            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks, path_bytes,
+            const StagedMemory staged = facts.in_stages != 0 ? staged_memory(input.tier) : StagedMemory{};
+            place->second.reset(new SceneKernel{LoadedCode(made.cubin, kernel_name), blocks, staged,
                                                 "rendering with a kernel linked for the scene"});
             if (!made.cache_problem.empty()) warn("kernel cache: " + made.cache_problem);
         } catch (const std::exception& error) {
@@ -272,14 +270,14 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
         const int registers = most_registers(kernel_tier(tier, structure), effects);
         // with all effects the code is too large for two blocks
         kernel.reset(
-            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, 0, "rendering"});
+            new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, {}, "rendering"});
     }
     return *kernel;
 }
 
 std::size_t radiance_bytes(const SceneKernel& kernel, const DeviceSceneView& scene) {
-    if (kernel.staged_path_bytes > 0) {
-        return std::size_t{multiprocessor_count()} * StageLists::most_paths * sizeof(RarePathRecords<double>);
+    if (kernel.staged.most_paths > 0) {
+        return std::size_t{multiprocessor_count()} * kernel.staged.most_paths * kernel.staged.rare_bytes;
     }
     if (kernel.queue_blocks == 0 || !has_hierarchy(scene)) return 0;
     return std::size_t{multiprocessor_count()} * most_queue_threads * waiting_sets * sizeof(Vec3d);
@@ -294,8 +292,8 @@ void launch_render(const SceneKernel& kernel, const DeviceSceneView& scene, cons
             job.samples, is_instanced ? std::numeric_limits<std::size_t>::max() : primitive_count(scene.scene));
     }
     const void* function = kernel.code.function();
-    const RenderGrid grid = kernel.staged_path_bytes > 0
-                                ? staged_grid(function, kernel.staged_path_bytes, std::uint64_t{job.width} * height)
+    const RenderGrid grid = kernel.staged.most_paths > 0
+                                ? staged_grid(function, kernel.staged, std::uint64_t{job.width} * height)
                             : kernel.queue_blocks > 0 ? pixel_queue(function, kernel.queue_blocks)
                             : has_hierarchy(scene)    ? shared_pixels(job.width, height, shared.sharing_threads)
                                                       : thread_per_pixel(job.width, height);

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "cuda/block_shape.h"
 #include "cuda/compiled_variants.h"
 #include "cuda/jit_link.h"
 #include "cuda/kernel_cache.h"
@@ -41,16 +42,16 @@ namespace tandem::cuda {
 [[nodiscard]] bool renders_in_stages(Tier tier, Structure structure, const LinkedFacts& facts, const SceneView& scene,
                                      std::uint32_t width, std::uint32_t height);
 
-/// The shared memory of a path in stages. `tier`: of the kernel.
-[[nodiscard]] std::size_t staged_path_bytes(Tier tier);
+/// The memory of paths in stages. `tier`: of the kernel.
+[[nodiscard]] StagedMemory staged_memory(Tier tier);
 
 /// A render kernel on the GPU.
 struct SceneKernel {
     LoadedCode code;
     /// Its blocks on a multiprocessor, if its threads take pixels from a queue (cuda/render_thread.h); else 0.
     unsigned int queue_blocks;
-    std::size_t staged_path_bytes;  ///< 0 if it does not follow paths in stages
-    const char* doing;              ///< as with LoadedCode::launch()
+    StagedMemory staged;  ///< without paths if it does not follow them in stages
+    const char* doing;    ///< as with LoadedCode::launch()
 };
 
 class SceneKernels {

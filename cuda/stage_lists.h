@@ -8,22 +8,24 @@
 
 namespace tandem::cuda {
 
-/// Lists of paths in the shared memory of a block. Those of the next turn are filled while those of this turn are read.
+/// Lists of up to `most` paths, in the shared memory of a block. Those of the next turn are filled while those of this
+/// turn are read.
+template <std::uint32_t most>
 struct StageLists {
-    static constexpr std::uint32_t most_paths = 1344;                ///< of a block
+    static constexpr std::uint32_t most_paths = most;
     static constexpr std::uint32_t classes = HitClasses::count + 1;  ///< the last one is that of no hit
     static constexpr std::uint16_t path_ends = 0x8000;  ///< the bit of shadow rays whose path has no other ray
 
     /// The paths that wait for rays.
     struct Rays {
-        std::uint16_t paths[most_paths];    ///< new paths from the front, others from the back
-        std::uint16_t shadows[most_paths];  ///< shadow rays
+        std::uint16_t paths[most];    ///< new paths from the front, others from the back
+        std::uint16_t shadows[most];  ///< shadow rays
         std::uint32_t new_count, open_count, shadow_count;
     };
     Rays rays[2];
 
-    std::uint16_t places[most_paths];  ///< of the hit of each path among those of its class, and the class; or no_hit
-    std::uint16_t hits[most_paths];    ///< the paths with hits, by class
+    std::uint16_t places[most];  ///< of the hit of each path among those of its class, and the class; or no_hit
+    std::uint16_t hits[most];    ///< the paths with hits, by class
     std::uint32_t class_count[2][classes];
     std::uint32_t class_start[classes + 1];  ///< in `hits`
     std::uint32_t class_warps[classes + 1];  ///< warps that the classes before need, each with hits of one class
@@ -35,8 +37,8 @@ struct StageLists {
     TANDEM_HD_INLINE static constexpr std::uint32_t place_word(std::uint32_t place, std::uint32_t of_class) {
         return place * classes + of_class;
     }
+    static_assert((most - 1) * classes + classes - 2 < no_hit && most <= path_ends);
 };
-static_assert(StageLists::place_word(StageLists::most_paths - 1, StageLists::classes - 2) < StageLists::no_hit);
 
 /// How the threads of a block use the lists. `Lanes`: cuda/block_lanes.h.
 template <class Lanes>

@@ -9,8 +9,7 @@
 
 #include "cuda/kernels.h"
 #include "cuda/pair_pace.h"
-#include "cuda/stage_lists.h"
-#include "cuda/stored_path.h"
+#include "cuda/staged_memory.h"
 #include "cuda/warp_tile.h"
 
 namespace tandem::cuda {
@@ -44,10 +43,11 @@ class StagedPaths {
   public:
     using Records = PathRecords<Real>;
     using Rare = RarePathRecords<Real>;
+    using Lists = StageListsOf<Real>;
 
     /// `records`, `rare` and `lists` are for `count` paths, and uninitialised; `next_pixel` is as in PixelQueue.
     TANDEM_HD StagedPaths(const Tracer& tracer, const PixelJob& job, std::uint32_t height, const Records& records,
-                          Rare* rare, StageLists& lists, std::uint32_t count, unsigned int& next_pixel, Vec3d* sums)
+                          Rare* rare, Lists& lists, std::uint32_t count, unsigned int& next_pixel, Vec3d* sums)
         : tracer_(tracer),
           job_(job),
           pixels_(job.width, height),
@@ -97,18 +97,18 @@ class StagedPaths {
         Lanes::wait_for_block();
     }
     TANDEM_HD void clear_classes(std::uint32_t turn) {
-        for (std::uint32_t i = Lanes::thread(); i < StageLists::classes; i += Lanes::threads()) {
+        for (std::uint32_t i = Lanes::thread(); i < Lists::classes; i += Lanes::threads()) {
             lists_.class_count[turn][i] = 0;
         }
     }
     TANDEM_HD void clear_rays(std::uint32_t turn) {
         if (Lanes::thread() != 0) return;
-        StageLists::Rays& rays = lists_.rays[turn];
+        typename Lists::Rays& rays = lists_.rays[turn];
         rays.new_count = rays.open_count = rays.shadow_count = 0;
         lists_.rays_taken = 0;
     }
     [[nodiscard]] TANDEM_HD bool has_rays(std::uint32_t turn) const {
-        const StageLists::Rays& rays = lists_.rays[turn];
+        const typename Lists::Rays& rays = lists_.rays[turn];
         return (rays.new_count | rays.open_count | rays.shadow_count) != 0;
     }
 
@@ -118,7 +118,7 @@ class StagedPaths {
 
     /// The first stage: shadow rays of the last turn's vertices, and the next rays of all paths.
     TANDEM_HD void trace_rays(std::uint32_t turn, bool is_first) {
-        const StageLists::Rays& rays = lists_.rays[turn];
+        const typename Lists::Rays& rays = lists_.rays[turn];
         const std::uint32_t shadow_count = rays.shadow_count, open_count = rays.open_count, new_count = rays.new_count;
         const std::uint32_t shadow_warps = Threads::warps_for(shadow_count);
         const std::uint32_t open_warps = shadow_warps + Threads::warps_for(open_count);
@@ -144,7 +144,7 @@ class StagedPaths {
     }
 
     TANDEM_HD void trace(RayKind kind, std::uint32_t listed, std::uint32_t turn, bool is_first) {
-        const std::uint32_t path = listed & ~std::uint32_t{StageLists::path_ends};
+        const std::uint32_t path = listed & ~std::uint32_t{Lists::path_ends};
         const bool is_shadow = kind == RayKind::shadow;
         Ray<Real> ray;
         PathSource<Real> source;
@@ -162,21 +162,21 @@ class StagedPaths {
             load_ray(path, ray, source);
         } else {
             has_ray = begin_path(path, is_first, ray);
-            if (!has_ray) lists_.places[path] = StageLists::no_hit;
+            if (!has_ray) lists_.places[path] = Lists::no_hit;
         }
         const std::uint32_t traced = Lanes::lanes_where(Lanes::together(), has_ray);
         if (!has_ray) return;
         count_rays<Effects, Real>(true, counted_.tally.rays);
         const Closest<Real> hit = search(is_shadow, ray, source, light, farthest);
         Lanes::wait_for(traced);
-        StageLists::Rays& next = lists_.rays[turn ^ 1];
+        typename Lists::Rays& next = lists_.rays[turn ^ 1];
         if (is_shadow) {
             if (hit.primitive == no_primitive) {
                 auto record = records_.template load<typename Records::RadianceRecord>(path);
                 record.radiance = rare_[path].shadow.lit;
                 records_.store(record, path);
             }
-            const bool ends = (listed & StageLists::path_ends) != 0;
+            const bool ends = (listed & Lists::path_ends) != 0;
             const std::uint32_t ending = Lanes::lanes_where(traced, ends);
             if (!ends) return;
             next.paths[Threads::append(next.new_count, ending, ending)] = static_cast<std::uint16_t>(path);
@@ -188,12 +188,11 @@ class StagedPaths {
         records_.store(record, path);
         const bool is_hit = hit.primitive != no_primitive;
         const std::uint32_t of_class =
-            is_hit ? lists_.hit_classes.template of<Tracer::kinds>(tracer_.scene, hit.primitive) : StageLists::classes;
+            is_hit ? lists_.hit_classes.template of<Tracer::kinds>(tracer_.scene, hit.primitive) : Lists::classes;
         const std::uint32_t group = Lanes::lanes_with(traced, of_class);
         const std::uint32_t place =
             Threads::append(is_hit ? lists_.class_count[turn][of_class] : next.new_count, group, traced);
-        lists_.places[path] =
-            static_cast<std::uint16_t>(is_hit ? StageLists::place_word(place, of_class) : StageLists::no_hit);
+        lists_.places[path] = static_cast<std::uint16_t>(is_hit ? Lists::place_word(place, of_class) : Lists::no_hit);
         if (!is_hit) next.paths[place] = static_cast<std::uint16_t>(path);
     }
 
@@ -267,12 +266,12 @@ class StagedPaths {
 
     /// Orders the hits by their classes.
     TANDEM_HD void sort_hits(std::uint32_t turn) {
-        const StageLists::Rays& rays = lists_.rays[turn];
+        const typename Lists::Rays& rays = lists_.rays[turn];
         const std::uint32_t* counts = lists_.class_count[turn];
         std::uint32_t hits_before = 0, warps_before = 0;
         // every warp computes the starts for itself, so that the block need not wait for one of them
         std::uint32_t start = 0;
-        for (std::uint32_t first = 0; first < StageLists::classes; first += Lanes::count) {
+        for (std::uint32_t first = 0; first < Lists::classes; first += Lanes::count) {
             const std::uint32_t number = first + Lanes::lane();
             const std::uint32_t hits = Lanes::sum_up_to(counts[number]);
             const std::uint32_t warps = Lanes::sum_up_to(Threads::warps_for(counts[number]));
@@ -285,8 +284,8 @@ class StagedPaths {
             warps_before += Lanes::of_lane(Threads::all, warps, Lanes::count - 1);
         }
         if (Lanes::thread() == 0) {
-            lists_.class_start[StageLists::classes] = hits_before;
-            lists_.class_warps[StageLists::classes] = warps_before;
+            lists_.class_start[Lists::classes] = hits_before;
+            lists_.class_warps[Lists::classes] = warps_before;
             lists_.hits_taken = 0;
         }
         clear_classes(turn ^ 1);
@@ -296,17 +295,17 @@ class StagedPaths {
             const bool is_in = number < count;
             const std::uint32_t path =
                 !is_in ? 0U : rays.paths[number < rays.new_count ? number : count_ - 1 - (number - rays.new_count)];
-            const std::uint32_t place = is_in ? lists_.places[path] : StageLists::no_hit;
-            const std::uint32_t of_class = place % StageLists::classes;
+            const std::uint32_t place = is_in ? lists_.places[path] : Lists::no_hit;
+            const std::uint32_t of_class = place % Lists::classes;
             const std::uint32_t class_start = start_of(of_class, start, counts);
-            if (place != StageLists::no_hit) {
-                lists_.hits[class_start + place / StageLists::classes] = static_cast<std::uint16_t>(path);
+            if (place != Lists::no_hit) {
+                lists_.hits[class_start + place / Lists::classes] = static_cast<std::uint16_t>(path);
             }
         }
     }
     /// The start of a class, of which each lane of a warp knows one.
     TANDEM_HD std::uint32_t start_of(std::uint32_t of_class, std::uint32_t start, const std::uint32_t* counts) const {
-        if constexpr (Lanes::count == StageLists::classes) {
+        if constexpr (Lanes::count == Lists::classes) {
             return Lanes::of_lane(Threads::all, start, of_class);
         } else {
             std::uint32_t before = 0;
@@ -317,12 +316,12 @@ class StagedPaths {
 
     /// The second stage: surfaces, lights and the next rays.
     TANDEM_HD void shade_hits(std::uint32_t turn) {
-        const std::uint32_t warps = lists_.class_warps[StageLists::classes];
+        const std::uint32_t warps = lists_.class_warps[Lists::classes];
         while (true) {
             const std::uint32_t warp = Threads::take(lists_.hits_taken);
             if (warp >= warps) return;
             std::uint32_t of_class = 0;
-            for (std::uint32_t step = StageLists::classes / 2; step > 0; step /= 2) {
+            for (std::uint32_t step = Lists::classes / 2; step > 0; step /= 2) {
                 if (lists_.class_warps[of_class + step] <= warp) of_class += step;
             }
             const std::uint32_t number =
@@ -381,12 +380,12 @@ class StagedPaths {
         Lanes::wait_for(together);
 
         // a path that ends begins anew at once, or when its shadow ray has been traced
-        StageLists::Rays& next = lists_.rays[next_turn];
+        typename Lists::Rays& next = lists_.rays[next_turn];
         const auto listed = static_cast<std::uint16_t>(path);
         const std::uint32_t shadows = Lanes::lanes_where(together, has_shadow);
         if (has_shadow) {
             next.shadows[Threads::append(next.shadow_count, shadows, shadows)] =
-                static_cast<std::uint16_t>(state.alive ? listed : listed | StageLists::path_ends);
+                static_cast<std::uint16_t>(state.alive ? listed : listed | Lists::path_ends);
         }
         Lanes::wait_for(together);
         const bool begins = !state.alive && !has_shadow;
@@ -403,7 +402,7 @@ class StagedPaths {
     PixelQueue pixels_;
     Records records_;
     Rare* rare_;
-    StageLists& lists_;
+    Lists& lists_;
     std::uint32_t count_;
     unsigned int& next_pixel_;
     Vec3d* sums_;

@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::uint32_t kinds = PrimitiveKinds::all;
 
-/// Primitives with a material each: diffuse, or with one that transmits light or emits it.
+/// Primitives with a material each: diffuse, or one that transmits light or emits it, or both.
 class HitClassesOf : public ::testing::Test {
   protected:
-    enum Look { diffuse, clear, bright };
+    enum Look { diffuse, clear, bright, clear_and_bright };
 
     void add(Look look) {
         Optics optics;
-        if (look == clear) optics.transmission = 1;
-        if (look == bright) optics.emission = {1, 1, 1};
+        if (look == clear || look == clear_and_bright) optics.transmission = 1;
+        if (look == bright || look == clear_and_bright) optics.emission = {1, 1, 1};
         material_of_.push_back(static_cast<std::uint32_t>(optics_.size()));
         optics_.push_back(optics);
         materials_.push_back({});
@@ -51,6 +51,17 @@ TEST_F(HitClassesOf, AreEqualForAlikeMaterialsOfOneKind) {
     EXPECT_EQ(compared().rank_count, 3U);
     EXPECT_EQ(of(0), of(2));
     EXPECT_EQ((std::set<std::uint32_t>{of(0), of(1), of(3), of(4)}.size()), 4U) << "the last one is a triangle";
+}
+
+TEST_F(HitClassesOf, OfMaterialsWithMostPartsComeFirst) {
+    for (const Look look : {bright, diffuse, clear_and_bright, clear, clear_and_bright}) add(look);
+    scene_.sphere_count = 4;
+    scene_.quad_count = 1;
+    (void)compared();
+    EXPECT_LT(of(4), of(2)) << "a face before a solid";
+    EXPECT_LT(of(2), of(0));
+    EXPECT_LT(of(0), of(3)) << "as many parts: in the order of the materials";
+    EXPECT_LT(of(3), of(1));
 }
 
 TEST_F(HitClassesOf, AreInRangeForAnyNumberOfMaterials) {

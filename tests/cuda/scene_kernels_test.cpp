@@ -151,8 +151,11 @@ TEST(PathsInStages, AreThoseOfIndirectLightAmongFewPrimitives) {
 }
 
 TEST(PathsInStages, NeedMoreMemoryInPrecise) {
-    EXPECT_GT(staged_path_bytes(Tier::strict), 0U);
-    EXPECT_LT(staged_path_bytes(Tier::strict), staged_path_bytes(Tier::precise));
+    const StagedMemory strict = staged_memory(Tier::strict), precise = staged_memory(Tier::precise);
+    EXPECT_LT(strict.path_bytes, precise.path_bytes);
+    EXPECT_LT(strict.rare_bytes, precise.rare_bytes);
+    EXPECT_GT(strict.most_paths, precise.most_paths);
+    EXPECT_GT(precise.most_paths, 3 * 32U) << "several for each warp";
 }
 
 TEST_F(SceneKernel, FollowsPathsInStagesIfLinkedSo) {

@@ -61,7 +61,7 @@ Staged render_staged(const PreparedScene& scene, const RenderJob& job, std::uint
     const FilmWindow window = window_of(job);
     std::vector<Unit> records(count * PathRecords<Real>::bytes / sizeof(Unit));
     std::vector<RarePathRecords<Real>> rare(count);
-    const auto lists = std::make_unique<StageLists>();
+    const auto lists = std::make_unique<StageListsOf<Real>>();
     Staged result;
     result.sums.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
     unsigned int next_pixel = 0;
@@ -106,7 +106,7 @@ TEST_P(StagedPathsOf, HaveTheBitsOfTheCpu) {
         job.tier = tier;
         const RenderResult expected = cpu->render(cpu->load(scene, tier), job);
         for (const auto& [count, threads] :
-             {std::pair{1U, 1U}, std::pair{7U, 2U}, std::pair{300U, 3U}, std::pair{StageLists::most_paths, 4U}}) {
+             {std::pair{1U, 1U}, std::pair{7U, 2U}, std::pair{300U, 3U}, std::pair{most_staged_paths<double>, 4U}}) {
             SCOPED_TRACE(testing::Message() << to_string(tier) << ", " << count << " paths, " << threads << " threads");
             const Staged staged = tier == Tier::strict ? render_staged<float>(scene, job, count, threads)
                                                        : render_staged<double>(scene, job, count, threads);

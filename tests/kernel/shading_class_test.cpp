@@ -73,7 +73,9 @@ TEST(KindNumber, IsTheSameWithinAKind) {
     EXPECT_EQ(number(0), number(1));
     EXPECT_EQ(number(2), number(4));
     EXPECT_EQ((std::set<std::uint32_t>{number(0), number(2), number(5)}.size()), 3U);
+    EXPECT_LT(number(5), kind_count<PrimitiveKinds::all>());
     EXPECT_EQ(kind_number<PrimitiveKinds::quad>(scene, 0), 0U) << "of a tracer for one kind";
+    EXPECT_EQ(kind_count<PrimitiveKinds::quad>(), 1U);
 }
 
 }  // namespace

@@ -46,7 +46,18 @@ TANDEM_HD_INLINE std::uint32_t material_class(const SceneView& scene, std::uint3
     return bits.word();
 }
 
-/// The number of a primitive's kind among those that the scene may have. Not of instanced triangles.
+/// How many kinds of primitives the scene may have, without instanced triangles.
+template <std::uint32_t kinds>
+TANDEM_HD_INLINE std::uint32_t kind_count() {
+    std::uint32_t count = 0;
+#define TANDEM_PRIMITIVE(Type, name, names) \
+    count += (kinds & PrimitiveKinds::name) != 0 && may_have(PrimitiveKinds::name) ? 1U : 0U;
+#include "tandem/kernel/view/primitives.def"
+#undef TANDEM_PRIMITIVE
+    return count;
+}
+
+/// The number of a primitive's kind among these.
 template <std::uint32_t kinds>
 TANDEM_HD_INLINE std::uint32_t kind_number(const SceneView& scene, std::uint32_t id) {
     std::uint32_t number = 0;

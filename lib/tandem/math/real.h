@@ -233,6 +233,15 @@ TANDEM_HD_INLINE int lowest_bit(std::uint32_t bits) {
 #endif
 }
 
+/// How many bits are set.
+TANDEM_HD_INLINE int count_bits(std::uint32_t bits) {
+#if TANDEM_ON_DEVICE
+    return __popc(static_cast<int>(bits));
+#else
+    return __builtin_popcount(bits);
+#endif
+}
+
 /// Unit roundoff of float, 2^-24: one correctly rounded operation errs by at most this, relative.
 inline constexpr float float_roundoff = 0x1p-24F;
 
