@@ -5,9 +5,10 @@
                          [--threads N] [--size 500x450] [--spp 16] [--repetitions 3] [--pictures FOLDER] [--json FILE]
 
 Needs a Python with the packages mitsuba and numpy (`pip install mitsuba numpy`); the llvm variants also need LLVM's
-shared library (Debian: libllvm14). The two take turns, after a first round that does not count. Both trace paths with
-next-event estimation. What differs: Mitsuba's materials have no Phong highlights; its glass does not absorb; it ends
-paths after 8 vertices, Tandem after 8 reflections, 16 refractions or 4 diffuse bounces. `--pictures` writes both images,
+shared library (Debian: libllvm19; Mitsuba 3.9.1 aborts with those of LLVM 14 and 15). The two take turns, after a first
+round that does not count. Both trace paths with next-event estimation. What differs: Mitsuba's materials have no Phong
+highlights; its glass does not absorb; it ends paths after 8 vertices, Tandem after 8 reflections, 16 refractions or 4
+diffuse bounces. `--pictures` writes both images,
 `--json` the seconds of each round.
 """
 
