@@ -12,7 +12,6 @@ namespace tandem::cuda {
 /// turn are read.
 template <std::uint32_t most>
 struct StageLists {
-    static constexpr std::uint32_t most_paths = most;
     static constexpr std::uint32_t classes = HitClasses::count + 1;  ///< the last one is that of no hit
     static constexpr std::uint16_t path_ends = 0x8000;  ///< the bit of shadow rays whose path has no other ray
 

@@ -105,8 +105,9 @@ TEST_P(StagedPathsOf, HaveTheBitsOfTheCpu) {
     for (const Tier tier : {Tier::strict, Tier::precise}) {
         job.tier = tier;
         const RenderResult expected = cpu->render(cpu->load(scene, tier), job);
+        const std::uint32_t most = tier == Tier::strict ? most_staged_paths<float> : most_staged_paths<double>;
         for (const auto& [count, threads] :
-             {std::pair{1U, 1U}, std::pair{7U, 2U}, std::pair{300U, 3U}, std::pair{most_staged_paths<double>, 4U}}) {
+             {std::pair{1U, 1U}, std::pair{7U, 2U}, std::pair{300U, 3U}, std::pair{most, 4U}}) {
             SCOPED_TRACE(testing::Message() << to_string(tier) << ", " << count << " paths, " << threads << " threads");
             const Staged staged = tier == Tier::strict ? render_staged<float>(scene, job, count, threads)
                                                        : render_staged<double>(scene, job, count, threads);
