@@ -14,7 +14,8 @@ namespace tandem::cuda {
 
 /// The shared memory of a block, at most. A multiprocessor of compute capability 9.0 divides 256 KB between shared
 /// memory, of which the driver takes 1 KB for each block, and a cache, which spilled registers need. Shared memory gets
-/// 132, 164, 196 or 228 KB, or less. Measured on an H200 (docs/performance/paths.md).
+/// 132, 164, 196 or 228 KB, or less. In precise, whose records are larger, more paths are worth more than the cache.
+/// Measured on an H200 (docs/performance/paths.md).
 template <class Real>
 inline constexpr std::size_t staged_block_bytes = ((std::is_same_v<Real, double> ? 196 : 164) - 1) * std::size_t{1024};
 
@@ -25,14 +26,17 @@ inline constexpr std::size_t other_bytes = sizeof(StageLists<32>) - 32 * list_by
 
 }  // namespace staged_memory_detail
 
+/// How many paths fit into that: an even number, so that no list ends within a word.
 template <class Real>
 inline constexpr auto most_staged_paths =
     static_cast<std::uint32_t>((staged_block_bytes<Real> - staged_memory_detail::other_bytes) /
                                (PathRecords<Real>::bytes + staged_memory_detail::list_bytes) / 2 * 2);
 
+/// Their lists.
 template <class Real>
 using StageListsOf = StageLists<most_staged_paths<Real>>;
 
+/// Their memory, for the host.
 template <class Real>
 [[nodiscard]] constexpr StagedMemory staged_memory_of() {
     static_assert(sizeof(StageListsOf<Real>) + most_staged_paths<Real> * PathRecords<Real>::bytes <=
