@@ -19,6 +19,9 @@ struct DeviceLanes {
     /// Waits for all threads of the block.
     __device__ __forceinline__ static void wait_for_block() { __syncthreads(); }
 
+    /// The compiler reads memory again after this, so that values need no registers until then.
+    __device__ __forceinline__ static void reread() { asm volatile("" ::: "memory"); }
+
     /// The lanes that call this together.
     __device__ __forceinline__ static std::uint32_t together() { return __activemask(); }
     /// Waits for the lanes of `group`.

@@ -150,11 +150,11 @@ __device__ __forceinline__ void render_in_stages(const Tracer& tracer, const Pix
     const std::uint32_t count =
         min(bytes / static_cast<std::uint32_t>(PathRecords<Real>::bytes), most_staged_paths<Real>);
     StagedPaths<Effects, Real, Tracer, DeviceLanes> paths(
-        tracer, job, height, PathRecords<Real>(records, count),
+        tracer, job, height, PathRecords<Real>(records),
         static_cast<Rare*>(rare) + std::size_t{blockIdx.x} * most_staged_paths<Real>, lists, count,
-        counters->next_in_queue, sums);
+        counters->next_in_queue, sums,
+        StagedCounts{counters->rays[blockIdx.x % ray_counters], counters->lost_media, counters->invalid_samples});
     paths.run(PairPace<DeviceLanes>(counters->stages));
-    tandem::cuda::count<Effects>(paths.counted(), threadIdx.x, counters);
 }
 
 /// Paths in a hierarchy: the threads of a warp share pixels. SharedSamples hands out paths of several vertices, and

@@ -95,7 +95,7 @@ bool has_queue(const LinkedFacts& facts) { return has_queue(EffectMask::from_bit
 /// The most registers of a thread; 0: as the launch bounds of a kernel without a queue say. A multiprocessor has room
 /// for 12 warps with 168 registers and for 16 with 128. Long code with doubles is faster with fewer warps and fewer
 /// spills; measured for the tier strict by effects (docs/performance/paths.md, "Registers of kernels for long paths").
-int most_registers(Tier tier, EffectMask effects) {
+int most_registers(Tier tier, EffectMask effects, bool in_stages) {
     constexpr int for_12_warps = 168, for_16_warps = 128;
     if (!has_queue(effects)) return 0;
     switch (tier) {
@@ -106,6 +106,8 @@ int most_registers(Tier tier, EffectMask effects) {
         case Tier::strict:
             break;
     }
+    // with long code for several kinds of rays, stages need more warps to hide their latencies
+    if (in_stages && effects.has_any(Effect::reflection | Effect::refraction)) return for_16_warps;
     const bool lights_diffuse_paths = effects.has(Effect::indirect) && effects.has(Effect::shadows);
     return lights_diffuse_paths || effects.has_any(effects_of_local_lobes) ? for_12_warps : for_16_warps;
 }
@@ -162,7 +164,7 @@ JitInput render_input(Tier tier, Structure structure, const LinkedFacts& facts, 
     input.facts_name = "tandem_facts";
     input.facts = words_of(facts);
     input.tier = kernel_tier(tier, structure);
-    input.registers = most_registers(input.tier, EffectMask::from_bits(facts.effects));
+    input.registers = most_registers(input.tier, EffectMask::from_bits(facts.effects), facts.in_stages != 0);
     input.architecture = architecture;
     return input;
 }
@@ -267,7 +269,7 @@ const SceneKernel& SceneKernels::compiled(Tier tier, const DeviceSceneView& scen
         const EffectMask effects = variants[variant].effects;
         const std::span<const std::byte> code = compiled_code(tier, structure, faces, variant);
         if (code.empty()) throw not_compiled(kernel_tier(tier, structure), why_jit_unavailable());
-        const int registers = most_registers(kernel_tier(tier, structure), effects);
+        const int registers = most_registers(kernel_tier(tier, structure), effects, false);
         // with all effects the code is too large for two blocks
         kernel.reset(
             new SceneKernel{LoadedCode(code, kernel_name, registers), has_queue(effects) ? 1U : 0U, {}, "rendering"});

@@ -1,4 +1,4 @@
-/// Which paths of a block wait for which stage (cuda/staged_paths.h).
+/// Which paths of a block wait for which stage (cuda/staged_paths.h). Tested by tests/cuda/stage_lists_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +29,7 @@ struct StageLists {
     std::uint32_t class_start[classes + 1];  ///< in `hits`
     std::uint32_t class_warps[classes + 1];  ///< warps that the classes before need, each with hits of one class
     std::uint32_t rays_taken, hits_taken;    ///< by the warps
+    std::uint32_t traced;                    ///< rays of this turn, if they are counted one by one
 
     HitClasses hit_classes;
 
@@ -43,6 +44,12 @@ struct StageLists {
 template <class Lanes>
 struct ListThreads {
     TANDEM_HD static std::uint32_t warps_for(std::uint32_t count) { return (count + Lanes::count - 1) / Lanes::count; }
+
+    /// Those of `count` paths beyond whole warps, if they are less than half a warp: a warp takes as long for a few.
+    TANDEM_HD static constexpr std::uint32_t too_few_of(std::uint32_t count) {
+        const std::uint32_t rest = count % Lanes::count;
+        return rest < Lanes::count / 2 ? rest : 0;
+    }
 
     /// The next piece of work of a stage, for the whole warp.
     TANDEM_HD static std::uint32_t take(std::uint32_t& taken) {

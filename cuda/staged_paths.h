@@ -36,6 +36,13 @@ struct PixelQueue {
     }
 };
 
+/// What paths in stages are counted into, in device memory.
+struct StagedCounts {
+    unsigned long long& rays;  ///< unless counts_rays() is false
+    unsigned long long& lost_media;
+    unsigned long long& invalid_samples;
+};
+
 /// The paths of a block. Needs effects with bounces, and vertices that send at most one shadow ray
 /// (samples_one_light()). Each thread of the block has one, and calls run().
 template <class Effects, class Real, class Tracer, class Lanes>
@@ -47,25 +54,29 @@ class StagedPaths {
 
     /// `records`, `rare` and `lists` are for `count` paths, and uninitialised; `next_pixel` is as in PixelQueue.
     TANDEM_HD StagedPaths(const Tracer& tracer, const PixelJob& job, std::uint32_t height, const Records& records,
-                          Rare* rare, Lists& lists, std::uint32_t count, unsigned int& next_pixel, Vec3d* sums)
+                          Rare* rare, Lists& lists, std::uint32_t count, unsigned int& next_pixel, Vec3d* sums,
+                          const StagedCounts& counts)
         : tracer_(tracer),
           job_(job),
-          pixels_(job.width, height),
+          height_(height),
           records_(records),
           rare_(rare),
           lists_(lists),
           count_(count),
           next_pixel_(next_pixel),
-          sums_(sums) {}
+          sums_(sums),
+          counts_(counts) {}
 
     /// Follows paths until no pixel is left. Writes the sums of the pixels.
     TANDEM_HD void run(PairPace<Lanes> pace) {
         pace.begin();
         begin();
         bool is_first = true;
-        for (std::uint32_t turn = 0; has_rays(turn); turn ^= 1) {
+        for (std::uint32_t turn = 0;; turn ^= 1) {
             trace_rays(turn, is_first);
             Lanes::wait_for_block();
+            count_traced();
+            if (!has_work(turn)) break;
             sort_hits(turn);
             pace.wait();
             Lanes::wait_for_block();
@@ -77,29 +88,24 @@ class StagedPaths {
         pace.leave();
     }
 
-    /// Of this thread.
-    [[nodiscard]] TANDEM_HD const PixelSum<Real>& counted() const { return counted_; }
-
   private:
     using Threads = ListThreads<Lanes>;
 
     TANDEM_HD void begin() {
         for (std::uint32_t i = Lanes::thread(); i < count_; i += Lanes::threads()) {
             lists_.rays[0].paths[i] = static_cast<std::uint16_t>(i);
+            lists_.places[i] = Lists::no_hit;
         }
         lists_.hit_classes.template compare_materials<Lanes>(tracer_.scene);
-        clear_classes(0);
+        for (std::uint32_t i = Lanes::thread(); i < Lists::classes; i += Lanes::threads()) {
+            lists_.class_count[0][i] = 0;
+        }
         if (Lanes::thread() == 0) {
             for (auto& rays : lists_.rays) rays.new_count = rays.open_count = rays.shadow_count = 0;
             lists_.rays[0].new_count = count_;
-            lists_.rays_taken = 0;
+            lists_.rays_taken = lists_.traced = 0;
         }
         Lanes::wait_for_block();
-    }
-    TANDEM_HD void clear_classes(std::uint32_t turn) {
-        for (std::uint32_t i = Lanes::thread(); i < Lists::classes; i += Lanes::threads()) {
-            lists_.class_count[turn][i] = 0;
-        }
     }
     TANDEM_HD void clear_rays(std::uint32_t turn) {
         if (Lanes::thread() != 0) return;
@@ -107,9 +113,18 @@ class StagedPaths {
         rays.new_count = rays.open_count = rays.shadow_count = 0;
         lists_.rays_taken = 0;
     }
-    [[nodiscard]] TANDEM_HD bool has_rays(std::uint32_t turn) const {
-        const typename Lists::Rays& rays = lists_.rays[turn];
-        return (rays.new_count | rays.open_count | rays.shadow_count) != 0;
+    /// Adds the rays of a turn to all.
+    TANDEM_HD void count_traced() {
+        if (!counts_rays<Effects>() || Lanes::thread() != 0) return;
+        Lanes::add(counts_.rays, static_cast<unsigned long long>(lists_.traced));
+        lists_.traced = 0;
+    }
+    /// Whether a path has a hit, or a ray to trace in the next turn.
+    [[nodiscard]] TANDEM_HD bool has_work(std::uint32_t turn) const {
+        const typename Lists::Rays& next = lists_.rays[turn ^ 1];
+        std::uint32_t waiting = next.new_count | next.open_count | next.shadow_count;
+        for (std::uint32_t i = 0; i < Lists::classes; ++i) waiting |= lists_.class_count[turn][i];
+        return waiting != 0;
     }
 
     // Rays
@@ -118,13 +133,15 @@ class StagedPaths {
 
     /// The first stage: shadow rays of the last turn's vertices, and the next rays of all paths.
     TANDEM_HD void trace_rays(std::uint32_t turn, bool is_first) {
-        const typename Lists::Rays& rays = lists_.rays[turn];
-        const std::uint32_t shadow_count = rays.shadow_count, open_count = rays.open_count, new_count = rays.new_count;
-        const std::uint32_t shadow_warps = Threads::warps_for(shadow_count);
-        const std::uint32_t open_warps = shadow_warps + Threads::warps_for(open_count);
-        const std::uint32_t warps = open_warps + Threads::warps_for(new_count);
+        typename Lists::Rays& rays = lists_.rays[turn];
         while (true) {
             const std::uint32_t warp = Threads::take(lists_.rays_taken);
+            // read again for each piece of work, so that they need no registers during it
+            const std::uint32_t shadow_count = Lanes::read(rays.shadow_count);
+            const std::uint32_t open_count = Lanes::read(rays.open_count), new_count = Lanes::read(rays.new_count);
+            const std::uint32_t shadow_warps = Threads::warps_for(shadow_count);
+            const std::uint32_t open_warps = shadow_warps + Threads::warps_for(open_count);
+            const std::uint32_t warps = open_warps + Threads::warps_for(new_count);
             if (warp >= warps) return;
             const RayKind kind = warp < shadow_warps ? RayKind::shadow
                                  : warp < open_warps ? RayKind::open
@@ -162,11 +179,12 @@ class StagedPaths {
             load_ray(path, ray, source);
         } else {
             has_ray = begin_path(path, is_first, ray);
-            if (!has_ray) lists_.places[path] = Lists::no_hit;
         }
         const std::uint32_t traced = Lanes::lanes_where(Lanes::together(), has_ray);
         if (!has_ray) return;
-        count_rays<Effects, Real>(true, counted_.tally.rays);
+        if (counts_rays<Effects>() && Lanes::lane() == Lanes::first(traced)) {
+            Lanes::add(lists_.traced, Lanes::size(traced));
+        }
         const Closest<Real> hit = search(is_shadow, ray, source, light, farthest);
         Lanes::wait_for(traced);
         typename Lists::Rays& next = lists_.rays[turn ^ 1];
@@ -192,8 +210,11 @@ class StagedPaths {
         const std::uint32_t group = Lanes::lanes_with(traced, of_class);
         const std::uint32_t place =
             Threads::append(is_hit ? lists_.class_count[turn][of_class] : next.new_count, group, traced);
-        lists_.places[path] = static_cast<std::uint16_t>(is_hit ? Lists::place_word(place, of_class) : Lists::no_hit);
-        if (!is_hit) next.paths[place] = static_cast<std::uint16_t>(path);
+        if (is_hit) {
+            lists_.places[path] = static_cast<std::uint16_t>(Lists::place_word(place, of_class));
+        } else {
+            next.paths[place] = static_cast<std::uint16_t>(path);
+        }
     }
 
     /// The nearest hit of a ray, or what blocks a shadow ray: as is_blocked_by_opaque() without a hierarchy. One search
@@ -241,7 +262,7 @@ class StagedPaths {
             }
             pixel.sum = rare_[path].sum;
             add(seen.radiance, pixel);
-            counted_.invalid += pixel.invalid;
+            if (pixel.invalid != 0) Lanes::add(counts_.invalid_samples, 1ULL);
             sample = hit.sample + 1;
             if (sample >= job_.samples) {
                 sums_[static_cast<std::size_t>(at.y) * job_.width + at.x] = pixel.sum;
@@ -249,7 +270,7 @@ class StagedPaths {
             }
         }
         if (sample >= job_.samples) {
-            if (!pixels_.template take<Lanes>(next_pixel_, at)) return false;
+            if (!PixelQueue(job_.width, height_).template take<Lanes>(next_pixel_, at)) return false;
             sample = 0;
         }
         ray =
@@ -264,53 +285,64 @@ class StagedPaths {
 
     // Hits
 
-    /// Orders the hits by their classes.
+    /// Orders the hits by their classes. If there is work for all warps, the last hits of a class wait for the next
+    /// turn where they are too few.
     TANDEM_HD void sort_hits(std::uint32_t turn) {
-        const typename Lists::Rays& rays = lists_.rays[turn];
         const std::uint32_t* counts = lists_.class_count[turn];
-        std::uint32_t hits_before = 0, warps_before = 0;
+        std::uint32_t shaded_before = 0, warps_before = 0;
         // every warp computes the starts for itself, so that the block need not wait for one of them
-        std::uint32_t start = 0;
+        std::uint32_t start = 0, shaded = 0;
+        const bool may_wait = whole_warps_of(counts) >= Lanes::threads() / Lanes::count;
         for (std::uint32_t first = 0; first < Lists::classes; first += Lanes::count) {
             const std::uint32_t number = first + Lanes::lane();
-            const std::uint32_t hits = Lanes::sum_up_to(counts[number]);
-            const std::uint32_t warps = Lanes::sum_up_to(Threads::warps_for(counts[number]));
-            start = hits_before + hits - counts[number];
+            const std::uint32_t waiting = may_wait ? Threads::too_few_of(counts[number]) : 0;
+            shaded = counts[number] - waiting;
+            const std::uint32_t all_shaded = Lanes::sum_up_to(shaded);
+            const std::uint32_t warps = Lanes::sum_up_to(Threads::warps_for(shaded));
+            start = shaded_before + all_shaded - shaded;
             if (Lanes::thread() < Lanes::count) {
                 lists_.class_start[number] = start;
-                lists_.class_warps[number] = warps_before + warps - Threads::warps_for(counts[number]);
+                lists_.class_warps[number] = warps_before + warps - Threads::warps_for(shaded);
+                lists_.class_count[turn ^ 1][number] = waiting;
             }
-            hits_before += Lanes::of_lane(Threads::all, hits, Lanes::count - 1);
+            shaded_before += Lanes::of_lane(Threads::all, all_shaded, Lanes::count - 1);
             warps_before += Lanes::of_lane(Threads::all, warps, Lanes::count - 1);
         }
         if (Lanes::thread() == 0) {
-            lists_.class_start[Lists::classes] = hits_before;
+            lists_.class_start[Lists::classes] = shaded_before;
             lists_.class_warps[Lists::classes] = warps_before;
             lists_.hits_taken = 0;
         }
-        clear_classes(turn ^ 1);
-        const std::uint32_t count = rays.new_count + rays.open_count;
-        for (std::uint32_t first = Lanes::thread() - Lanes::lane(); first < count; first += Lanes::threads()) {
-            const std::uint32_t number = first + Lanes::lane();
-            const bool is_in = number < count;
-            const std::uint32_t path =
-                !is_in ? 0U : rays.paths[number < rays.new_count ? number : count_ - 1 - (number - rays.new_count)];
-            const std::uint32_t place = is_in ? lists_.places[path] : Lists::no_hit;
-            const std::uint32_t of_class = place % Lists::classes;
-            const std::uint32_t class_start = start_of(of_class, start, counts);
-            if (place != Lists::no_hit) {
-                lists_.hits[class_start + place / Lists::classes] = static_cast<std::uint16_t>(path);
-            }
+        for (std::uint32_t first = Lanes::thread() - Lanes::lane(); first < count_; first += Lanes::threads()) {
+            const std::uint32_t path = first + Lanes::lane();
+            const std::uint32_t word = path < count_ ? lists_.places[path] : Lists::no_hit;
+            const std::uint32_t of_class = word % Lists::classes;
+            const ClassHits hits = hits_of(of_class, {start, shaded}, counts);
+            if (word == Lists::no_hit) continue;
+            const std::uint32_t place = word / Lists::classes;
+            if (place < hits.shaded) lists_.hits[hits.start + place] = static_cast<std::uint16_t>(path);
+            lists_.places[path] = static_cast<std::uint16_t>(
+                place < hits.shaded ? Lists::no_hit : Lists::place_word(place - hits.shaded, of_class));
         }
     }
-    /// The start of a class, of which each lane of a warp knows one.
-    TANDEM_HD std::uint32_t start_of(std::uint32_t of_class, std::uint32_t start, const std::uint32_t* counts) const {
+    /// The whole warps that classes fill.
+    TANDEM_HD static std::uint32_t whole_warps_of(const std::uint32_t* counts) {
+        std::uint32_t warps = 0;
+        for (std::uint32_t i = 0; i < Lists::classes; ++i) warps += counts[i] / Lanes::count;
+        return warps;
+    }
+    struct ClassHits {
+        std::uint32_t start, shaded;
+    };
+    /// Those of a class. Each lane of a warp knows `own`, those of one class.
+    TANDEM_HD ClassHits hits_of(std::uint32_t of_class, ClassHits own, const std::uint32_t* counts) const {
         if constexpr (Lanes::count == Lists::classes) {
-            return Lanes::of_lane(Threads::all, start, of_class);
+            return {Lanes::of_lane(Threads::all, own.start, of_class),
+                    Lanes::of_lane(Threads::all, own.shaded, of_class)};
         } else {
             std::uint32_t before = 0;
             for (std::uint32_t i = 0; i < of_class; ++i) before += counts[i];
-            return before;
+            return {before, counts[of_class]};
         }
     }
 
@@ -330,53 +362,77 @@ class StagedPaths {
         }
     }
 
+    [[nodiscard]] TANDEM_HD Closest<Real> hit_of(std::uint32_t path) const {
+        const auto hit = records_.template load<typename Records::HitRecord>(path);
+        return {hit.t, hit.primitive};
+    }
+    [[nodiscard]] TANDEM_HD SampleId<Real> sample_at(std::uint32_t path) const {
+        const auto hit = records_.template load<typename Records::HitRecord>(path);
+        const auto seen = records_.template load<typename Records::RadianceRecord>(path);
+        return sample_of<Real>(job_, seen.pixel & 0xFFFF, seen.pixel >> 16, job_.first_sample + hit.sample);
+    }
+
+    /// The vertex of a path, and the light that its surface emits. False for a masked hit.
+    TANDEM_HD bool enter(std::uint32_t path, PathVertex<Effects, Real>& at) {
+        const SceneView& scene = tracer_.scene;
+        const auto ray = records_.template load<typename Records::RayRecord>(path);
+        auto state = load_path<Effects>(scene, records_, rare_[path], path, ray);
+        auto seen = records_.template load<typename Records::RadianceRecord>(path);
+        bool found = true;
+        enter_vertex<Effects, Tracer::kinds>(scene, Effects::limits(job_.limits), hit_of(path), found, state,
+                                             seen.radiance, at);
+        records_.store(seen, path);
+        store_throughput(state, records_, path);
+        return found;
+    }
+
+    /// Adds the light that the surface reflects. True if it waits for a shadow ray.
+    TANDEM_HD bool add_light(std::uint32_t path, const PathVertex<Effects, Real>& at) {
+        const SceneView& scene = tracer_.scene;
+        const auto ray = records_.template load<typename Records::RayRecord>(path);
+        const Vec3<Double<Real>> position = path_detail::point_of(ray.ray, hit_of(path).t);
+        const LitVertex<Real> lit = {at.surface.surface, at.surface.point, position,    at.shading.to_viewer,
+                                     at.followed,        sample_at(path),  ray.vertex()};
+        const Vec3<Real> ambient = ambient_light(scene, lit);
+        const bool is_lit = scatters<Effects>(at.surface.surface.reflectance.lobes);
+        IncidentLight<Real> light;
+        if (is_lit) light = sample_one_light<Effects>(scene, lit, true);
+        Lanes::reread();
+        auto seen = records_.template load<typename Records::RadianceRecord>(path);
+        const Vec3<Real> throughput = records_.template load<typename Records::ThroughputRecord>(path).throughput;
+        const auto with = [&](const Vec3<Real>& reflected) { return seen.radiance + throughput * reflected; };
+        bool has_shadow = false;
+        if (is_lit && Effects::has(Effect::shadows) && needs_shadow_ray(light, true)) {
+            const ShadowRay<Real> shadow =
+                spawn_shadow_ray(at.surface.point, light.position_or_direction, light.primitive, light.is_far);
+            has_shadow = shadow.active;
+            if (has_shadow) {
+                const Vec3<Real> lit_radiance = with(ambient + light.reflected);
+                rare_[path].shadow = {shadow.ray,          shadow.t_max, shadow.source.primitive,
+                                      shadow.source.light, lit_radiance, shadow.source.inside};
+            }
+            light.reflected = black<Real>();
+        }
+        seen.radiance = with(is_lit ? ambient + light.reflected : ambient);
+        records_.store(seen, path);
+        return has_shadow;
+    }
+
+    /// What a step needs of a path is read from its records in that step, so that it takes no registers in the others.
     TANDEM_HD void shade(std::uint32_t path, std::uint32_t next_turn) {
         const std::uint32_t together = Lanes::together();
         const SceneView& scene = tracer_.scene;
-        const auto ray = records_.template load<typename Records::RayRecord>(path);
-        const auto found_hit = records_.template load<typename Records::HitRecord>(path);
-        auto seen = records_.template load<typename Records::RadianceRecord>(path);
-        auto state = load_path<Effects>(scene, records_, rare_[path], path, ray);
-        const Closest<Real> hit = {found_hit.t, found_hit.primitive};
-        const SampleId<Real> sample =
-            sample_of<Real>(job_, seen.pixel & 0xFFFF, seen.pixel >> 16, job_.first_sample + found_hit.sample);
-        const UInt<Real> vertex = ray.vertex();
-        const PathLimits limits = Effects::limits(job_.limits);
-        bool found = true;
         PathVertex<Effects, Real> at;
-        enter_vertex<Effects, Tracer::kinds>(scene, limits, hit, found, state, seen.radiance, at);
-
-        bool has_shadow = false;
-        if (found) {
-            const Vec3<Double<Real>> position = path_detail::point_of(state.ray, hit.t);
-            const LitVertex<Real> lit = {at.surface.surface, at.surface.point, position, at.shading.to_viewer,
-                                         at.followed,        sample,           vertex};
-            const Vec3<Real> ambient = ambient_light(scene, lit);
-            Vec3<Real> reflected = ambient;
-            if (scatters<Effects>(at.surface.surface.reflectance.lobes)) {
-                const IncidentLight<Real> light = sample_one_light<Effects>(scene, lit, true);
-                reflected = ambient + light.reflected;
-                if (Effects::has(Effect::shadows) && needs_shadow_ray(light, true)) {
-                    const ShadowRay<Real> shadow =
-                        spawn_shadow_ray(at.surface.point, light.position_or_direction, light.primitive, light.is_far);
-                    has_shadow = shadow.active;
-                    if (has_shadow) {
-                        rare_[path].shadow = {shadow.ray,
-                                              shadow.t_max,
-                                              shadow.source.primitive,
-                                              shadow.source.light,
-                                              seen.radiance + state.throughput * reflected,
-                                              shadow.source.inside};
-                    }
-                    reflected = ambient + black<Real>();
-                }
-            }
-            seen.radiance = seen.radiance + state.throughput * reflected;
-        }
-        records_.store(seen, path);
-        const bool is_lost = leave_vertex<Effects>(scene, limits, sample, vertex, hit, found, at, state);
-        counted_.tally.lost_media += is_lost ? 1U : 0U;
-        if (state.alive) store_path<Effects>(scene, state, vertex + 1U, records_, rare_[path], path);
+        const bool found = enter(path, at);
+        Lanes::reread();
+        const bool has_shadow = found && add_light(path, at);
+        Lanes::reread();
+        const auto ray = records_.template load<typename Records::RayRecord>(path);
+        auto state = load_path<Effects>(scene, records_, rare_[path], path, ray, true);
+        const bool is_lost = leave_vertex<Effects>(scene, Effects::limits(job_.limits), sample_at(path), ray.vertex(),
+                                                   hit_of(path), found, at, state);
+        if (is_lost) Lanes::add(counts_.lost_media, 1ULL);
+        if (state.alive) store_path<Effects>(scene, state, ray.vertex() + 1U, records_, rare_[path], path);
         Lanes::wait_for(together);
 
         // a path that ends begins anew at once, or when its shadow ray has been traced
@@ -399,14 +455,14 @@ class StagedPaths {
 
     const Tracer& tracer_;
     const PixelJob& job_;
-    PixelQueue pixels_;
+    std::uint32_t height_;
     Records records_;
     Rare* rare_;
     Lists& lists_;
     std::uint32_t count_;
     unsigned int& next_pixel_;
     Vec3d* sums_;
-    PixelSum<Real> counted_;
+    StagedCounts counts_;
 };
 
 }  // namespace tandem::cuda

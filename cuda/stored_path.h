@@ -55,10 +55,13 @@ class PathRecords {
         std::uint32_t masked_primitive;
     };
 
-    static constexpr std::size_t bytes = OriginRecord::before + sizeof(OriginRecord);  ///< of one path
+    /// Of one path: an odd number of units, so that threads that read the same record of any paths use all banks of the
+    /// memory.
+    static constexpr std::size_t bytes =
+        ((OriginRecord::before + sizeof(OriginRecord)) / sizeof(uint4) | 1) * sizeof(uint4);
 
-    /// `memory`: `bytes` for each of `count` paths, aligned to 16.
-    TANDEM_HD PathRecords(void* memory, std::uint32_t count) : units_(static_cast<uint4*>(memory)), count_(count) {}
+    /// `memory`: `bytes` for each path, aligned to 16.
+    TANDEM_HD explicit PathRecords(void* memory) : units_(static_cast<uint4*>(memory)) {}
 
     template <class Record>
     [[nodiscard]] TANDEM_HD Record load(std::uint32_t path) const {
@@ -80,14 +83,12 @@ class PathRecords {
   private:
     template <class Record>
     static constexpr std::uint32_t units = sizeof(Record) / sizeof(uint4);
-    /// Unit after unit, each of all paths: so threads with neighbouring paths use other banks of the memory.
     template <class Record>
     [[nodiscard]] TANDEM_HD uint4& unit(std::uint32_t number, std::uint32_t path) const {
-        return units_[(Record::before / sizeof(uint4) + number) * count_ + path];
+        return units_[path * (bytes / sizeof(uint4)) + Record::before / sizeof(uint4) + number];
     }
 
     uint4* units_;
-    std::uint32_t count_;
 };
 
 /// The records in device memory, of one path.
@@ -101,23 +102,28 @@ struct RarePathRecords {
         bool inside;
     };
 
-    alignas(16) MediumStack<Real> media;  ///< undefined unless RayRecord::has_media
+    struct alignas(16) Media {
+        MediumStack<Real> stack;
+    };
+
+    Media media;  ///< undefined unless RayRecord::has_media
     Shadow shadow;
     alignas(16) Vec3d sum;  ///< of the samples of the pixel so far
 };
 
-/// The path of `number`, whose ray was loaded.
+/// The path of `number`, whose ray was loaded. `has_throughput`: whether that of a camera ray is stored too.
 template <class Effects, class Real>
 [[nodiscard]] TANDEM_HD PathState<Effects, Real> load_path(const SceneView& scene, const PathRecords<Real>& records,
                                                            const RarePathRecords<Real>& rare, std::uint32_t number,
-                                                           const typename PathRecords<Real>::RayRecord& ray) {
+                                                           const typename PathRecords<Real>::RayRecord& ray,
+                                                           bool has_throughput = false) {
     using Records = PathRecords<Real>;
     using RayRecord = typename Records::RayRecord;
     PathState<Effects, Real> path;
     path.begin(scene, ray.ray, true);
     path.source.primitive = ray.primitive;
     path.source.inside = ray.has(RayRecord::is_inside);
-    if (ray.vertex() > 0) {
+    if (has_throughput || ray.vertex() > 0) {
         const auto record = records.template load<typename Records::ThroughputRecord>(number);
         path.throughput = record.throughput;
         path.reflections = record.counts & 0xFF;
@@ -132,8 +138,18 @@ template <class Effects, class Real>
         path.sampled_from = origin.sampled_from;
         path.source.last_masked = {density.masked_t, origin.masked_primitive};
     }
-    if (Effects::has(Effect::nested_media) && ray.has(RayRecord::has_media)) path.media = rare.media;
+    if (Effects::has(Effect::nested_media) && ray.has(RayRecord::has_media)) path.media = whole(rare.media).stack;
     return path;
+}
+
+/// Stores what a path keeps of its light.
+template <class Effects, class Real>
+TANDEM_HD void store_throughput(const PathState<Effects, Real>& path, const PathRecords<Real>& records,
+                                std::uint32_t number) {
+    using Record = typename PathRecords<Real>::ThroughputRecord;
+    records.store(Record{path.throughput,
+                         path.reflections | path.refractions << 8 | path.scatterings << 16 | path.masked_hits << 24},
+                  number);
 }
 
 /// Stores a path whose ray leads to `vertex`.
@@ -151,12 +167,9 @@ TANDEM_HD void store_path(const SceneView& scene, const PathState<Effects, Real>
     }
     if (Effects::has(Effect::nested_media) && !(path.media == media_at_camera<Effects>(scene, MediumStack<Real>()))) {
         state |= RayRecord::has_media;
-        rare.media = path.media;
+        rare.media = {path.media};
     }
-    records.store(
-        typename Records::ThroughputRecord{path.throughput, path.reflections | path.refractions << 8 |
-                                                                path.scatterings << 16 | path.masked_hits << 24},
-        number);
+    store_throughput(path, records, number);
     records.store(RayRecord{path.ray, path.source.primitive, state}, number);
 }
 

@@ -13,6 +13,7 @@ struct HostLane {
     static std::uint32_t threads() { return 1; }
     static std::uint32_t lane() { return 0; }
     static void wait_for_block() {}
+    static void reread() {}
     static std::uint32_t together() { return 1; }
     static void wait_for(std::uint32_t) {}
     static std::uint32_t lanes_where(std::uint32_t, bool is) { return is ? 1 : 0; }

@@ -8,7 +8,6 @@
 #include <atomic>
 #include <barrier>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -30,6 +29,7 @@ struct HostLanes : HostLane {
     static std::uint32_t thread() { return number; }
     static std::uint32_t threads() { return block_threads; }
     static void wait_for_block() { block->arrive_and_wait(); }
+    static std::uint32_t read(std::uint32_t& from) { return std::atomic_ref(from).load(); }
     template <class Number>
     static Number add(Number& to, Number value) {
         return std::atomic_ref(to).fetch_add(value);
@@ -47,7 +47,7 @@ using Everything = EffectSet<all_effects.bits()>;
 
 struct Staged {
     std::vector<Vec3d> sums;
-    std::uint64_t rays = 0, lost_media = 0, invalid = 0;
+    unsigned long long rays = 0, lost_media = 0, invalid = 0;
 };
 
 /// A window, rendered by blocks one after the other, each with `count` paths at a time.
@@ -66,7 +66,6 @@ Staged render_staged(const PreparedScene& scene, const RenderJob& job, std::uint
     result.sums.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
     unsigned int next_pixel = 0;
     std::vector<std::uint32_t> stages(most_paced_multiprocessors);
-    std::mutex mutex;
     HostLanes::block_threads = threads;
     HostLanes::block = std::make_unique<std::barrier<>>(static_cast<std::ptrdiff_t>(threads));
     std::vector<std::jthread> block;
@@ -74,13 +73,10 @@ Staged render_staged(const PreparedScene& scene, const RenderJob& job, std::uint
         block.emplace_back([&, i] {
             HostLanes::number = i;
             StagedPaths<Everything, Real, LoopTracer, HostLanes> paths(
-                tracer, pixel_job, static_cast<std::uint32_t>(window.height), PathRecords<Real>(records.data(), count),
-                rare.data(), *lists, count, next_pixel, result.sums.data());
+                tracer, pixel_job, static_cast<std::uint32_t>(window.height), PathRecords<Real>(records.data()),
+                rare.data(), *lists, count, next_pixel, result.sums.data(),
+                StagedCounts{result.rays, result.lost_media, result.invalid});
             paths.run(PairPace<HostLanes>(stages.data()));
-            const std::lock_guard lock(mutex);
-            result.rays += paths.counted().tally.rays;
-            result.lost_media += paths.counted().tally.lost_media;
-            result.invalid += paths.counted().invalid;
         });
     }
     block.clear();

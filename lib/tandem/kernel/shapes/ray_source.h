@@ -69,17 +69,6 @@ TANDEM_HD_INLINE Double<Real> in_front(const Double<Real>& t) {
     return greater(t, constant<Double<Real>>(is_fast<Real> ? 0x1p-126 : 0x1p-1022));
 }
 
-template <class Real>
-TANDEM_HD_INLINE Double<Real> far_crossing(const SphereRoots<Real>& roots) {
-    using D = Double<Real>;
-    // If the line misses the sphere because rounding moved the origin outside: the point of the line nearest to the
-    // sphere.
-    const Mask<Real> by_product = roots.crosses && roots.b < D(0.0);
-    const D numerator = select(by_product, roots.c, select(roots.crosses, roots.q, roots.b));
-    const D denominator = select(by_product, roots.q, roots.a);
-    return in_front<Real>(numerator / denominator);
-}
-
 }  // namespace source_detail
 
 // The nearest hit in front of the origin or, in the lanes of `own`, the exit of a ray that leaves the same solid
@@ -88,9 +77,9 @@ TANDEM_HD_INLINE Double<Real> far_crossing(const SphereRoots<Real>& roots) {
 
 template <class Real>
 TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const SphereRoots<Real>& roots, const Mask<Real>& own, Double<Real>& t) {
-    const Mask<Real> hit = first_hit(roots, t);
-    t = select(own, source_detail::far_crossing(roots), t);
-    return hit || own;
+    const Double<Real> root = nearest_root(roots, own);
+    t = select(own, source_detail::in_front<Real>(root), root);
+    return own || (roots.crosses && root > Double<Real>(0.0));
 }
 template <class Real>
 TANDEM_HD_INLINE Mask<Real> first_hit_or_exit(const BoxCrossing<Real>& crossing, const Mask<Real>& own,
@@ -144,6 +133,19 @@ template <class Real, class Primitive>
 TANDEM_HD_INLINE Mask<Real> can_meet(NoSource, std::uint32_t, const Mask<Real>& behind) {
     return !behind;
 }
+
+/// Visits the primitives for which can_meet() depends on the source of a ray.
+template <class Real, class Visit>
+TANDEM_HD_INLINE void for_each_source(const Source<Real>& source, const Visit& visit) {
+    visit(source.primitive);
+}
+template <class Real, class Visit>
+TANDEM_HD_INLINE void for_each_source(const PathSource<Real>& source, const Visit& visit) {
+    visit(source.primitive);
+    visit(source.last_masked.primitive);
+}
+template <class Visit>
+TANDEM_HD_INLINE void for_each_source(NoSource, const Visit&) {}
 
 /// The lanes where a hit on primitive `id` is the far side of the solid that the ray left inward.
 template <class Real>

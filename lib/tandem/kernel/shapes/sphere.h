@@ -173,16 +173,27 @@ TANDEM_HD_INLINE Crossing<Real> to_crossing(const SphereRoots<Real>& roots) {
     return {roots.crosses, lesser(t_small, t_large), greater(t_small, t_large)};
 }
 
-/// first_hit(to_crossing(roots), t) with one division: from outside (c > 0) the entry is c / q if the sphere is
-/// ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a if the centre is ahead (b >= 0), else c
-/// / q. From the surface (c = 0) an inward ray leaves at q / a; for an outward one c / q = 0 is no hit.
+/// The t of first_hit(to_crossing(roots), t) with one division, where the line crosses: from outside (c > 0) the entry
+/// is c / q if the sphere is ahead (b > 0), and c / q < 0 if it is behind; from inside the exit is q / a if the centre
+/// is ahead (b >= 0), else c / q. From the surface (c = 0) an inward ray leaves at q / a; for an outward one c / q = 0
+/// is no hit.
+///
+/// `inward`: rays that start on the sphere, inward. Their exit does not depend on c. If the line misses the sphere
+/// because rounding moved the origin outside, they leave at the point of the line nearest to the sphere.
 template <class Real>
-TANDEM_HD_INLINE Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
+TANDEM_HD_INLINE Double<Real> nearest_root(const SphereRoots<Real>& roots, const Mask<Real>& inward) {
     using D = Double<Real>;
     const D zero(0.0);
-    const Mask<Real> by_product = roots.c > zero || roots.b < zero;
-    t = select(by_product, roots.c, roots.q) / select(by_product, roots.q, roots.a);
-    return roots.crosses && t > zero;
+    const Mask<Real> leads_away = roots.b < zero;
+    const Mask<Real> by_product = select(inward, roots.crosses && leads_away, roots.c > zero || leads_away);
+    const D dividend = select(inward && !roots.crosses, roots.b, roots.q);
+    return select(by_product, roots.c, dividend) / select(by_product, roots.q, roots.a);
+}
+
+template <class Real>
+TANDEM_HD_INLINE Mask<Real> first_hit(const SphereRoots<Real>& roots, Double<Real>& t) {
+    t = nearest_root(roots, Mask<Real>(false));
+    return roots.crosses && t > Double<Real>(0.0);
 }
 
 template <class Real>

@@ -141,6 +141,29 @@ struct LoopTracerFor {
     }
 
   private:
+    /// Those of the primitives from `first` to `end` that the ray may hit: a bit for each of up to 32. `id`: of
+    /// primitives[0].
+    template <class Real, class From, class Primitive>
+    TANDEM_HD_INLINE std::uint32_t candidates_of(const FilterRay<Real>& f, const From& source, std::uint32_t first_id,
+                                                 const Primitive* primitives, std::uint32_t first,
+                                                 std::uint32_t end) const {
+        std::uint32_t touched = 0, behind = 0;
+        for (std::uint32_t i = first; i < end; ++i) {
+            const Primitive& primitive = whole(primitives[i]);
+            touched |= (may_touch(f, primitive) ? 1U : 0U) << (i - first);
+            behind |= (is_behind(f, primitive) ? 1U : 0U) << (i - first);
+        }
+        std::uint32_t candidates = touched & ~behind;
+        for_each_source(source, [&](std::uint32_t id) {
+            const std::uint32_t bit = id - first_id - first;
+            if (bit >= end - first) return;
+            const std::uint32_t own = 1U << bit;
+            candidates &= ~own;
+            if (can_meet<Real, Primitive>(source, id, (behind & own) != 0)) candidates |= touched & own;
+        });
+        return candidates;
+    }
+
     template <Search search, class Real, class From>
     TANDEM_HD_INLINE void find(const Ray<Real>& ray, const From& source, const Mask<Real>& active,
                                Closest<Real>& best) const {
@@ -151,21 +174,16 @@ struct LoopTracerFor {
         const auto try_all = [&](const auto* primitives, std::uint32_t count) {
             using Primitive = std::decay_t<decltype(*primitives)>;
             if (search == Search::any && !any(active && !(best.t < t_max))) return;
-            const auto is_candidate = [&](std::uint32_t i) {
-                return can_meet<Real, Primitive>(source, id + i, is_behind(f, primitives[i])) &&
-                       may_touch(f, primitives[i]);
-            };
             if constexpr (has_filter<Real, Primitive> && RealTraits<Real>::lanes == 1) {
                 // first all filters, then the few decisions, so that the threads of a warp decide at the same time even
                 // about different primitives
                 for (std::uint32_t first = 0; first < count; first += 32) {
-                    std::uint32_t candidates = 0;
-                    for (std::uint32_t i = first; i < count && i < first + 32; ++i) {
-                        if (is_candidate(i)) candidates |= 1U << (i - first);
-                    }
+                    std::uint32_t candidates =
+                        candidates_of(f, source, id, primitives, first, first + 32 < count ? first + 32 : count);
                     for (; candidates != 0; candidates &= candidates - 1) {
                         const std::uint32_t i = first + static_cast<std::uint32_t>(lowest_bit(candidates));
-                        test_primitive(primitives[i], id + i, ray, source, true, best);
+                        const Primitive& primitive = whole(primitives[i]);
+                        test_primitive(primitive, id + i, ray, source, true, best);
                         if constexpr (search == Search::any) {
                             if (any(best.t < t_max)) return;  // clang compiles this for packets too
                         }
@@ -178,7 +196,11 @@ struct LoopTracerFor {
                         candidate = candidate && !(best.t < t_max);
                         if (!any(candidate)) return;
                     }
-                    if constexpr (has_filter<Real, Primitive>) candidate = candidate && is_candidate(i);
+                    if constexpr (has_filter<Real, Primitive>) {
+                        candidate = candidate &&
+                                    can_meet<Real, Primitive>(source, id + i, is_behind(f, primitives[i])) &&
+                                    may_touch(f, primitives[i]);
+                    }
                     if (any(candidate)) test_primitive(primitives[i], id + i, ray, source, candidate, best);
                 }
             }

@@ -13,6 +13,7 @@
 #include "tandem/kernel/texture/anisotropy.h"
 #include "tandem/kernel/texture/texture_set.h"
 #include "tandem/kernel/view/instances.h"
+#include "tandem/math/whole.h"
 
 #define TANDEM_ENVIRONMENT_HEADERS
 #include "tandem/kernel/lights/lights.def"
@@ -236,13 +237,13 @@ template <std::uint32_t kinds = PrimitiveKinds::all, class Visitor>
 TANDEM_HD_INLINE void visit_primitive(const SceneView& scene, std::uint32_t id, Visitor visitor) {
     if (is_instanced<kinds>(scene, id)) return visitor(placed(instanced_face(scene, id)));
         // the last possible kind needs no comparison
-#define TANDEM_PRIMITIVE(Type, name, names)                                                   \
-    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                      \
-        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);              \
-        if (may_have(PrimitiveKinds::name)) {                                                 \
-            if (!may_have(later) || id < scene.name##_count) return visitor(scene.names[id]); \
-            id -= scene.name##_count;                                                         \
-        }                                                                                     \
+#define TANDEM_PRIMITIVE(Type, name, names)                                                          \
+    if constexpr ((kinds & PrimitiveKinds::name) != 0) {                                             \
+        constexpr std::uint32_t later = kinds & ~(2 * PrimitiveKinds::name - 1);                     \
+        if (may_have(PrimitiveKinds::name)) {                                                        \
+            if (!may_have(later) || id < scene.name##_count) return visitor(whole(scene.names[id])); \
+            id -= scene.name##_count;                                                                \
+        }                                                                                            \
     }
 #include "tandem/kernel/view/primitives.def"
 #undef TANDEM_PRIMITIVE
