@@ -9,6 +9,7 @@
 
 #include "cuda/kernels.h"
 #include "cuda/pair_pace.h"
+#include "cuda/sort_hits.h"
 #include "cuda/staged_memory.h"
 #include "cuda/warp_tile.h"
 
@@ -77,7 +78,7 @@ class StagedPaths {
             Lanes::wait_for_block();
             count_traced();
             if (!has_work(turn)) break;
-            sort_hits(turn);
+            sort_hits<Lanes>(lists_, turn, count_);
             pace.wait();
             Lanes::wait_for_block();
             clear_rays(turn);
@@ -284,67 +285,6 @@ class StagedPaths {
     }
 
     // Hits
-
-    /// Orders the hits by their classes. If there is work for all warps, the last hits of a class wait for the next
-    /// turn where they are too few.
-    TANDEM_HD void sort_hits(std::uint32_t turn) {
-        const std::uint32_t* counts = lists_.class_count[turn];
-        std::uint32_t shaded_before = 0, warps_before = 0;
-        // every warp computes the starts for itself, so that the block need not wait for one of them
-        std::uint32_t start = 0, shaded = 0;
-        const bool may_wait = whole_warps_of(counts) >= Lanes::threads() / Lanes::count;
-        for (std::uint32_t first = 0; first < Lists::classes; first += Lanes::count) {
-            const std::uint32_t number = first + Lanes::lane();
-            const std::uint32_t waiting = may_wait ? Threads::too_few_of(counts[number]) : 0;
-            shaded = counts[number] - waiting;
-            const std::uint32_t all_shaded = Lanes::sum_up_to(shaded);
-            const std::uint32_t warps = Lanes::sum_up_to(Threads::warps_for(shaded));
-            start = shaded_before + all_shaded - shaded;
-            if (Lanes::thread() < Lanes::count) {
-                lists_.class_start[number] = start;
-                lists_.class_warps[number] = warps_before + warps - Threads::warps_for(shaded);
-                lists_.class_count[turn ^ 1][number] = waiting;
-            }
-            shaded_before += Lanes::of_lane(Threads::all, all_shaded, Lanes::count - 1);
-            warps_before += Lanes::of_lane(Threads::all, warps, Lanes::count - 1);
-        }
-        if (Lanes::thread() == 0) {
-            lists_.class_start[Lists::classes] = shaded_before;
-            lists_.class_warps[Lists::classes] = warps_before;
-            lists_.hits_taken = 0;
-        }
-        for (std::uint32_t first = Lanes::thread() - Lanes::lane(); first < count_; first += Lanes::threads()) {
-            const std::uint32_t path = first + Lanes::lane();
-            const std::uint32_t word = path < count_ ? lists_.places[path] : Lists::no_hit;
-            const std::uint32_t of_class = word % Lists::classes;
-            const ClassHits hits = hits_of(of_class, {start, shaded}, counts);
-            if (word == Lists::no_hit) continue;
-            const std::uint32_t place = word / Lists::classes;
-            if (place < hits.shaded) lists_.hits[hits.start + place] = static_cast<std::uint16_t>(path);
-            lists_.places[path] = static_cast<std::uint16_t>(
-                place < hits.shaded ? Lists::no_hit : Lists::place_word(place - hits.shaded, of_class));
-        }
-    }
-    /// The whole warps that classes fill.
-    TANDEM_HD static std::uint32_t whole_warps_of(const std::uint32_t* counts) {
-        std::uint32_t warps = 0;
-        for (std::uint32_t i = 0; i < Lists::classes; ++i) warps += counts[i] / Lanes::count;
-        return warps;
-    }
-    struct ClassHits {
-        std::uint32_t start, shaded;
-    };
-    /// Those of a class. Each lane of a warp knows `own`, those of one class.
-    TANDEM_HD ClassHits hits_of(std::uint32_t of_class, ClassHits own, const std::uint32_t* counts) const {
-        if constexpr (Lanes::count == Lists::classes) {
-            return {Lanes::of_lane(Threads::all, own.start, of_class),
-                    Lanes::of_lane(Threads::all, own.shaded, of_class)};
-        } else {
-            std::uint32_t before = 0;
-            for (std::uint32_t i = 0; i < of_class; ++i) before += counts[i];
-            return {before, counts[of_class]};
-        }
-    }
 
     /// The second stage: surfaces, lights and the next rays.
     TANDEM_HD void shade_hits(std::uint32_t turn) {

@@ -158,6 +158,17 @@ TEST(PathsInStages, NeedMoreMemoryInPrecise) {
     EXPECT_GT(precise.most_paths, most_queue_threads) << "more than one for each thread";
 }
 
+TEST_F(SceneKernel, HasMoreWarpsForReflectedPathsInStages) {
+    const EffectMask diffuse = Effect::indirect | Effect::shadows;
+    LinkedFacts lit = facts(diffuse), reflected = facts(diffuse | Effect::reflection),
+                refracted = facts(diffuse | Effect::refraction);
+    const int alone = most_registers(reflected);
+    lit.in_stages = reflected.in_stages = refracted.in_stages = 1;
+    EXPECT_EQ(most_registers(lit), alone);
+    EXPECT_LT(most_registers(reflected), alone);
+    EXPECT_LT(most_registers(refracted), alone);
+}
+
 TEST_F(SceneKernel, FollowsPathsInStagesIfLinkedSo) {
     LinkedFacts of = facts(Effect::indirect);
     const LinkedSize one_by_one = linked(of, Structure::loop);
