@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "tandem/kernel/path.h"
+#include "tandem/math/whole.h"
 
 namespace tandem::cuda {
 

@@ -5,6 +5,7 @@
 #include "tandem/kernel/shapes/hit.h"
 #include "tandem/kernel/shapes/ray_source.h"
 #include "tandem/kernel/view/scene_view.h"
+#include "tandem/math/whole.h"
 
 namespace tandem {
 
@@ -141,8 +142,8 @@ struct LoopTracerFor {
     }
 
   private:
-    /// Those of the primitives from `first` to `end` that the ray may hit: a bit for each of up to 32. `id`: of
-    /// primitives[0].
+    /// Those of the primitives from `first` to `end` that the ray may hit: a bit for each of up to 32.
+    /// `first_id`: of primitives[0]. The source of the ray decides about few of them, so it is asked after the loop.
     template <class Real, class From, class Primitive>
     TANDEM_HD_INLINE std::uint32_t candidates_of(const FilterRay<Real>& f, const From& source, std::uint32_t first_id,
                                                  const Primitive* primitives, std::uint32_t first,
